@@ -7,7 +7,7 @@
 
 namespace omnimapper::plugins {
 
-/// Where an antenna on the base is in the local east-north-up frame. Variables: map_from_enu, map_from_base (se3).
+/// Position of an antenna on the base in the local east-north-up frame. Variables: map_from_enu, map_from_base (se3).
 /// Residual: inverse(map_from_enu) * map_from_base * antenna_in_base - antenna_in_enu measured, axes east, north, up
 /// [m]; without `up` two rows, for a planar map. Source: thesis 5.2.2.2; derivation in doc/derivations/antenna.md.
 class AntennaFactor : public graph::Factor {
@@ -20,7 +20,7 @@ class AntennaFactor : public graph::Factor {
   const std::vector<std::string_view>& variableKinds() const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
-  /// Teaches a registry to read it back.
+  /// Registers the function that reads it back.
   static void addTo(graph::FactorRegistry& registry);
 
  private:

@@ -24,7 +24,7 @@ const base::OptionTable<GivenMotionOptions>& GivenMotionOptions::table() {
   return table;
 }
 
-// Between the poses before and after it, whichever came first.
+// Inserts the pose between those before and after it, in any order of arrival.
 GivenMotionPlugin::Taken GivenMotionPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   news_.reset();
   const auto* given = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(observation.get());
@@ -41,17 +41,17 @@ GivenMotionPlugin::Taken GivenMotionPlugin::add(const mrpt::obs::CObservation::C
   if (added != poses_.begin()) {
     const auto before = std::prev(added);
     if (after != poses_.end()) timeline_.remove(before->first, after->first);
-    tell(*before, *added);
+    addMotion(*before, *added);
     news_->begin = before->first;
   }
   if (after != poses_.end()) {
-    tell(*added, *after);
+    addMotion(*added, *after);
     news_->end = after->first;
   }
   return Taken::taken;
 }
 
-void GivenMotionPlugin::tell(const Poses::value_type& begin, const Poses::value_type& end) {
+void GivenMotionPlugin::addMotion(const Poses::value_type& begin, const Poses::value_type& end) {
   const double seconds = base::secondsBetween(begin.first, end.first);
   if (seconds > options_.max_gap) return;
   mapper::RelativeMotion motion{end.second - begin.second, Eigen::Matrix<double, 6, 6>::Zero()};
@@ -65,7 +65,7 @@ std::optional<base::Stamp> GivenMotionPlugin::coveredUntil() const {
   return poses_.rbegin()->first;
 }
 
-// The pose before `stamp` stays: a late one may follow it.
+// The last pose before `stamp` is kept, because a late pose may follow it.
 void GivenMotionPlugin::forgetBefore(base::Stamp stamp) {
   timeline_.forgetBefore(stamp);
   while (poses_.size() > 1 && std::next(poses_.begin())->first <= stamp) {

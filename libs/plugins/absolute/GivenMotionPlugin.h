@@ -14,15 +14,15 @@ namespace omnimapper::plugins {
 struct GivenMotionOptions {
   std::string label;                                                ///< empty: the first that comes
   double max_gap = 1;                                               ///< [s] between poses
-  double position_sigma = 0.05;                                     ///< [m] after 1 s; grows with its root
-  double angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with its root
+  double position_sigma = 0.05;                                     ///< [m] after 1 s; grows with the root of time
+  double angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with the root of time
 
   static const base::OptionTable<GivenMotionOptions>& table();
 };
 
-/// Poses from outside, such as motion capture (CObservationRobotPose), as a continuous pose source (thesis 5.2.2.1):
-/// the motion from one to the next. Beside a RobotPosePlugin, which says where in the map they are, it places what was
-/// seen between two key frames. Its noise is wide, because these same poses count there already.
+/// External poses, as of motion capture (CObservationRobotPose), as a continuous pose source (thesis 5.2.2.1): the
+/// motion from one pose to the next. Beside a RobotPosePlugin, which places the poses in the map, it places
+/// observations between key frames. Its noise is wide, because the same poses count there already.
 class GivenMotionPlugin : public mapper::PosePlugin {
  public:
   explicit GivenMotionPlugin(const GivenMotionOptions& options) : options_(options) {}
@@ -37,12 +37,12 @@ class GivenMotionPlugin : public mapper::PosePlugin {
 
  private:
   using Poses = std::map<base::Stamp, mrpt::poses::CPose3D>;
-  void tell(const Poses::value_type& begin, const Poses::value_type& end);
+  void addMotion(const Poses::value_type& begin, const Poses::value_type& end);
 
   GivenMotionOptions options_;
   std::optional<std::string> label_;  // of the first that came
   Poses poses_;                       // reference_from_base
-  bool forgotten_ = false;            // there were poses before the first
+  bool forgotten_ = false;            // poses before the first one were dropped
   std::optional<Span> news_;
   matching::PoseTimeline timeline_;
 };

@@ -16,7 +16,7 @@ IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFa
 namespace omnimapper::plugins {
 
 namespace {
-constexpr std::uint32_t kSavedGpsVersion = 2;  // 1: the same without the mark of a place on the earth
+constexpr std::uint32_t kSavedGpsVersion = 2;  // version 1 lacks the mark of a place on the earth
 }
 
 const base::OptionTable<GpsOptions>& GpsOptions::table() {
@@ -69,7 +69,7 @@ std::optional<GpsPlugin::Fix> GpsPlugin::read(const mrpt::obs::CObservationGPS& 
   if (gga.fix_quality == 0) {
     decision.reason = "no fix";
   } else if (!(hdop <= options_.max_hdop)) {
-    decision.reason = "satellites stand badly";
+    decision.reason = "poor satellite geometry";
   } else if (!std::isfinite(gga.latitude_degrees) || !std::isfinite(gga.longitude_degrees) ||
              !std::isfinite(altitude)) {
     decision.reason = "not finite";
@@ -136,8 +136,8 @@ void GpsPlugin::restore(const map::MapSection* saved, const mapper::View& view) 
   if (view.graph.variable(id).fixed != options_.map_is_enu || !same_origin) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "[" + context_.section +
-                          "] map_is_enu or its origin is not what the map that is continued was "
-                          "made with: give the values of then, or map its log again");
+                          "] map_is_enu or its origin differs from that of the map that is "
+                          "continued: use the values of that map, or map its log again");
   }
   map_from_enu_ = id;
   origin_ = {latitude, longitude, altitude};
@@ -167,8 +167,8 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-// Heading and place of the east-north-up frame that lay the fixes on the trajectory, by least squares in the plane.
-// Where the fixes move and the trajectory does not, nothing but them tells the motion: x of the map points east.
+// Pose of the east-north-up frame that fits the fixes to the trajectory, by least squares in the plane. If the fixes
+// move and the trajectory does not, only the fixes measure the motion, and x of the map points east.
 std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& view) const {
   Eigen::Vector3d mean_map = Eigen::Vector3d::Zero(), mean_enu = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> in_map;
@@ -181,8 +181,8 @@ std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& vie
     mean_enu += fix.antenna_in_enu / static_cast<double>(waiting_.size());
   }
   constexpr std::size_t kFew = 5;
-  constexpr double kStands = 0.1;      // of the fixes' spread: a trajectory of less does not follow them
-  constexpr double kBeyondNoise = 10;  // standard deviations of a fix: a spread of more is no noise
+  constexpr double kStands = 0.1;      // of the fixes' spread: a trajectory with less does not follow them
+  constexpr double kBeyondNoise = 10;  // standard deviations of a fix: a larger spread is no noise
   double along = 0, across = 0, spread = 0, sigma = 0;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const Eigen::Vector3d m = in_map[i] - mean_map, e = waiting_[i].antenna_in_enu - mean_enu;
@@ -191,7 +191,7 @@ std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& vie
     spread = std::max(spread, m.head<2>().norm());
     sigma = std::max(sigma, waiting_[i].sigma);
   }
-  // Half of them are farther from the middle: a few that are far off change nothing.
+  // The spread is the median distance from the middle, so that a few outliers do not change it.
   std::vector<double> east, north, far;
   for (const auto& fix : waiting_) {
     east.push_back(fix.antenna_in_enu.x());

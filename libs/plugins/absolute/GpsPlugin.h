@@ -27,9 +27,9 @@ struct GpsOptions {
   static const base::OptionTable<GpsOptions>& table();
 };
 
-/// GPS fixes (thesis 5.2.2.2) of an antenna whose place on the base (the lever arm) is the observation's sensorPose.
-/// Where the map is in the local east-north-up frame is a variable, born once the fixes spread wide enough to tell its
-/// heading; or given: the map is that frame, around a given origin.
+/// GPS fixes (thesis 5.2.2.2) of an antenna whose position on the base (the lever arm) is the observation's sensorPose.
+/// The pose of the local east-north-up frame in the map is a variable, which is created once the fixes spread wide
+/// enough to determine its heading. With map_is_enu the map is that frame, around a given origin.
 class GpsPlugin : public mapper::MeasurementPlugin {
  public:
   GpsPlugin(const GpsOptions& options, const mapper::PluginContext& context);
@@ -69,7 +69,9 @@ class GpsPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(GpsPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "GpsPlugin"; }
-  std::string summary() const override { return "GPS fixes; finds where the map is on the earth, or is told."; }
+  std::string summary() const override {
+    return "GPS fixes; estimates where the map is on the earth, or uses a given origin.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return GpsOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

@@ -18,7 +18,7 @@ namespace omnimapper::plugins {
 namespace {
 constexpr std::uint32_t kSavedPosesVersion = 1;
 
-// How unlikely an error is: its length in standard deviations, in the directions that such a map has.
+// Length of an error in standard deviations, in the directions that such a map has.
 double sigmasOf(const geometry::Vector6d& error, const geometry::Matrix6d& covariance, mapper::Motion motion) {
   if (motion == mapper::Motion::spatial) return std::sqrt(error.dot(covariance.ldlt().solve(error)));
   const Eigen::Vector3d planar(error[0], error[1], error[5]);
@@ -109,7 +109,7 @@ void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& 
     throw base::Error(base::ExitCode::unreadable_input,
                       "[" + context_.section +
                           "] reference_is_map = true, but the map that is continued was made with "
-                          "false: give that, or map its log again");
+                          "false: set it to false, or map its log again");
   }
   std::istringstream in(saved->bytes);
   map_from_reference_ = mapper::readVariableId(in, view, saved->name);
@@ -117,7 +117,7 @@ void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& 
 
 std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view) const {
   using mapper::Evidence;
-  constexpr double kLargest = 5;  // [sigma] that a thousand poses with honest covariances reach once in years
+  constexpr double kLargest = 5;  // [sigma] that poses with correct covariances practically never reach
   if (given_.empty()) return {};
   mrpt::poses::CPose3D map_from_reference;
   if (map_from_reference_) map_from_reference = mapper::poseOf(view.graph, *map_from_reference_);
@@ -135,13 +135,13 @@ std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view
     seconds = base::secondsBetween(view.map.key_frames.begin()->stamp, frame.stamp);
   }
   char text[160];
-  std::snprintf(text, sizeof text, "the map is at most %.3g m and %.2g deg from the poses that were given", metres,
+  std::snprintf(text, sizeof text, "the map deviates by at most %.3g m and %.2g deg from the given poses", metres,
                 degrees);
   Evidence evidence{"from_given_poses_sigmas", sigmas, Evidence::Says::good, text};
   if (sigmas > kLargest) {
     std::snprintf(text, sizeof text,
-                  "%.0f s after the start it is %.3g m and %.2g deg from the pose that was given, %.0f times what its "
-                  "covariance allows",
+                  "%.0f s after the start the map deviates by %.3g m and %.2g deg from the given pose, %.0f of its "
+                  "standard deviations",
                   seconds, metres, degrees, sigmas);
     evidence.says = Evidence::Says::against_it;
     evidence.reason = text;

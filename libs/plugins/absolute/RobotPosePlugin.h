@@ -19,10 +19,10 @@ struct RobotPoseOptions {
   static const base::OptionTable<RobotPoseOptions>& table();
 };
 
-/// Absolute poses from outside, such as motion capture (thesis 5.2.2.2), as CObservationRobotPose. They hold: unless a
-/// loss is asked for, nothing that is seen overrules them beyond what their covariance allows. The pose is that of
-/// the tracked body, whose place on the base is the observation's sensorPose. Its own frame is the map's, or a frame
-/// whose place in the map is a variable.
+/// External absolute poses, as of motion capture (thesis 5.2.2.2), as CObservationRobotPose. They are trusted: without
+/// a loss no other measurement overrules them beyond what their covariance allows. A pose is that of the tracked body,
+/// whose pose on the base is the observation's sensorPose. It is given in the map frame, or in a frame whose pose in
+/// the map is a variable.
 class RobotPosePlugin : public mapper::MeasurementPlugin {
  public:
   RobotPosePlugin(const RobotPoseOptions& options, const mapper::PluginContext& context)
@@ -36,7 +36,7 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
   /// The variable map_from_reference.
   std::optional<map::MapSection> save() const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
-  /// How far the map is from the poses that were given.
+  /// The largest deviation of the map from the given poses.
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
 
  private:

@@ -40,7 +40,7 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
   if (!estimate || !estimate->is_lost) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);
   const auto found = matcher.find(state, decision);
-  if (!found || (!found->is_distinct && !matcher.fitsAllTheWay(*found, state, decision))) {
+  if (!found || (!found->is_distinct && !matcher.fitsAlongTravel(*found, state, decision))) {
     decision.accepted = false;
     batch.log(std::move(decision));
     return batch;
@@ -48,12 +48,13 @@ mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
   const auto& place = state.map.keyFrame(found->place.key_scan.frame);
   const auto apart =
       distanceBetween(found->match.reference_from_scan, planar(frame.map_from_base - place.map_from_base));
-  decision.numbers.emplace_back("from the estimate [m]", apart.metres);
-  decision.numbers.emplace_back("from the estimate [deg]", apart.radians / base::option_text::kRadiansPerDegree);
-  constexpr double kNear = 0.3, kNearTurn = 0.2;  // [m] [rad] beside what the estimate may be off by
+  decision.numbers.emplace_back("distance from the estimate [m]", apart.metres);
+  decision.numbers.emplace_back("rotation from the estimate [deg]",
+                                apart.radians / base::option_text::kRadiansPerDegree);
+  constexpr double kNear = 0.3, kNearTurn = 0.2;  // [m] [rad] beyond the uncertainty of the estimate
   if (estimate->uncertainty <= options_.max_window && apart.within(estimate->uncertainty + kNear, kNearTurn)) {
     decision.accepted = false;
-    decision.reason = "it is where the estimate has it: left to the search there";
+    decision.reason = "the match is near the estimate: left to the local search";
     batch.log(std::move(decision));
     return batch;
   }
@@ -70,7 +71,7 @@ std::optional<GlobalLoopSearch::Estimate> GlobalLoopSearch::judged(const mapper:
                                                                    mapper::Decision& decision) const {
   constexpr double kSigmas = 3;
   constexpr std::size_t kAround = 12;
-  constexpr double kFits = 0.3;  // of what is seen
+  constexpr double kFits = 0.3;  // share of a scan that fits the map
   const TPose2D map_from_base = planar(state.map.keyFrame(newest_.back().frame).map_from_base);
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t i = 0; i < earlier_.size(); ++i) {
@@ -96,15 +97,15 @@ std::optional<GlobalLoopSearch::Estimate> GlobalLoopSearch::judged(const mapper:
   for (const auto& one : near) key_scans.push_back(earlier_[one.second]);
   const double fits =
       shareOnWalls(localMap(key_scans, newest_.back().frame, state).points, newest_.back().scan->points);
-  decision.numbers.emplace_back("share that fits the map there [1]", fits);
+  decision.numbers.emplace_back("share of the scan that fits the map there [1]", fits);
   return Estimate{uncertainty, fits < kFits};
 }
 
 std::shared_ptr<const ScanDatabase> placesToLoopTo(const map::Map& map, const std::string& label,
                                                    const std::vector<LoopSearch::KeyScan>& earlier,
                                                    std::shared_ptr<const matching::ScanMatcher> matcher) {
-  // Coarse, for the fine matcher follows, and bounded, for on new ground nothing fits and there is no end to the
-  // search.
+  // The search is coarse, because the fine matcher follows, and limited, because on new ground nothing fits and an
+  // unlimited search would take very long.
   matching::RelocalizerOptions options;
   options.cell = 0.2;
   options.sigma = 0.2;

@@ -9,28 +9,28 @@
 
 namespace omnimapper::plugins {
 
-/// One search for a loop that the windows of LoopSearch miss, as a job: where the estimate may be off by more than they
-/// reach, or is sure of a place that looks otherwise, the newest scans are sought in all that was seen before. What is
-/// found there is a hypothesis like any other; what is found within those windows is left to LoopSearch, which knows
-/// single passes of the robot and is more exact.
+/// A job that searches the whole earlier map for loops outside the windows of LoopSearch. It searches if the estimate
+/// is less certain than those windows are large, or if the newest scans do not fit the map at the estimated pose. A
+/// match becomes a hypothesis, but within the windows it is left to LoopSearch, which matches single passes of the
+/// robot and is more exact.
 class GlobalLoopSearch {
  public:
-  /// `newest`: the last metres, the newest last; `earlier`: all of the map that is old enough for a loop; `places`:
-  /// placesToLoopTo() as it was then or somewhat before; clouds of `label`.
-  /// `on_new_ground`: search even where the estimate is sure to be where nothing was seen before.
+  /// `newest`: the scans of the last metres, the newest last. `earlier`: all scans that are old enough for a loop.
+  /// `places`: placesToLoopTo() of these scans or of somewhat fewer. All are clouds of `label`.
+  /// `on_new_ground`: searches even if, by the estimate, the robot is certainly where nothing was seen before.
   GlobalLoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
                    std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const ScanDatabase> places,
                    std::string label, std::vector<LoopSearch::KeyScan> newest, std::vector<LoopSearch::KeyScan> earlier,
                    bool on_new_ground);
 
-  /// Empty if the robot is where the estimate has it; else a decision, and a hypothesis if a single place fits.
+  /// Empty if there is no reason to search; else a decision, with a hypothesis if exactly one place fits.
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:
-  /// Where the estimate has the robot, as far as that is known.
+  /// How reliable the estimated pose of the robot is.
   struct Estimate {
     double uncertainty;  // [m] three standard deviations
-    bool is_lost;        // it may be anywhere, or it is sure of ground that was seen before and looks otherwise
+    bool is_lost;        // a global search is needed: the pose is too uncertain, or the scans do not fit the map there
   };
   std::optional<Estimate> judged(const mapper::State& state, mapper::Decision& decision) const;
 
@@ -43,7 +43,7 @@ class GlobalLoopSearch {
   bool on_new_ground_;
 };
 
-/// What such searches look in: `earlier` as it lies in `map`, which has key frames.
+/// The database that GlobalLoopSearch searches: the scans of `earlier` at their poses in `map`, which has key frames.
 std::shared_ptr<const ScanDatabase> placesToLoopTo(const map::Map& map, const std::string& label,
                                                    const std::vector<LoopSearch::KeyScan>& earlier,
                                                    std::shared_ptr<const matching::ScanMatcher> matcher);

@@ -14,15 +14,14 @@ using mrpt::math::TPose2D;
 
 namespace {
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
-constexpr double kSoughtTravel = 4;  // [m] of travel whose scans are sought together
+constexpr double kQueryTravel = 4;  // [m] of travel whose scans are matched together
 }  // namespace
 
 std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& state, mapper::Decision& decision) const {
-  constexpr std::size_t kAround = 30;                 // key frames of the map that a place is matched with
-  constexpr double kAstray = 0.5, kAstrayTurn = 0.2;  // [m] [rad] that the matcher may lead away from the answer
+  constexpr std::size_t kAround = 30;                 // key frames of the map around the place, to match with
+  constexpr double kAstray = 0.5, kAstrayTurn = 0.2;  // [m] [rad] that the fine match may differ from the answer
   constexpr double kSpacing = 0.08;                   // [m] between the points of a match
-  // What the map has many times, more or less, there is more of where it was not made: such a place is not believed
-  // soon.
+  // If more places of the map than this look alike, unmapped places probably do, too: the match needs more evidence.
   constexpr std::size_t kDistinct = 3;
   const auto location = locate(state, decision);
   if (location.answer != matching::Location::Answer::found) return std::nullopt;
@@ -30,33 +29,33 @@ std::optional<GlobalMatcher::Found> GlobalMatcher::find(const mapper::State& sta
   const auto around = places_.nearest(map_from_base, kAround);
   decision.to = around.front().key_scan.frame;
   const TPose2D place_from_base = map_from_base - around.front().map_from_base;
-  std::vector<LoopSearch::KeyScan> key_scans, sought;
+  std::vector<LoopSearch::KeyScan> key_scans, query_scans;
   for (const auto& place : around) key_scans.push_back(place.key_scan);
-  std::copy_if(newest_.begin(), newest_.end(), std::back_inserter(sought), [&](const LoopSearch::KeyScan& key_scan) {
-    return newest_.back().travel - key_scan.travel <= kSoughtTravel;
-  });
+  std::copy_if(
+      newest_.begin(), newest_.end(), std::back_inserter(query_scans),
+      [&](const LoopSearch::KeyScan& key_scan) { return newest_.back().travel - key_scan.travel <= kQueryTravel; });
   const auto local = matching::voxelDownsample(localMap(key_scans, key_scans.front().frame, state), kSpacing / 2),
-             query = matching::voxelDownsample(localMap(sought, newest_.back().frame, state), kSpacing);
+             query = matching::voxelDownsample(localMap(query_scans, newest_.back().frame, state), kSpacing);
   const auto match = matcher_.match(*matcher_.prepare(local), query, place_from_base);
   judgeClosure(options_, {match}, place_from_base, decision);
   if (decision.accepted && !distanceBetween(match.reference_from_scan, place_from_base).within(kAstray, kAstrayTurn)) {
     decision.accepted = false;
-    decision.reason = "matched elsewhere than it was found";
+    decision.reason = "the fine match is far from the place that the search found";
   }
   if (!decision.accepted) return std::nullopt;
   return Found{around.front(), match, location.candidates.size() <= kDistinct};
 }
 
-// Neighbours that see the same from the same place would only cost time.
+// Leaves out scans close to others: they would see the same and only cost time.
 std::vector<matching::LocalScan> GlobalMatcher::beams(const mapper::State& state) const {
-  constexpr double kSpacing = 0.8, kTurn = 1;  // [m] [rad] from one to the next
+  constexpr double kSpacing = 0.8, kTurn = 1;  // [m] [rad] from one scan to the next
   const auto& map_from_newest = state.map.keyFrame(newest_.back().frame).map_from_base;
   constexpr std::size_t kMost = 6;
   std::vector<matching::LocalScan> all;
   const LoopSearch::KeyScan* last = nullptr;
   TPose2D last_pose;
   for (auto key_scan = newest_.rbegin(); key_scan != newest_.rend() && all.size() < kMost; ++key_scan) {
-    if (newest_.back().travel - key_scan->travel > kSoughtTravel) break;
+    if (newest_.back().travel - key_scan->travel > kQueryTravel) break;
     const auto& frame = state.map.keyFrame(key_scan->frame);
     const TPose2D pose = planar(frame.map_from_base - map_from_newest);
     if (last && last->travel - key_scan->travel < kSpacing && distanceBetween(pose, last_pose).radians < kTurn)
@@ -77,26 +76,27 @@ matching::Location GlobalMatcher::locate(const mapper::State& state, mapper::Dec
     location = places_.relocalizer().locateTogether(scans);
   } catch (const base::Error& error) {
     if (error.code() != base::ExitCode::out_of_range) throw;
-    decision.reason = error.what();  // a map too large for it
+    decision.reason = error.what();  // the map is too large for the relocalizer
     return location;
   }
   const auto& candidates = location.candidates;
   decision.numbers.emplace_back("scans", static_cast<double>(scans.size()));
-  decision.numbers.emplace_back("places alike", static_cast<double>(candidates.size()));
+  decision.numbers.emplace_back("similar places", static_cast<double>(candidates.size()));
   if (!candidates.empty()) {
     decision.numbers.emplace_back("probability", candidates[0].probability);
-    decision.numbers.emplace_back("logarithm of a beam's likelihood", candidates[0].log_likelihood);
+    decision.numbers.emplace_back("mean log-likelihood of a beam", candidates[0].log_likelihood);
   }
-  if (candidates.size() > 1) decision.numbers.emplace_back("probability of the next", candidates[1].probability);
-  if (location.answer == Answer::ambiguous) decision.reason = "ambiguous: it fits as well elsewhere in the map";
-  if (location.answer == Answer::none) decision.reason = "nowhere in the map";
+  if (candidates.size() > 1)
+    decision.numbers.emplace_back("probability of the second place", candidates[1].probability);
+  if (location.answer == Answer::ambiguous) decision.reason = "ambiguous: the scans fit elsewhere in the map as well";
+  if (location.answer == Answer::none) decision.reason = "the scans fit nowhere in the map";
   return location;
 }
 
-bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state, mapper::Decision& decision) const {
+bool GlobalMatcher::fitsAlongTravel(const Found& found, const mapper::State& state, mapper::Decision& decision) const {
   constexpr double kSpacing = 1.5;                            // [m] of travel from one scan to the next
-  constexpr double kWindow = 0.5, kWindowTurn = 5 * kDegree;  // [m] [rad] of drift on the way
-  constexpr double kLeast = -0.8;  // mean logarithm of the beams' likelihoods of a scan that fits
+  constexpr double kWindow = 0.5, kWindowTurn = 5 * kDegree;  // [m] [rad] of drift along it
+  constexpr double kLeast = -0.8;  // smallest mean log-likelihood of the beams of a scan that fits
   const TPose2D map_from_newest = found.place.map_from_base + found.match.reference_from_scan;
   const auto& base_from_map = state.map.keyFrame(newest_.back().frame).map_from_base;
   const double travel = newest_.back().travel - newest_.front().travel;
@@ -114,14 +114,14 @@ bool GlobalMatcher::fitsAllTheWay(const Found& found, const mapper::State& state
     const double likelihood = located.candidates.empty() ? kNothing : located.candidates.front().log_likelihood;
     worst = std::min(worst, likelihood);
   }
-  decision.numbers.emplace_back("distance looked back on [m]", travel);
-  decision.numbers.emplace_back("logarithm of a beam's likelihood where it fits worst", worst);
+  decision.numbers.emplace_back("distance checked [m]", travel);
+  decision.numbers.emplace_back("mean log-likelihood of a beam where it fits worst", worst);
   if (worst < kLeast) {
-    decision.reason = "what was seen on the way there does not fit";
+    decision.reason = "earlier scans on the path to the place do not fit the map";
     return false;
   }
   if (travel < options_.join_travel) {
-    decision.reason = "so much is alike that it waits for a longer way that fits";
+    decision.reason = "too many places look alike: scans over a longer distance must fit";
     return false;
   }
   return true;

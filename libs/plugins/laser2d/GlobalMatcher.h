@@ -8,25 +8,27 @@
 
 namespace omnimapper::plugins {
 
-/// Matches the newest scans of a drive with all of the known places, however far the estimate is off: a global search
-/// (matching::Relocalizer), then the fine matcher on the scans around the answer. Refers to its arguments.
+/// Matches the newest scans with the whole scan database, however wrong the estimate is: a global search
+/// (matching::Relocalizer), then a fine match with the scans around its answer. Keeps references to the arguments of
+/// its constructor.
 class GlobalMatcher {
  public:
-  /// `newest`: the newest last, of clouds of `label`.
+  /// `newest`: scans of the clouds of `label`, the newest last.
   GlobalMatcher(const LoopClosureOptions& options, const matching::ScanMatcher& matcher, const ScanDatabase& places,
                 const std::string& label, const std::vector<LoopSearch::KeyScan>& newest)
       : options_(options), matcher_(matcher), places_(places), label_(label), newest_(newest) {}
 
   struct Found {
-    ScanDatabase::Place place;  ///< the nearest to the answer, which is the reference of the match
+    ScanDatabase::Place place;  ///< nearest to the answer; the reference of the match
     matching::ScanMatch match;  ///< of the newest key frame
-    bool is_distinct;           ///< only few other places look alike
+    bool is_distinct;           ///< few other places look alike
   };
-  /// None, with the reason and all numbers in `decision`, if there is no single answer that the fine matcher confirms.
+  /// Writes the numbers to `decision`. None, with a reason there, if there is no single answer or the fine matcher
+  /// does not confirm it.
   std::optional<Found> find(const mapper::State& state, mapper::Decision& decision) const;
-  /// Whether the scans of all the distance travelled in `newest` fit the map, given where that puts the newest; else
-  /// `decision` says why. A corridor that the map has not got looks like one that it has, until its end.
-  bool fitsAllTheWay(const Found& found, const mapper::State& state, mapper::Decision& decision) const;
+  /// Whether all scans along the distance travelled in `newest` fit the map, given the pose found for the last of them;
+  /// if not, `decision` says why. A corridor outside the map looks like one of the map until its end is seen.
+  bool fitsAlongTravel(const Found& found, const mapper::State& state, mapper::Decision& decision) const;
 
  private:
   std::vector<matching::LocalScan> beams(const mapper::State& state) const;

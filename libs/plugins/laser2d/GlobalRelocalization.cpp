@@ -24,13 +24,13 @@ GlobalRelocalization::GlobalRelocalization(const LoopClosureOptions& options, co
       travel_(travel) {}
 
 mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const {
-  constexpr double kAgree = 1, kAgreeTurn = 0.25;  // [m] [rad] of an answer and where the session lies
+  constexpr double kAgree = 1, kAgreeTurn = 0.25;  // [m] [rad] between an answer and the estimate
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   mapper::Batch batch;
   mapper::Decision decision;
   decision.stamp = frame.stamp;
   decision.plugin = context_.section;
-  decision.kind = mapper::kRelocalisation;
+  decision.kind = mapper::kRelocalization;
   decision.from = frame.id;
   if (state.map.sessions.back().joined || !isLost(state, decision)) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);
@@ -42,7 +42,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   const auto& place = state.map.keyFrame(found->place.key_scan.frame);
   const auto& measured = found->match.reference_from_scan;
   if (distanceBetween(measured, planar(frame.map_from_base - place.map_from_base)).within(kAgree, kAgreeTurn)) {
-    if (!found->is_distinct && !matcher.fitsAllTheWay(*found, state, decision)) {
+    if (!found->is_distinct && !matcher.fitsAlongTravel(*found, state, decision)) {
       decision.accepted = false;
       batch.log(std::move(decision));
       return batch;
@@ -57,12 +57,12 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   auto start = places_->anywhere();
   start.map_from_base = place.map_from_base + mrpt::poses::CPose3D(mrpt::poses::CPose2D(measured));
   batch.placeSession({frame.id, start});
-  decision.reason = "the session is moved there, and waits for another that agrees";
+  decision.reason = "the session is moved there; another answer must confirm it";
   batch.log(std::move(decision));
   return batch;
 }
 
-// Whether the windows around the estimate are too small for what is known of it, or nothing was found in them for long.
+// Whether the uncertainty of the estimate exceeds the search windows, or nothing was found in them for long.
 bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& decision) const {
   constexpr double kSigmas = 3;
   const auto& frame = state.map.keyFrame(newest_.back().frame);
@@ -71,7 +71,7 @@ bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& 
   const auto covariance = state.covarianceBetween(near.front().key_scan.frame, frame.id);
   if (!covariance) return true;
   const double uncertainty =
-      kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] of either axis
+      kSigmas * std::sqrt(std::max((*covariance)(0, 0), (*covariance)(1, 1)));  // [m] along the less certain axis
   decision.numbers.emplace_back("may be off by [m]", uncertainty);
   return uncertainty > options_.max_window || travel_ > options_.lost_travel;
 }

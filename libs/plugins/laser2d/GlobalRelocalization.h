@@ -8,17 +8,17 @@
 
 namespace omnimapper::plugins {
 
-/// One relocalization of a session that nothing ties to the saved map, as a job: where the windows of LoopSearch are
-/// too small for what is known of its place, the newest scans are sought in the whole map. The first answer only moves
-/// the session there; the next one that agrees is a closure.
+/// A job that relocalizes a session which no measurement ties to the saved map yet. If its pose is less certain than
+/// the windows of LoopSearch are large, or nothing was found there for long, the newest scans are searched for in the
+/// whole map. The first answer only moves the session there; the next answer that agrees becomes a loop closure.
 class GlobalRelocalization {
  public:
-  /// `newest`: of the session, the newest last, clouds of `label`. `way`: [m] that the session has driven.
+  /// `newest`: scans of the session in clouds of `label`, the newest last. `travel`: [m] travelled in the session.
   GlobalRelocalization(const LoopClosureOptions& options, const mapper::PluginContext& context,
                        std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const ScanDatabase> places,
                        const std::string& label, std::vector<LoopSearch::KeyScan> newest, double travel);
 
-  /// A hypothesis, or a place for the session; a decision with the numbers if anything was sought.
+  /// A loop closure hypothesis or a new pose for the session; a decision with the numbers if the map was searched.
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:

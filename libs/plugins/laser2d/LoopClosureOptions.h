@@ -8,7 +8,7 @@
 namespace omnimapper::plugins {
 
 struct LoopClosureOptions {
-  std::vector<std::string> labels;  ///< of the clouds; empty: every cloud made from a 2D scan
+  std::vector<std::string> labels;  ///< of the clouds; empty: all clouds made from 2D scans
   double radius = 4.0;              ///< [m]
   double min_travel = 8.0;          ///< [m]
   double spacing = 1.5;             ///< [m]

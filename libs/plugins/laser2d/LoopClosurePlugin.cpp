@@ -64,7 +64,7 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   seekSlip(history, view);
   const double travel = history[index].key_scan.travel;
   const auto [last, is_first] = searched_.emplace(observed.observation.sensorLabel, travel);
-  // In a map that is held every one is sought: where the base is counts now, and costs the same always.
+  // A run that only localizes searches at every key frame: the pose matters now, and the cost does not grow.
   const bool is_soon = !is_first && std::abs(travel - last->second) < options_.spacing;
   if (is_soon && !context_.map_is_held) return {};
   auto places = loopPlaces(frame, history, index, view);
@@ -79,14 +79,14 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
 std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
                                         History& history) {
   const auto after = std::upper_bound(history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
-                                      [](const auto& wanted, const Seen& seen) {
+                                      [](const auto& wanted, const StampedScan& seen) {
                                         return wanted < std::tuple(seen.key_scan.frame.session, seen.stamp);
                                       });
   double travel = 0;
   if (after != history.begin()) {
     const auto& before = *std::prev(after);
     const auto& map_from_before = state.map.keyFrame(before.key_scan.frame).map_from_base;
-    // How far the base was carried between sessions nobody knows: all of an earlier one counts as left long ago.
+    // How far the base was moved between sessions is unknown: places of earlier sessions count as left long ago.
     const bool same_session = before.key_scan.frame.session == frame.id.session;
     travel = before.key_scan.travel +
              (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_travel);
@@ -96,7 +96,8 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
   return static_cast<std::size_t>(place - history.begin());
 }
 
-// Each time that one more closure was refused. Key frames at which another sensor saw something are spans, too.
+// Searches for a slip whenever another global closure was refused. Key frames without a scan of this sensor get an
+// empty one, because the motion between them may have slipped, too.
 void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& view) {
   if (context_.map_is_held) return;
   auto refused = closures_.refusedGlobally(view.graph);
@@ -114,7 +115,7 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
 }
 
-// Since the newest key frame that is not after `stamp`, or since the session began [m].
+// Distance travelled [m] since the newest key frame that is not after `stamp`, or since the session began.
 double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index) {
   const auto& newest = history[index].key_scan;
   std::size_t i = index;
@@ -124,14 +125,14 @@ double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const Hi
   return newest.travel - history[i].key_scan.travel;
 }
 
-// Ever more rarely where nothing is found, for on new ground there is nothing to find, and more rarely in a large map,
-// which costs more to search.
+// Searches become rarer the longer nothing is found, because new ground has no loops, and the larger the map is,
+// because searching it costs more.
 void LoopClosurePlugin::seekGlobally(const std::string& label, const History& history, std::size_t index,
                                      const mapper::State& state) {
   constexpr double kSpacing = 3;                                 // [m]
-  constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;  // of the travel since the last closure
+  constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;  // of the travel since the last answer
   constexpr double kShareOfAll = 0.01;                           // of all travel
-  constexpr double kGrown = 1.2;                                 // a map that is prepared for searches serves till then
+  constexpr double kGrown = 1.2;                                 // growth of the map at which the database is rebuilt
   if (context_.map_is_held || !state.map.sessions.back().joined) return;
   const double travel = history[index].key_scan.travel;
   const auto tied = closures_.newestTied(state.graph);
@@ -139,7 +140,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
   const double since_answer = travelSince(answered, history, index);
   const double spacing = std::max({kSpacing, kShareOfLost * since_answer, kShareOfAll * travel});
-  SoughtGlobally& last = sought_globally_[label];
+  LastGlobalSearch& last = last_global_search_[label];
   if (last.travel > 0 && std::abs(travel - last.travel) < spacing) return;
   last.travel = travel;
   const double rarely = std::max(kSpacing, kShareOnNewGround * since_answer);
@@ -162,23 +163,24 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
                                 on_new_ground);
 }
 
-// Ever more rarely, for a session of another place is never joined; often again once it was moved to where it was
-// found.
+// Searches become rarer without an answer, because a session of another place never joins the map, and frequent again
+// once an answer has moved the session.
 void LoopClosurePlugin::seekInMap(const std::string& label, const History& history, std::size_t index,
                                   const mapper::State& state) {
   constexpr double kSpacing = 3,
-                   kShareOfTravel = 0.1;  // [m] [1] of the way without an answer, from one search to the next
-  constexpr double kMoved = 1;            // [m]
+                   kShareOfTravel = 0.1;  // between searches: [m], and share of the travel without an answer
+  constexpr double kMoved = 1;            // [m] of the start of the session
   if (!places_) return;
   const auto& session = state.map.sessions.back();
   const auto& key_scan = history[index].key_scan;
   if (session.joined || key_scan.frame.session != session.number) return;
-  const auto first = std::find_if(history.begin(), history.end(),
-                                  [&](const Seen& seen) { return seen.key_scan.frame.session == session.number; });
+  const auto first = std::find_if(history.begin(), history.end(), [&](const StampedScan& seen) {
+    return seen.key_scan.frame.session == session.number;
+  });
   const double travel = key_scan.travel - first->key_scan.travel;
   const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
-  const auto [entry, is_first] = sought_in_map_.try_emplace(label, Sought{travel, travel, begun_at});
-  Sought& last = entry->second;
+  const auto [entry, is_first] = last_map_search_.try_emplace(label, LastMapSearch{travel, travel, begun_at});
+  LastMapSearch& last = entry->second;
   if ((begun_at - last.begun_at).norm() > kMoved) last.answered = last.travel;
   last.begun_at = begun_at;
   if (!is_first && travel - last.travel < std::max(kSpacing, kShareOfTravel * (travel - last.answered))) return;
@@ -188,13 +190,13 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
-  std::set<std::uint16_t> lying_apart;
+  std::set<std::uint16_t> unaligned;
   for (const auto& session : view.map.sessions) {
-    if (!session.joined) lying_apart.insert(session.number);
+    if (!session.joined) unaligned.insert(session.number);
   }
   for (const auto& frame : view.map.key_frames) {
-    // In a map that is held it stays where nobody knows that it is.
-    if (context_.map_is_held && lying_apart.count(frame.id.session) > 0) continue;
+    // A run that only localizes never ties an unaligned session, so its poses stay unknown.
+    if (context_.map_is_held && unaligned.count(frame.id.session) > 0) continue;
     for (const auto& observation : frame.observations) {
       if (!wants(*observation)) continue;
       const auto prepared = prepare(*observation);
@@ -212,9 +214,10 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
 
 void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
   for (auto& [label, history] : histories_) {
-    const auto seen = std::lower_bound(
-        history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
-        [](const Seen& one, const auto& wanted) { return std::tuple(one.key_scan.frame.session, one.stamp) < wanted; });
+    const auto seen = std::lower_bound(history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+                                       [](const StampedScan& one, const auto& wanted) {
+                                         return std::tuple(one.key_scan.frame.session, one.stamp) < wanted;
+                                       });
     if (seen != history.end() && seen->key_scan.frame == frame.id) history.erase(seen);
   }
 }
@@ -229,7 +232,7 @@ mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, cons
   for (auto& search : slip_searches_)
     follow_up.jobs.push_back({"slip search of " + toString(frame.id), std::move(search)});
   for (auto& search : map_searches_)
-    follow_up.jobs.push_back({"relocalisation of " + toString(frame.id), std::move(search)});
+    follow_up.jobs.push_back({"relocalization of " + toString(frame.id), std::move(search)});
   searches_.clear();
   global_searches_.clear();
   slip_searches_.clear();
@@ -237,14 +240,14 @@ mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, cons
   return follow_up;
 }
 
-// The last solve has tested all.
+// The last solve has tested all closures.
 mapper::Batch LoopClosurePlugin::atEnd(const mapper::View& view) {
   closures_.noteSolves(view.solves.size() + 1);
   return closures_.proposedAgain(view, context_.section);
 }
 
 std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& view) const {
-  if (histories_.empty()) return {};  // without scans it knows nothing of the map
+  if (histories_.empty()) return {};  // without scans there is no evidence
   std::vector<std::string> labels;
   for (const auto& [label, history] : histories_) labels.push_back(label);
   auto all = revisits(view, context_.section, labels, options_.min_travel);
@@ -264,7 +267,7 @@ std::vector<LoopSearch::KeyScan> LoopClosurePlugin::keyScans(const History& hist
   std::size_t first = centre, end = centre + 1;
   while (first > 0 && belongs(first - 1)) --first;
   while (end < history.size() && belongs(end)) ++end;
-  // A base that turns on the spot sees the same again and again: of many key scans some do.
+  // A base that turns on the spot sees the same walls again and again: a part of many scans is enough.
   constexpr std::size_t kMost = 200;
   const std::size_t stride = 1 + (end - first) / kMost;
   std::vector<LoopSearch::KeyScan> all;
@@ -274,8 +277,8 @@ std::vector<LoopSearch::KeyScan> LoopClosurePlugin::keyScans(const History& hist
   return all;
 }
 
-// The nearest place of each earlier pass, with the scans around it: some more than are tried, for how uncertain they
-// are is not known here.
+// The nearest place of each earlier pass, with the scans around it. There are more places than will be tried, because
+// only the job knows their uncertainty.
 std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame& frame, const History& history,
                                                              std::size_t index, const mapper::State& state) const {
   std::vector<std::pair<double, std::size_t>> near;
@@ -292,7 +295,7 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
   std::vector<LoopSearch::Place> places;
   for (const auto& candidate : near) {
     const std::size_t i = candidate.second;
-    // Neighbours along the path would only repeat it.
+    // Places close to a chosen one along the path would only repeat its search.
     const bool repeats = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
       return std::abs(history[other].key_scan.travel - history[i].key_scan.travel) < options_.min_travel;
     });

@@ -19,16 +19,16 @@
 
 namespace omnimapper::plugins {
 
-/// Closes loops with 2D scans (thesis 5.3.3.2): what was just seen is sought at places seen long ago, wherever the
-/// covariance of the estimate allows them to be; a session that nothing ties to the saved map, in all of it. Scans are
-/// matched in the plane of the base; in a spatial map z, roll and pitch stay open. The motion from key frame to key
-/// frame is ScanOdometryPlugin's.
+/// Closes loops with 2D scans (thesis 5.3.3.2): the newest scans are matched with those of places that were seen long
+/// ago and may be near, by the covariance of the estimate. A session that no measurement ties to the saved map is
+/// searched for in the whole map. Scans are matched in the plane of the base; in a spatial map a closure leaves z, roll
+/// and pitch nearly unconstrained. The motion between consecutive key frames is measured by ScanOdometryPlugin.
 class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::SeeksSession {
  public:
   LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
                     const mapper::PluginContext& context);
 
-  /// While scans come: without them nothing is sought.
+  /// True in a map that is continued while scans arrive: without them it cannot search.
   bool isSeeking() const override;
   bool wants(const mrpt::obs::CObservation& observation) const override;
   std::unique_ptr<const mapper::Prepared> prepare(const mrpt::obs::CObservation& observation) const override;
@@ -38,34 +38,34 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   void retired(const map::KeyFrame& frame) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   mapper::Batch atEnd(const mapper::View& view) override;
-  /// Beams that pass through walls, and places that were come back to without a closure.
+  /// Beams that pass through walls, places revisited without a closure, and slips (MapConsistency.h).
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
-  /// What earlier sessions saw: places to close loops with.
+  /// Loads the scans of earlier sessions, to close loops with them.
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
-  /// What one sensor saw at one key frame.
-  struct Seen {
+  /// The scan of one sensor at one key frame.
+  struct StampedScan {
     LoopSearch::KeyScan key_scan;
     base::Stamp stamp;
   };
-  /// The last search in all of the saved map.
-  struct Sought {
-    double travel, answered;        // [m] of the session, then and when an answer last moved it
-    mrpt::math::TPoint3D begun_at;  // where the session began, as it was then
+  /// The last search in the whole saved map.
+  struct LastMapSearch {
+    double travel, answered;        // [m] in the session, then and when an answer last moved it
+    mrpt::math::TPoint3D begun_at;  // estimated start of the session at that time
   };
-  /// The last global searches of a session for its own loops, and what they look in.
-  struct SoughtGlobally {
-    double travel = 0, on_new_ground = 0;  // [m]
+  /// The last global search for loops, and the database that is searched.
+  struct LastGlobalSearch {
+    double travel = 0, on_new_ground = 0;  // [m] travelled then, and at the last search on new ground
     std::shared_ptr<const ScanDatabase> places;
-    std::size_t size = 0;             // of the places
-    std::optional<base::Stamp> tied;  // of TestedClosures, and its corrections, when they were gathered
-    std::size_t corrections = 0;
+    std::size_t size = 0;             // number of scans in `places`
+    std::optional<base::Stamp> tied;  // newest tied stamp of TestedClosures when `places` was made
+    std::size_t corrections = 0;      // of TestedClosures when `places` was made
   };
-  using History = std::vector<Seen>;  // in order of session, then stamp
+  using History = std::vector<StampedScan>;  // in order of session, then stamp
   using Scan = std::shared_ptr<const matching::ScanWithNormals>;
 
-  /// Puts it in its place and gives the index.
+  /// Inserts the scan into the history and returns its index.
   std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state, History& history);
 
   static double travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index);
@@ -74,7 +74,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   void seekInMap(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
-  /// What was seen in the session of the one at `centre`, so much way [m] before and after it.
+  /// The scans of the same session within `before` and `after` [m] of travel around the one at `centre`.
   static std::vector<LoopSearch::KeyScan> keyScans(const History& history, std::size_t centre, double before,
                                                    double after);
 
@@ -82,24 +82,26 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
   std::map<std::string, History> histories_;  // by label
-  std::map<std::string, double> searched_;    // [m] way of the last search, by label
+  std::map<std::string, double> searched_;    // [m] travelled at the last search, by label
   std::vector<LoopSearch> searches_;          // of the key frame being measured
   TestedClosures closures_;
-  std::size_t refused_before_ = 0;                         // global closures, when a slip was last sought
-  std::vector<SlipSearch> slip_searches_;                  // of the key frame being measured
-  std::map<std::string, SoughtGlobally> sought_globally_;  // by label
-  std::vector<GlobalLoopSearch> global_searches_;          // of the key frame being measured
-  std::shared_ptr<const ScanDatabase> places_;             // of a map that is continued
-  int frames_without_scan_ = 0;                            // since the last scan, or the start
-  std::map<std::string, Sought> sought_in_map_;            // by label
-  std::vector<GlobalRelocalization> map_searches_;         // of the key frame being measured
+  std::size_t refused_before_ = 0;         // number of refused global closures at the last slip search
+  std::vector<SlipSearch> slip_searches_;  // of the key frame being measured
+  std::map<std::string, LastGlobalSearch> last_global_search_;  // by label
+  std::vector<GlobalLoopSearch> global_searches_;               // of the key frame being measured
+  std::shared_ptr<const ScanDatabase> places_;                  // of the map that is continued
+  int frames_without_scan_ = 0;                                 // since the last scan, or the start
+  std::map<std::string, LastMapSearch> last_map_search_;        // by label
+  std::vector<GlobalRelocalization> map_searches_;              // of the key frame being measured
 };
 
 class LoopClosurePluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "LoopClosurePlugin"; }
-  std::string summary() const override { return "Closes loops: 2D scans are sought at places seen long ago."; }
+  std::string summary() const override {
+    return "Closes loops: the newest 2D scans are matched with places seen long ago.";
+  }
   const std::vector<base::OptionSpec>& options() const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
                                                   const mapper::PluginContext& context) const override;

@@ -13,10 +13,10 @@ namespace omnimapper::plugins {
 using mrpt::math::TPose2D;
 
 namespace {
-constexpr double kReachSigmas = 3;  // standard deviations that an estimate may be off by
-constexpr double kAlike = 0.05;     // of overlap: two matches that differ by less are as good as one another
+constexpr double kReachSigmas = 3;              // standard deviations of the estimate that are searched
+constexpr double kAlike = 0.05;                 // difference in overlap below which two matches are equally good
 constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two matches are one
-constexpr std::size_t kMostBlocks = 100'000;  // of a search: a second or so in a window that is large and tells little
+constexpr std::size_t kMostBlocks = 100'000;    // of a search: about a second in a large window with few features
 }  // namespace
 
 matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& key_scans, base::KeyFrameId centre,
@@ -42,7 +42,7 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
     if (decision.accepted) {
       if (const auto elsewhere = overlapElsewhere(attempts, attempt, state)) {
         decision.accepted = false;
-        decision.reason = "ambiguous: it fits as well or better at another place";
+        decision.reason = "ambiguous: the scans fit another place as well or better";
         decision.numbers.emplace_back("overlap elsewhere", *elsewhere);
       }
     }
@@ -58,8 +58,8 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
   return batch;
 }
 
-// The same was sought at each of these places: of a match at another that is as good and not the same spot, its
-// overlap. How the places lie to one another is as sure as the map.
+// Overlap of a match at another place that is equally good and elsewhere in the map; none if there is none. The scans
+// that are matched are the same at all places. The relative pose of two places is as uncertain as the map says.
 std::optional<double> LoopSearch::overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
                                                    const mapper::State& state) {
   const auto& best = attempt.matches.front();
@@ -95,15 +95,15 @@ double LoopSearch::queryTravel(const SearchUncertainty& uncertainty) const {
   return options_.context + uncertainty.position;
 }
 
-// What is sought is no part of where it is sought: it would fit itself wherever the estimate has it.
+// Leaves out the scans that are to be matched: they would match themselves at the estimated pose.
 matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                                  const mapper::State& state) const {
   const double reach = 2 * options_.context + uncertainty.position,
                end = newest_.back().travel - queryTravel(uncertainty);
   std::vector<KeyScan> key_scans;
   std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(key_scans), [&](const KeyScan& key_scan) {
-    const bool is_sought = key_scan.frame.session == newest_.back().frame.session && key_scan.travel >= end;
-    return !is_sought && std::abs(key_scan.travel - place.centre.travel) <= reach;
+    const bool is_query = key_scan.frame.session == newest_.back().frame.session && key_scan.travel >= end;
+    return !is_query && std::abs(key_scan.travel - place.centre.travel) <= reach;
   });
   return localMap(key_scans, place.centre.frame, state);
 }
@@ -116,7 +116,7 @@ matching::ScanWithNormals LoopSearch::query(const SearchUncertainty& uncertainty
   return localMap(key_scans, newest_.back().frame, state);
 }
 
-// Within what the fine matcher reaches by itself the guess will do.
+// Poses at which the fine matcher starts; within its own convergence region only the guess.
 std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, const matching::ScanWithNormals& query,
                                         const TPose2D& guess, const SearchUncertainty& uncertainty) const {
   constexpr double kReach = 0.4;       // [m]
@@ -144,7 +144,7 @@ std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, 
 }
 
 namespace {
-// Whether one of them is of the newest session, which nothing ties to the other's.
+// Whether `newest` is of a session that is not tied to that of `place`.
 bool isUnaligned(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
   if (map.sessions.empty() || map.sessions.back().joined) return false;
   return newest.session == map.sessions.back().number && place.session != newest.session;
@@ -158,9 +158,9 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   const SearchUncertainty uncertainty = uncertaintyAt(place, state);
   const double apart = std::hypot(guess.x, guess.y);
   if (apart > options_.radius + uncertainty.position) return std::nullopt;
-  // In a window smaller than the uncertainty a wrong place would fit as well: that is for GlobalRelocalization.
+  // If the uncertainty exceeds the window, a wrong place in the window may fit as well: GlobalRelocalization searches.
   if (isUnaligned(centre.id, frame.id, state.map) && uncertainty.position > options_.max_window) return std::nullopt;
-  // A closure that tells what the map knows as well only makes every solve dearer.
+  // A closure that adds no information only makes every solve slower.
   const bool is_known = uncertainty.position < kReachSigmas * options_.known_sigma &&
                         uncertainty.yaw < kReachSigmas * options_.known_angle_sigma;
   if (is_known && !context_.map_is_held) return std::nullopt;
@@ -186,11 +186,11 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
   return attempt;
 }
 
-// The best of them, unless another is elsewhere and as good: alike corridors, rooms with a symmetry.
+// Corridors that look alike and rooms with a symmetry give several equally good matches.
 void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
                   const TPose2D& guess, mapper::Decision& decision) {
   if (matches.empty()) {
-    decision.reason = "nothing alike";
+    decision.reason = "no match in the search window";
     return;
   }
   const auto& best = matches.front();
@@ -207,18 +207,19 @@ void judgeClosure(const LoopClosureOptions& options, const std::vector<matching:
   for (std::size_t i = 1; i < matches.size() && matches[i].overlap > best.overlap - kAlike; ++i) {
     const auto apart = matches[i].reference_from_scan - best.reference_from_scan;
     if (std::hypot(apart.x, apart.y) < kSame && std::abs(mrpt::math::wrapToPi(apart.phi)) < kSameTurn) continue;
-    decision.reason = "ambiguous: it fits as well elsewhere";
+    decision.reason = "ambiguous: the scans fit elsewhere as well";
     decision.numbers.emplace_back("overlap elsewhere", matches[i].overlap);
     return;
   }
-  // What slides along a corridor says nothing of where in it.
+  // A match that can slide along a corridor does not determine the position along it.
   const double point_sigma = std::max(options.point_sigma, best.point_sigma);
   const Eigen::Matrix2d position = best.unit_covariance.topLeftCorner<2, 2>();
   const double sigma =
       point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
   decision.numbers.emplace_back("uncertainty of the match [m]", sigma);
   if (best.degenerate || sigma > options.max_sigma) {
-    decision.reason = best.degenerate ? "the walls leave a direction open" : "the walls hardly fix it";
+    decision.reason =
+        best.degenerate ? "the walls leave a direction unconstrained" : "the walls constrain the match too weakly";
     return;
   }
   decision.accepted = true;

@@ -13,17 +13,17 @@
 
 namespace omnimapper::plugins {
 
-/// One search for loop closures, as a job: what the newest key frames saw is sought in local maps of places seen long
-/// ago, as far around the estimate as it may be wrong (Olson 2009; Hess et al. 2016), and the best is matched finely.
+/// A job that searches for loop closures: it matches the newest scans with local maps of places seen long ago, in
+/// windows as large as the uncertainty of the estimate (Olson 2009; Hess et al. 2016), and refines the best matches.
 class LoopSearch {
  public:
-  /// What a key frame saw, in its base.
+  /// The scan of a key frame, in the frame of its base.
   struct KeyScan {
     base::KeyFrameId frame;
     std::shared_ptr<const matching::ScanWithNormals> scan;
-    double travel;  // [m] driven until there
+    double travel;  // [m] travelled until there
   };
-  /// A place to try: the key frame it is about, and those before and after it that its local map is made of.
+  /// A place to try: its key frame, and the scans before and after it that its local map is made of.
   struct Place {
     KeyScan centre;
     std::vector<KeyScan> around;
@@ -38,29 +38,29 @@ class LoopSearch {
         newest_(std::move(newest)),
         places_(std::move(places)) {}
 
-  /// A hypothesis for each place that matches, a decision for every one.
+  /// A hypothesis for each place that matches, and a decision for each place that was tried.
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:
-  /// How far off the newest key frame may be, seen from a place [m] [rad].
+  /// Uncertainty of the newest key frame relative to a place: three standard deviations [m] [rad].
   struct SearchUncertainty {
     double position, yaw;
   };
   SearchUncertainty uncertaintyAt(const Place& place, const mapper::State& state) const;
-  /// As much of what was seen as leaves no doubt where along a corridor it was: the more, the vaguer the
-  /// estimate.
+  /// The local map of a place, and the scans to match with it. Both are longer the less certain the estimate is, so
+  /// that they determine the position along a corridor, too.
   matching::ScanWithNormals localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                        const mapper::State& state) const;
   matching::ScanWithNormals query(const SearchUncertainty& uncertainty, const mapper::State& state) const;
   double queryTravel(const SearchUncertainty& uncertainty) const;  // [m] back from the newest key frame
-  /// What was found at a place.
+  /// The matches at a place.
   struct Attempt {
     const Place* place;
     mrpt::math::TPose2D guess;  // place_from_base by the estimate
     mapper::Decision decision;
     std::vector<matching::ScanMatch> matches;  // best first
   };
-  /// None for a place that is passed over for what the estimate says.
+  /// None if, by the estimate, the place is out of reach or a closure would add no information.
   std::optional<Attempt> attemptAt(const Place& place, const mapper::State& state) const;
   static std::optional<double> overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
                                                 const mapper::State& state);
@@ -78,12 +78,12 @@ class LoopSearch {
 /// Note of the factors of closures that were found by a search of the whole map.
 inline constexpr char kGlobalClosure[] = "global loop closure";
 
-/// The scans of some key frames together, in the frame of `centre`, by the estimate in `state`.
+/// Joins the scans of key frames, in the frame of `centre`, at their poses in `state`.
 matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& key_scans, base::KeyFrameId centre,
                                    const mapper::State& state);
 
-/// Whether the best of `matches`, best first, is a closure, told in `decision`: enough overlap, walls that fix it, and
-/// no other as good elsewhere. `guess`: where the estimate has it.
+/// Writes to `decision` whether the best match is accepted as a closure: it needs enough overlap, walls that constrain
+/// it in all directions, and no equally good match elsewhere. `matches`: best first. `guess`: the estimated pose.
 void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
                   const mrpt::math::TPose2D& guess, mapper::Decision& decision);
 

@@ -30,7 +30,7 @@ std::string format(const char* pattern, Numbers... numbers) {
   return text;
 }
 
-// "12 s after the start", of the session that is named where there are several.
+// Such as "12 s after the start"; names the session if there are several.
 std::string afterStart(const map::Map& map, const map::KeyFrame& frame) {
   const auto first = std::find_if(map.key_frames.begin(), map.key_frames.end(),
                                   [&](const map::KeyFrame& one) { return one.id.session == frame.id.session; });
@@ -50,11 +50,11 @@ double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<E
 }
 
 Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels) {
-  constexpr double kCrossed = 0.2;       // share of a scan's beams that no people, glass or doors explain
+  constexpr double kCrossed = 0.2;       // share of a scan's beams, more than people, glass and doors explain
   constexpr double kMostPercent = 0.5;   // of scans
-  constexpr std::size_t kFewBeams = 20;  // say nothing of a scan
+  constexpr std::size_t kFewBeams = 20;  // beams of a scan that is too small to judge
   Evidence evidence{"scans_through_walls_percent", 0, Evidence::Says::too_little,
-                    "there are no 2D scans to judge it by"};
+                    "there are no 2D scans to check the map with"};
   std::vector<matching::MapScan> scans;
   std::vector<const map::KeyFrame*> frames;
   for (const auto& frame : map.key_frames) {
@@ -71,7 +71,7 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   try {
     const auto crossings = matching::crossedWalls(scans);
     if (crossings.walls == 0) {
-      evidence.reason = "no wall was seen from enough places to judge it by";
+      evidence.reason = "no wall was seen from enough places to check the map with";
       return evidence;
     }
     const auto& sums = crossings.scans;
@@ -91,8 +91,8 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   if (evidence.value > kMostPercent) {
     evidence.says = Evidence::Says::against_it;
     evidence.reason =
-        format("in %zu of %zu scans a fifth of the beams or more pass through walls of the map, most of all %s", bad,
-               scans.size(), afterStart(map, *frames[worst]).c_str());
+        format("in %zu of %zu scans at least a fifth of the beams pass through walls of the map, the worst scan %s",
+               bad, scans.size(), afterStart(map, *frames[worst]).c_str());
   } else {
     evidence.says = Evidence::Says::good;
     evidence.reason = bad == 0 ? "no scan looks through walls of the map"
@@ -103,13 +103,13 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
 
 namespace {
 
-// A key frame, and the distance travelled until there [m].
+// A key frame and the distance travelled until there [m].
 struct Stop {
   TPose2D pose;
   double travelled;
   base::Stamp stamp;
   std::uint16_t session;
-  bool is_tied = false;  // a closure leads from it to an earlier one, or from one that is near in travel
+  bool is_tied = false;  // a closure ties it, or a stop nearby along the path, to an earlier one
 };
 
 std::vector<Stop> stopsOf(const map::Map& map, double between_sessions) {
@@ -129,13 +129,13 @@ std::vector<Stop> stopsOf(const map::Map& map, double between_sessions) {
   return stops;
 }
 
-// What was driven from the stop before to this one [m]: nothing between sessions.
+// Distance travelled from the previous stop to this one [m]; 0 between sessions.
 double drivenTo(const std::vector<Stop>& stops, std::size_t i) {
   return stops[i].session == stops[i - 1].session ? stops[i].travelled - stops[i - 1].travelled : 0;
 }
 
-// Marks the stops within `reach` [m] of travel of the later end of a closure that acts. Those of earlier sessions are
-// in the graph, not among the decisions of this run. Returns how many act.
+// Marks the stops within `reach` [m] of travel around the later end of an active closure, and returns the number of
+// active closures. They are read from the graph, because the decisions of this run lack those of earlier sessions.
 std::size_t markTied(const mapper::State& state, const std::string& section, double reach, std::vector<Stop>& stops) {
   std::map<base::VariableId, std::size_t> stop_of;
   for (std::size_t i = 0; i < stops.size(); ++i) stop_of[state.map.key_frames[i].pose] = i;
@@ -158,12 +158,12 @@ std::size_t markTied(const mapper::State& state, const std::string& section, dou
   return closures;
 }
 
-// Stops by the square of the floor they are in.
+// A grid of squares on the floor, with the stops in each.
 class Squares {
  public:
   explicit Squares(double side) : side_(side) {}
   void add(const Stop& stop, std::size_t index) { squares_[{cell(stop.pose.x), cell(stop.pose.y)}].push_back(index); }
-  // The first that was added of those in the same square or the eight around it for which that holds.
+  // The stop with the smallest index among those in the same square or the eight around it for which `holds` is true.
   template <class Condition>
   std::optional<std::size_t> firstNear(const Stop& stop, const Condition& holds) const {
     std::optional<std::size_t> first;
@@ -179,17 +179,17 @@ class Squares {
   }
 
  private:
-  // A whole number; a double, for a pose may be anywhere.
+  // A whole number, as a double because coordinates have no bound.
   double cell(double x) const { return std::floor(x / side_); }
   double side_;
   std::map<std::pair<double, double>, std::vector<std::size_t>> squares_;
 };
 
-// How much of what was seen at a stop lies on what was seen near there at least `min_travel` [m] before, [0, 1]: where
-// the map is right, what stands there.
+// Share [0, 1] of the points seen at a stop that lie on points seen nearby at least `min_travel` [m] of travel earlier.
+// It is high where the map is right.
 double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labels, const std::vector<Stop>& stops,
                        std::size_t at, double min_travel) {
-  constexpr double kNear = 6;  // [m] from where most of it was in sight
+  constexpr double kNear = 6;  // [m] from the stop, from where most of the same walls were visible
   constexpr std::size_t kMost = 12;
   std::vector<Eigen::Vector2f> before, seen;
   const auto add = [&](std::size_t i, std::vector<Eigen::Vector2f>& points) {
@@ -215,7 +215,7 @@ double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labe
   return shareOnWalls(before, seen);
 }
 
-// For each stop the first one that it lies near to and that was passed at least `min_travel` [m] before.
+// For each stop, the first stop near it that was passed at least `min_travel` [m] of travel earlier.
 std::vector<std::optional<std::size_t>> revisiting(const std::vector<Stop>& stops, double min_travel) {
   constexpr double kNear = 2.0, kAngle = 0.8;  // [m] [rad] within which two scans of 180 deg see much the same
   Squares squares(kNear);
@@ -233,8 +233,8 @@ std::vector<std::optional<std::size_t>> revisiting(const std::vector<Stop>& stop
   return again;
 }
 
-// An error of the way is seen only where a later visit of a place spans it. `begins` holds for each stop the first of
-// the stops that it is known to have come back to.
+// Share of the travel that lies between two visits of a place: only there does an error of the trajectory show.
+// `begins`: for each stop, the first stop that it is known to revisit.
 Evidence spannedTravel(const std::vector<Stop>& stops, const std::vector<std::optional<std::size_t>>& begins) {
   constexpr double kEnough = 25;  // percent
   double travel = 0, spanned = 0;
@@ -260,8 +260,8 @@ Evidence spannedTravel(const std::vector<Stop>& stops, const std::vector<std::op
 std::vector<Evidence> revisits(const mapper::State& state, const std::string& section,
                                const std::vector<std::string>& labels, double min_travel) {
   constexpr double kTied = 15;   // [m] of travel from a closure within which a revisit counts as recognized
-  constexpr double kLong = 10;   // [m] of a stretch that is not
-  constexpr double kFits = 0.5;  // of shareSeenBefore()
+  constexpr double kLong = 10;   // [m] of a stretch that is neither recognized nor fits
+  constexpr double kFits = 0.5;  // shareSeenBefore() of scans that fit
   auto stops = stopsOf(state.map, 2 * min_travel);
   const std::size_t closures = markTied(state, section, kTied, stops);
   const auto again = revisiting(stops, min_travel);
@@ -287,7 +287,7 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   if (tied > 0) {
     again_m.reason =
         format("%s%s %s %.1f m that were driven again", base::counted(closures, "closure").c_str(),
-               state.map.sessions.size() > 1 ? " of all sessions" : "", closures == 1 ? "ties" : "tie", tied);
+               state.map.sessions.size() > 1 ? " of all sessions" : "", closures == 1 ? "confirms" : "confirm", tied);
   }
   if (fitting > 0) {
     again_m.reason += format(tied > 0 ? ", and on %.1f m more the scans fit what was seen there before"
@@ -301,11 +301,12 @@ std::vector<Evidence> revisits(const mapper::State& state, const std::string& se
   Evidence untied_m{"revisited_without_closure_m", untied, Evidence::Says::good, ""};
   if (longest > kLong) {
     untied_m.says = Evidence::Says::against_it;
-    untied_m.reason = format("for %.0f m, until %s, the robot drives where it has been before and sees something else",
-                             longest, afterStart(state.map, state.map.key_frames[longest_until]).c_str());
+    untied_m.reason =
+        format("for %.0f m, until %s, the map has the robot where it was before, but the scans show something else",
+               longest, afterStart(state.map, state.map.key_frames[longest_until]).c_str());
   }
   Evidence spanned = spannedTravel(stops, known);
-  if (revisited == 0) spanned.reason.clear();  // it is said already
+  if (revisited == 0) spanned.reason.clear();  // the first reason says so already
   return {again_m, untied_m, spanned};
 }
 
@@ -333,7 +334,7 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
   }
   if (undone.value > 0) all.push_back(undone);
   if (!contradiction) return all;
-  // One that ties what came after it to what was there before.
+  // An accepted closure across the contradiction resolves it: from a later key frame to one before the closures' place.
   const bool is_resolved = std::any_of(decisions.begin(), decisions.end(), [&](const mapper::Decision& decision) {
     return decision.plugin == section && decision.is_loop_closure && decision.accepted && decision.to &&
            stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
@@ -342,7 +343,7 @@ std::vector<Evidence> slips(const mapper::State& state, const std::string& secti
   const auto& frame = state.map.keyFrame(contradiction->from);
   all.push_back({"contradicted_after_s", base::secondsBetween(state.map.key_frames.begin()->stamp, frame.stamp),
                  Evidence::Says::against_it,
-                 format("closures that agree with one another, from %s on, contradict the map",
+                 format("from %s on, several closures that agree with one another contradict the map",
                         afterStart(state.map, frame).c_str())});
   return all;
 }

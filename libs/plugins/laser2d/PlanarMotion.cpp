@@ -11,7 +11,7 @@ namespace omnimapper::plugins {
 using mrpt::math::TPose2D;
 
 TPose2D planar(const mrpt::poses::CPose3D& pose) {
-  // Not yaw(): it is worked out when first asked for, and threads share poses.
+  // CPose3D::yaw() computes its result lazily inside the pose, which is unsafe because threads share poses.
   const auto& rotation = pose.getRotationMatrix();
   return {pose.x(), pose.y(), std::atan2(rotation(1, 0), rotation(0, 0))};
 }
@@ -23,7 +23,7 @@ PoseDistance distanceBetween(const TPose2D& a, const TPose2D& b) {
 mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::Matrix3d& covariance) {
   mapper::RelativeMotion motion;
   motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(begin_from_end));
-  // A scan says nothing of height and tilt: a metre and half a radian, in a spatial map.
+  // A scan does not measure height and tilt: their standard deviations are 1 m and 0.5 rad, for spatial maps.
   motion.covariance = Eigen::Matrix<double, 6, 6>::Zero();
   motion.covariance.diagonal() << 0, 0, 1.0, 0.25, 0.25, 0;
   const std::array<int, 3> index{0, 1, 5};

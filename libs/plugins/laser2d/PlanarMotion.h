@@ -8,21 +8,21 @@
 
 namespace omnimapper::plugins {
 
-/// What of a pose is in the plane.
+/// The part of a pose that lies in the plane: x, y and yaw.
 mrpt::math::TPose2D planar(const mrpt::poses::CPose3D& pose);
 
-/// How far two poses are apart, [m] and [rad].
+/// Distance between two planar poses, [m] and [rad].
 struct PoseDistance {
   double metres, radians;
   bool within(double most_metres, double most_radians) const {
     return metres <= most_metres && radians <= most_radians;
   }
-  /// As a laser sees it [m]: one that looks another way has seen little of the same.
+  /// Both in one number [m], to compare views of a laser: views with different headings share little of a place.
   double ofViews() const { return metres + 2 * radians; }
 };
 PoseDistance distanceBetween(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);
 
-/// A motion in the plane, covariance of x y yaw. Height and tilt stay open, as far as a spatial map asks for them.
+/// A planar motion with its covariance (x, y, yaw). For spatial maps height and tilt get wide variances.
 mapper::RelativeMotion planarMotion(const mrpt::math::TPose2D& begin_from_end, const Eigen::Matrix3d& covariance);
 
 }  // namespace omnimapper::plugins

@@ -22,7 +22,7 @@ ScanDatabase::ScanDatabase(const map::Map& map,
                            std::shared_ptr<const matching::ScanMatcher> matcher,
                            const matching::RelocalizerOptions& options)
     : matcher_(std::move(matcher)), options_(options), anywhere_(mapper::startAnywhere(map)) {
-  options_.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: there will be better scans
+  options_.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: better scans will follow
   const auto isJoined = [&](const LoopSearch::KeyScan& key_scan) {
     return std::any_of(map.sessions.begin(), map.sessions.end(), [&](const map::Session& session) {
       return session.number == key_scan.frame.session && session.joined;
@@ -60,7 +60,7 @@ const matching::Relocalizer& ScanDatabase::relocalizer() const {
     try {
       relocalizer_ = std::make_unique<const matching::Relocalizer>(std::move(scans), matcher_, options_);
     } catch (const base::Error& error) {
-      too_large_ = error.what();  // what is thrown from here would be tried again by all who ask
+      too_large_ = error.what();  // an exception out of call_once would make every later caller try again
     }
   });
   if (!relocalizer_) throw base::Error(base::ExitCode::out_of_range, too_large_);
@@ -69,7 +69,8 @@ const matching::Relocalizer& ScanDatabase::relocalizer() const {
 
 namespace {
 
-// What lies further away is only known to be there; a beam without echo says nothing, dark walls give none either.
+// A hit beyond kLongest only shows free space up to there. Beams without echo are left out, because dark walls give
+// none either.
 matching::LocalScan beamsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   constexpr double kLongest = 25;  // [m]
   const grid::BeamEnds beams(scan, {}, grid::BeamEnds::Pose::of_base);

@@ -9,11 +9,11 @@
 
 namespace omnimapper::plugins {
 
-/// The motion between two poses that a match measured. In a spatial map height and tilt stay open.
+/// Factor for the relative pose that a scan match measured. Height and tilt of a spatial map stay nearly unconstrained.
 graph::FactorRecord scanFactor(const LoopClosureOptions& options, const mapper::PluginContext& context,
                                base::VariableId reference, base::VariableId scan, const matching::ScanMatch& match);
 
-/// That motion, of `scan` from `reference`. Height and tilt are open.
+/// The relative pose that a scan match measured, with wide variances of height and tilt.
 mapper::RelativeMotion scanMotion(const LoopClosureOptions& options, const matching::ScanMatch& match);
 
 }  // namespace omnimapper::plugins

@@ -23,12 +23,12 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-// Of the laser on the base [m].
+// Position of the laser on the base [m].
 Eigen::Vector2f placeOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   return {static_cast<float>(scan.sensorPose.x()), static_cast<float>(scan.sensorPose.y())};
 }
 
-// How far a point at arm's length of the laser, some metres away, is moved [m].
+// How far [m] a motion displaces a point some metres away from the laser.
 double sizeOf(const TPose2D& motion) {
   constexpr double kLever = 3;  // [m]
   return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
@@ -105,7 +105,7 @@ bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) 
   return true;
 }
 
-// Nothing of a tilted laser beside a level one that was taken instead.
+// A tilted laser is not reported if a level one was used instead.
 std::vector<std::string> ScanOdometryPlugin::warnings() const {
   std::vector<std::string> sentences;
   for (const auto& [label, tilted] : tilted_) {
@@ -113,10 +113,10 @@ std::vector<std::string> ScanOdometryPlugin::warnings() const {
     const auto degrees = std::lround(tilted.tilt / base::option_text::kRadiansPerDegree);
     sentences.push_back(std::to_string(tilted.scans) + " scans of the laser '" + label +
                         "' were left out: by its sensor pose it is tilted by " + std::to_string(degrees) +
-                        " deg, more than " +
+                        " deg, but it measures motion on a floor only up to " +
                         std::to_string(std::lround(matching::kLargestTilt / base::option_text::kRadiansPerDegree)) +
-                        ", and does not tell motion on a floor; name a level laser as label, correct its pose by " +
-                        "[mapper] sensors, or take the plugin out of [mapper] pose_plugins");
+                        " deg; name a level laser as label, correct the sensor pose in [mapper] sensors, or remove " +
+                        "the plugin from [mapper] pose_plugins");
   }
   return sentences;
 }
@@ -128,15 +128,16 @@ std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
   char text[200];
   if (gaps_.count > 0) {
     std::snprintf(text, sizeof text,
-                  "nothing told the motion across %zu gaps of the laser, the first %.0f s after its start", gaps_.count,
-                  gaps_.first);
+                  "neither scan matching nor odometry measured the motion across some gaps (%zu, the first %.0f s "
+                  "after the start)",
+                  gaps_.count, gaps_.first);
     all.push_back({"laser_gaps_without_motion", static_cast<double>(gaps_.count), too_little, text});
   }
   const double percent = 100 * blind_seconds_ / std::max(blind_seconds_ + seeing_seconds_, 1e-9);
   if (percent > kMostBlind) {
     std::snprintf(text, sizeof text,
-                  "for %.0f %% of the time the laser saw nothing that tells motion along a corridor, and no odometry "
-                  "told it",
+                  "for %.0f %% of the time the walls left a direction of the motion unconstrained, and no odometry "
+                  "measured it",
                   percent);
     all.push_back({"blind_along_percent", percent, too_little, text});
   }
@@ -147,30 +148,31 @@ ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation:
   const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(observation);
   if (!scan) addOdometry(*observation);
   if (!scan || !isOurs(*scan)) return Taken::not_mine;
-  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, scan);
+  if (!reached_ || scan->timestamp > *reached_) queue_.emplace(scan->timestamp, scan);
   return Taken::taken;
 }
 
-// Up to the last scan to which odometry tells the way, too: without it a match begins with a guess. Odometry that has
-// ended is not waited for.
+// Up to the last scan that odometry covers, too, because without odometry its match would start at a guess. Odometry
+// that has ended is not waited for.
 std::optional<base::Stamp> ScanOdometryPlugin::coveredUntil() const {
-  constexpr double kAlive = 0.25;  // [s] odometry comes four times a second at least
+  constexpr double kAlive = 0.25;  // [s] odometry arrives at least four times a second
   const auto is_awaited = [](const Odometry& odometry, base::Stamp stamp) {
     const auto end = odometry.source.coveredUntil();
     return end && *end < stamp && base::secondsBetween(*end, stamp) < kAlive;
   };
-  for (auto scan = wait_.rbegin(); scan != wait_.rend(); ++scan) {
-    const bool is_told = std::none_of(odometries_.begin(), odometries_.end(),
-                                      [&](const Odometry& one) { return is_awaited(one, middleOf(*scan->second)); });
-    if (is_told) return scan->first;
+  for (auto scan = queue_.rbegin(); scan != queue_.rend(); ++scan) {
+    const bool has_odometry = std::none_of(odometries_.begin(), odometries_.end(), [&](const Odometry& one) {
+      return is_awaited(one, middleOf(*scan->second));
+    });
+    if (has_odometry) return scan->first;
   }
   return reached_;
 }
 
-// One scan beyond it, so that the motion to between two scans is known.
+// Processes one scan beyond `stamp`, so that the motion to a stamp between two scans is known.
 void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
-  while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
-    const auto next = wait_.extract(wait_.begin());
+  while (!queue_.empty() && (!reached_ || *reached_ < stamp)) {
+    const auto next = queue_.extract(queue_.begin());
     reached_ = next.key();
     follow(*next.mapped());
   }
@@ -216,8 +218,9 @@ void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
 }
 
 namespace {
-// Of a motion along walls that nothing tells: however the base drove last, it may have braked or gone on. That it does
-// so for a while, and not anew at each scan, makes the spans' errors alike: they add up as those of such a while do.
+// Variance of a motion along walls that nothing measures: whatever the base did before, it may have braked or gone on.
+// Its speed is correlated over kWhile, and so are the errors of the spans in it; a variance that is linear in time adds
+// up to the right one over longer spans.
 double blindVariance(double seconds) {
   constexpr double kUsualSpeed = 0.5, kWhile = 10;  // [m/s] [s]
   return mrpt::square(kUsualSpeed) * kWhile * seconds;
@@ -225,10 +228,10 @@ double blindVariance(double seconds) {
 
 }  // namespace
 
-// Whether wheels or inertia told the motion that is sought now.
-bool ScanOdometryPlugin::isTold() const {
+// Whether an odometry measured the motion to the current scan.
+bool ScanOdometryPlugin::isMeasuredByOdometry() const {
   return std::any_of(odometries_.begin(), odometries_.end(),
-                     [](const Odometry& odometry) { return odometry.told.has_value(); });
+                     [](const Odometry& odometry) { return odometry.measured.has_value(); });
 }
 
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
@@ -236,7 +239,7 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   const base::Stamp stamp = middleOf(scan);
   const double seconds = base::secondsBetween(*last_, stamp);
   const auto predictions = this->predictions(stamp);
-  // Of stamps that nearly coincide the noise would be a speed.
+  // Between stamps that nearly coincide, noise would look like speed.
   constexpr double kShortest = 0.02;  // [s]
   const bool is_long = seconds > kShortest;
   const TPose2D velocity =
@@ -244,38 +247,38 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
   if (!tracked) {
     if (seconds <= options_.max_gap) return;
-    if (!isTold() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    if (!isMeasuredByOdometry() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
     return restart(scan);
   }
   const TPose2D& motion = tracked->match.reference_from_scan;
-  const bool is_blind = tracked->match.degenerate && !isTold();
+  const bool is_blind = tracked->match.degenerate && !isMeasuredByOdometry();
   auto guess = predictions[tracked->prediction].guess;
   if (is_blind)
     guess.information.topLeftCorner<2, 2>() =
         mrpt::square(noise_) / blindVariance(seconds) * Eigen::Matrix2d::Identity();
   (is_blind ? blind_seconds_ : seeing_seconds_) += seconds;
-  const auto told = motionOf(*tracked, guess);
+  const auto measured = motionOf(*tracked, guess);
   if (is_first_ && is_long) {
-    // From its stamp on, as the base went on.
+    // The matched motion also covers the first half of the first sweep, from its stamp to its middle.
     const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));
     timeline_.insert(*last_ - base::durationFromSeconds(0.5 * options_.sweep), *last_,
-                     {mrpt::poses::CPose3D(before), told.covariance});
+                     {mrpt::poses::CPose3D(before), measured.covariance});
   }
   is_first_ = false;
-  constexpr double kEven = 0.25;  // [s] in which a base that drives hardly brakes or turns anew
+  constexpr double kEven = 0.25;  // [s] in which the motion of a driving base hardly changes
   const auto* odometry = odometryLike(motion);
   if (odometry && seconds > kEven) {
-    insertAlong(*odometry, stamp, told);
+    insertAlong(*odometry, stamp, measured);
   } else {
-    timeline_.insert(*last_, stamp, told);
+    timeline_.insert(*last_, stamp, measured);
   }
-  constexpr double kMemory = 0.98;  // it is a property of the laser and of the place
+  constexpr double kMemory = 0.98;  // long, because the noise is a property of laser and place
   noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
-  // Where a direction is open the match agrees with whatever it began with.
+  // If a direction is unconstrained, the match agrees with any prediction and cannot judge it.
   if (!tracked->match.degenerate) {
     for (auto& odometry : odometries_) {
       judge(odometry.predictor, motion);
-      if (odometry.told) odometry.calibration.learn(*odometry.told, motion);
+      if (odometry.measured) odometry.calibration.learn(*odometry.measured, motion);
     }
     judge(by_velocity_, motion);
   }
@@ -283,13 +286,13 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   last_ = stamp;
 }
 
-// That which comes nearest to a matched motion; null if all are far from it.
+// The odometry whose motion is closest to a matched one; null if none is close.
 const ScanOdometryPlugin::Odometry* ScanOdometryPlugin::odometryLike(const TPose2D& motion) const {
-  constexpr double kLeast = 0.1, kShare = 0.2;  // [m] and of the motion: wheels that slip more do not tell its way
+  constexpr double kLeast = 0.1, kShare = 0.2;  // [m], and of the motion: wheels that slip more do not show its path
   const Odometry* nearest = nullptr;
   double least = kLeast + kShare * sizeOf(motion);
   for (const auto& odometry : odometries_) {
-    if (!odometry.told) continue;
+    if (!odometry.measured) continue;
     const double off = sizeOf(*odometry.predictor.motion - motion);
     if (off >= least) continue;
     least = off;
@@ -298,14 +301,15 @@ const ScanOdometryPlugin::Odometry* ScanOdometryPlugin::odometryLike(const TPose
   return nearest;
 }
 
-// Where scans are missing the motion is not even: what other sensors saw meanwhile belongs where the wheels were. The
-// way is theirs, and ends where the match says; the correction grows evenly.
-void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& told) {
-  constexpr double kStep = 0.1;  // [s] in which a base that drives hardly turns
+// Across missing scans the motion is not uniform, and other sensors may have measured meanwhile. The path is therefore
+// that of the wheels, with a correction that grows linearly in time so that it ends at the matched pose.
+void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end,
+                                     const mapper::RelativeMotion& measured) {
+  constexpr double kStep = 0.1;  // [s] in which a driving base hardly turns
   const base::Stamp begin = *last_;
   const double seconds = base::secondsBetween(begin, end);
   const int steps = static_cast<int>(std::ceil(seconds / kStep));
-  const TPose2D correction = planar(told.begin_from_end) - *odometry.predictor.motion;
+  const TPose2D correction = planar(measured.begin_from_end) - *odometry.predictor.motion;
   TPose2D reached{};
   base::Stamp from = begin;
   for (int step = 1; step <= steps; ++step) {
@@ -315,13 +319,14 @@ void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end, 
     if (!driven) continue;
     const TPose2D pose = odometry.calibration.applied(planar(driven->begin_from_end)) + scaled(correction, share);
     const double part = base::secondsBetween(from, to) / seconds;
-    timeline_.insert(from, to, {mrpt::poses::CPose3D(mrpt::poses::CPose2D(pose - reached)), part * told.covariance});
+    timeline_.insert(from, to,
+                     {mrpt::poses::CPose3D(mrpt::poses::CPose2D(pose - reached)), part * measured.covariance});
     reached = pose;
     from = to;
   }
 }
 
-// Not from a scan that sees nothing: those after it would find nothing in it. How the base moves is not known yet.
+// Starts again at this scan, unless it has too few points for the next scans to match with. The velocity is unknown.
 void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan) {
   constexpr std::size_t kFewPoints = 10;
   last_.reset();
@@ -334,19 +339,19 @@ void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan)
   is_first_ = true;
 }
 
-// That which was nearer to the truth of late first; last that the base stands still.
+// The source that was more accurate recently comes first; without odometry, rest comes last.
 std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::Stamp stamp) {
   const double seconds = base::secondsBetween(*last_, stamp);
-  constexpr double kSlack = 1;               // [m] for stamps that are not exact
-  std::vector<const Odometry*> by_odometry;  // the best of late first
+  constexpr double kSlack = 1;               // [m] for inexact stamps
+  std::vector<const Odometry*> by_odometry;  // most accurate recently first
   for (auto& odometry : odometries_) {
-    odometry.told.reset();
+    odometry.measured.reset();
     odometry.predictor.motion.reset();
-    const auto told = odometry.source.between(*last_, stamp);
-    if (!told) continue;
-    const TPose2D motion = planar(told->begin_from_end);
+    const auto measured = odometry.source.between(*last_, stamp);
+    if (!measured) continue;
+    const TPose2D motion = planar(measured->begin_from_end);
     if (std::hypot(motion.x, motion.y) > kSlack + options_.max_speed * seconds) continue;
-    odometry.told = motion;
+    odometry.measured = motion;
     odometry.predictor.motion = odometry.calibration.applied(motion);
     by_odometry.push_back(&odometry);
   }
@@ -354,12 +359,12 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
   std::stable_sort(by_odometry.begin(), by_odometry.end(),
                    [&](const Odometry* a, const Odometry* b) { return rank(a) < rank(b); });
   by_velocity_.motion = scaled(velocity_, seconds);
-  // What wheels and inertia tell counts where walls tell little, such as along a corridor. A base that goes on as it
-  // did may have braked or turned.
+  // The uncertainty of a prediction matters where walls constrain the match weakly, such as along a corridor. Constant
+  // velocity is less certain than odometry, because the base may have braked or turned.
   constexpr double kAcceleration = 1, kTurnAcceleration = 1;            // [m/s2] [rad/s2]
-  constexpr double kMostAcceleration = 10, kMostTurnAcceleration = 20;  // of wheels that grip, and slip
+  constexpr double kMostAcceleration = 10, kMostTurnAcceleration = 20;  // at most, of wheels that grip or slip
   constexpr double kStampError = 0.05;                                  // [s]
-  constexpr double kMostPosition = 0.1, kMostAngle = 0.2;               // [m] [rad] by what a laser or its wheels err
+  constexpr double kMostPosition = 0.1, kMostAngle = 0.2;               // [m] [rad] errors of laser and wheels
   const double most_position = kMostPosition + kStampError * std::hypot(velocity_.x, velocity_.y) +
                                0.5 * kMostAcceleration * mrpt::square(seconds);
   const double most_angle =
@@ -386,8 +391,8 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
   std::vector<matching::MotionPrediction> all;
   for (const auto* odometry : by_odometry) all.push_back(predicted(odometry->predictor, 0, 0));
   constexpr double kLongestSearch = 10, kUsualSpeed = 0.5, kUsualTurn = 0.5;  // [s] [m/s] [rad/s]
-  // Across a gap neither steady motion nor rest is a prediction: a match that begins with one finds some wall or other.
-  // Nor is rest where the laser has just begun anew and something else tells the motion.
+  // Across a gap neither constant velocity nor rest is a useful prediction: a match that starts there finds some wall
+  // or other. The same holds just after a restart if odometry measures the motion.
   const bool is_unknown = is_first_ && !by_odometry.empty();
   if (seconds > options_.max_gap || is_unknown) {
     by_velocity_.motion.reset();
@@ -403,9 +408,9 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
   return all;
 }
 
-// Variances grow with the way and the turn so that spans add up: what a match is uncertain by is taken up once in half
-// the length of the local map, to which the scans in between are all matched alike. What the walls leave open is as
-// good as the guess.
+// Variances are proportional to distance and rotation, so that those of consecutive spans add up. The variance of a
+// match counts once per half the length of the local map, because all scans in between are matched with the same map
+// and share its error. In directions that the walls leave unconstrained the covariance is that of the prediction.
 mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker::Tracked& tracked,
                                                     const matching::MatchGuess& guess) const {
   const auto& match = tracked.match;

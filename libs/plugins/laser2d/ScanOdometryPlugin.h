@@ -19,7 +19,7 @@ namespace omnimapper::plugins {
 
 struct ScanOdometryOptions {
   std::string label;               ///< of the laser; empty: the first that comes
-  std::string odometry_label;      ///< of the odometry that predicts; empty: the best of all
+  std::string odometry_label;      ///< of the odometry used for prediction; empty: the best one
   double sweep = 0;                ///< [s] from the first beam of a scan, when it is stamped, to the last
   double max_gap = 1.0;            ///< [s] between scans that are matched
   double max_speed = 10.0;         ///< [m/s] of a prediction
@@ -35,18 +35,20 @@ struct ScanOdometryOptions {
   static const base::OptionTable<ScanOdometryOptions>& table();
 };
 
-/// Laser odometry as a continuous pose source (thesis 5.3.4): every scan of one laser, not those of key frames alone,
-/// is matched against a local map of the scans before it. Scans are worked on in the order of their stamps; one that
-/// comes after its time was worked on is left out. Odometry, of several that which agreed best with the matches of
-/// late, or steady motion where that is better or there is none, says where a match begins, and counts where the walls
-/// leave a direction open: beside this it should be a fallback. What each odometry errs by systematically is learned
-/// from the matches and taken out of what it predicts.
+/// Laser odometry as a continuous pose source (thesis 5.3.4): every scan of one laser, not only those of key frames, is
+/// matched with a local map of the scans before it. Scans are processed in the order of their stamps; a scan that
+/// arrives after a later one was processed is left out.
 ///
-/// Of a laser that takes its time (`sweep`) the same prediction tells how the base moved during a scan. The stamp is
-/// the instant of the first beam; the scan counts for the middle of the sweep, half of it later. Only what is matched
-/// here is straightened: the clouds that loop closures and maps use stay as they were measured.
+/// A match starts at a predicted motion: that of the odometry which recently agreed best with the matches, or constant
+/// velocity if that is better or there is no odometry. The prediction also determines directions that the walls leave
+/// unconstrained, so an odometry plugin beside this one should be a fallback. The systematic errors of each odometry
+/// are estimated from the matches and corrected in its predictions.
 ///
-/// The plane of the laser must be nearly that of the floor (kLargestTilt), either side up; other scans are left out.
+/// A scan that takes time (`sweep`) is deskewed with the predicted motion. It is stamped at its first beam, and its
+/// match is for the middle of the sweep, half of it later. Only the scans matched here are deskewed: the clouds that
+/// loop closures and maps use stay as they were measured.
+///
+/// The plane of the laser must be nearly level (matching::kLargestTilt), either side up; other scans are left out.
 class ScanOdometryPlugin : public mapper::PosePlugin {
  public:
   ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
@@ -59,16 +61,17 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   }
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
-  /// Gaps across which neither the laser nor an odometry told the motion, if there are any.
+  /// Gaps across which neither laser nor odometry measured the motion, and the share of time in which neither did along
+  /// one direction; empty if there are none.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 
  private:
-  /// What tells the motion to the next scan, and how far off it was of late.
+  /// The motion to the next scan as one source predicts it, and the recent errors of that source.
   struct Predictor {
     std::optional<mrpt::math::TPose2D> motion;
-    double error = 0;                            // [m], a mean over some scans
-    double position_error = 0, angle_error = 0;  // [m2] [rad2] mean squares over some scans
+    double error = 0;                            // [m], running mean
+    double position_error = 0, angle_error = 0;  // [m2] [rad2], running mean squares
     bool is_judged = false;
   };
   struct Odometry {
@@ -76,14 +79,14 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     matching::WheelOdometry source;
     Predictor predictor;
     matching::OdometryCalibration calibration;
-    std::optional<mrpt::math::TPose2D> told;  // motion to the next scan, before it is corrected
+    std::optional<mrpt::math::TPose2D> measured;  // motion to the next scan, before it is corrected
   };
-  /// Scans of a laser that were left out.
+  /// Scans of a laser that were left out because of its tilt.
   struct Tilted {
     std::size_t scans = 0;
     double tilt = 0;  // [rad] the largest
   };
-  /// Times at which the laser began anew and nothing told how it had got there.
+  /// Restarts of the matching across which no source measured the motion.
   struct Gaps {
     std::size_t count = 0;
     double first = 0;  // [s] after the first scan
@@ -93,13 +96,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   void addOdometry(const mrpt::obs::CObservation& observation);
   void follow(const mrpt::obs::CObservation2DRangeScan& scan);
   base::Stamp middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
-  /// In the base; `velocity` [m/s] [rad/s] during the scan.
+  /// The deskewed scan in the base; `velocity` [m/s] [rad/s] of the base during the scan.
   matching::ScanWithNormals wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
                                     const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
-  bool isTold() const;
+  bool isMeasuredByOdometry() const;
   const Odometry* odometryLike(const mrpt::math::TPose2D& motion) const;
-  void insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& told);
+  void insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& measured);
   void restart(const mrpt::obs::CObservation2DRangeScan& scan);
   mapper::RelativeMotion motionOf(const matching::ScanTracker::Tracked& tracked,
                                   const matching::MatchGuess& guess) const;
@@ -107,20 +110,20 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   ScanOdometryOptions options_;
   perception::LaserPointsExtractor extractor_;
   matching::ScanTracker tracker_;
-  std::vector<Odometry> odometries_;                                          // in the order they came
-  std::optional<std::string> label_;                                          // of the first that came
-  std::map<std::string, Tilted> tilted_;                                      // by label
-  std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan::ConstPtr> wait_;  // for their time
-  std::optional<base::Stamp> reached_;                                        // scan that was worked on last
+  std::vector<Odometry> odometries_;                                           // in order of arrival
+  std::optional<std::string> label_;                                           // of the laser that is used
+  std::map<std::string, Tilted> tilted_;                                       // by label
+  std::map<base::Stamp, mrpt::obs::CObservation2DRangeScan::ConstPtr> queue_;  // not yet processed
+  std::optional<base::Stamp> reached_;                                         // stamp of the scan processed last
   std::optional<base::Stamp> last_;   // middle of the scan that was matched last
   std::optional<base::Stamp> begun_;  // middle of the first scan of all
   Gaps gaps_;
-  double blind_seconds_ = 0;      // in which the walls left a direction open, and no odometry told the motion
-  double seeing_seconds_ = 0;     // all others that it followed the base
-  bool is_first_ = true;          // whether none was before it
+  double blind_seconds_ = 0;      // in which the walls left a direction unconstrained, without odometry
+  double seeing_seconds_ = 0;     // all other time in which scans were matched
+  bool is_first_ = true;          // no scan was matched since the last restart
   mrpt::math::TPose2D velocity_;  // [m/s] [rad/s] in the base
   Predictor by_velocity_;
-  double noise_;  // [m] of points from the walls they lie on, by the matches of late
+  double noise_;  // [m] of points from the walls they lie on, by recent matches
   matching::PoseTimeline timeline_;
 };
 

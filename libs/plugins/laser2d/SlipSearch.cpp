@@ -21,11 +21,11 @@ using mrpt::math::TPose2D;
 namespace {
 
 constexpr double kCycleSigmas = 3;
-constexpr double kSameSlip = 0.3, kSameSlipTurn = 0.1;  // [m] [rad] within which two motions are one
+constexpr double kSameSlip = 0.3, kSameSlipTurn = 0.1;  // [m] [rad] within which two motions are the same
 constexpr double kSlipDegree = base::option_text::kRadiansPerDegree;
-constexpr double kMapErrs = 0.8, kMapErrsBy = 8 * kSlipDegree;  // [m] [rad] from a closure to a span
+constexpr double kMapError = 0.8, kMapAngleError = 8 * kSlipDegree;  // [m] [rad] of the map from a closure to a span
 
-// What a factor between two poses measured, in the plane.
+// The planar motion that a factor between two poses measured.
 std::optional<TPose2D> measuredBy(const graph::Factor& factor) {
   if (const auto* planar = dynamic_cast<const graph::BetweenSe2*>(&factor)) return geometry::toMrpt(planar->measured());
   if (const auto* spatial = dynamic_cast<const graph::BetweenSe3*>(&factor))
@@ -51,18 +51,18 @@ std::vector<base::FactorId> linksBetween(const map::KeyFrame& before, const map:
 
 }  // namespace
 
-// From key frame trajectory_[before] to the next.
+// The span from key frame trajectory_[before] to the next.
 struct SlipSearch::Span {
   std::size_t before = 0;
-  TPose2D estimated, required;            // the motion as the map has it, and as the closures ask for
-  double as_estimated = 0, as_found = 0;  // share of the scans after it that fit those before it, so moved
-  TPose2D found;                          // where they fit best, near what is required
+  TPose2D estimated, required;            // the motion in the map, and the one that the closures require
+  double as_estimated = 0, as_found = 0;  // share of the scans after it that fit those before it
+  TPose2D found;                          // where they fit best, near the required motion
 };
 
-// What takes the place of a measured motion.
+// The motion that replaces a measured one.
 struct SlipSearch::SpanCorrection {
   Span span;
-  mapper::RelativeMotion motion;  // in the plane; height and tilt are open
+  mapper::RelativeMotion motion;  // in the plane, with wide variances of height and tilt
   std::string reason;
   std::vector<std::pair<std::string, double>> numbers;
 };
@@ -92,14 +92,14 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
                       {"spans that may have slipped", static_cast<double>(candidates.size())}};
   if (candidates.empty()) {
     decision.kind = "global loop search";
-    decision.reason = "places that look alike: no slip of the robot leads from one to the other";
+    decision.reason = "the closures confuse places that look alike: no slip of the robot explains them";
     batch.log(std::move(decision));
     return batch;
   }
   auto correction = correctedByScans(candidates, state);
   if (!correction) correction = correctedByClosures(candidates);
   if (!correction) {
-    decision.reason = "closures that agree with one another contradict the map, and no single span explains it";
+    decision.reason = "closures that agree with one another contradict the map, and no single span explains that";
     batch.log(std::move(decision));
     return batch;
   }
@@ -117,16 +117,16 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   decision.reason = correction->reason;
   for (const auto id : linksBetween(before, after, state.graph)) batch.setWeight(id, 0);
   auto factor = mapper::betweenPoses(context_.motion, before.pose, after.pose,
-                                     withTheRest(correction->motion, before, after, state), context_.section);
+                                     withHeightAndTilt(correction->motion, before, after, state), context_.section);
   factor.tags.note = kSlip;
   batch.addFactor(std::move(factor));
   batch.log(std::move(decision));
   return batch;
 }
 
-// What was not contradicted: height and tilt stay as they are in a spatial map.
-mapper::RelativeMotion SlipSearch::withTheRest(mapper::RelativeMotion motion, const map::KeyFrame& before,
-                                               const map::KeyFrame& after, const mapper::State& state) {
+// Keeps height and tilt of a spatial map, which the closures do not contradict.
+mapper::RelativeMotion SlipSearch::withHeightAndTilt(mapper::RelativeMotion motion, const map::KeyFrame& before,
+                                                     const map::KeyFrame& after, const mapper::State& state) {
   const auto known = state.covarianceBetween(before.id, after.id);
   if (!known) return motion;
   const auto estimated = after.map_from_base - before.map_from_base;
@@ -158,8 +158,8 @@ std::vector<SlipSearch::Closure> SlipSearch::closures(const mapper::State& state
   return all;
 }
 
-// Those that agree with the newest, it included; that with the earliest end first. The cycle of two closures goes over
-// the short spans between their ends alone, so it holds however wrong the map is between place and end.
+// The closures that agree with the newest one, which is included; sorted by their later key frame. The cycle of two
+// closures uses only the short spans between their ends, so it is valid however wrong the map is between place and end.
 std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state) const {
   auto all = closures(state);
   if (all.empty()) return all;
@@ -173,7 +173,7 @@ std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state
     const bool is_newest = one.newest == newest.newest && one.place == newest.place;
     const auto places = between(one.place, newest.place), ends = between(one.newest, newest.newest);
     if (!places || !ends) return true;
-    if (one.newest == newest.newest && !is_newest) return true;  // two of one key frame are one witness
+    if (one.newest == newest.newest && !is_newest) return true;  // two of one key frame are not independent
     const TPose2D predicted =
         motion(newest.place, one.place, state) + one.place_from_newest + motion(one.newest, newest.newest, state);
     const double reach =
@@ -189,10 +189,10 @@ std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state
   return all;
 }
 
-// Those between all the places and all the ends that a base could have driven as the closures ask for.
+// The spans between all places and all ends whose required motion a base could have driven.
 std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agreeing,
                                                 const mapper::State& state) const {
-  constexpr double kMostMotion = 3;  // [m] from one key frame to the next, beside what was measured
+  constexpr double kMostMotion = 3;  // [m] between consecutive key frames, beyond the estimated motion
   const Closure& first = agreeing.front();
   std::size_t begin = 0;
   for (const auto& closure : agreeing) begin = std::max(begin, closure.place);
@@ -232,8 +232,8 @@ matching::ScanWithNormals SlipSearch::seenAfter(const Span& span, const mapper::
   return localMap(key_scans, trajectory_[span.before + 1].frame, state);
 }
 
-// How the scans before and after each span fit: as the map has it, and best near what is required, for the map between
-// the closures errs, too.
+// Computes how well the scans before and after each span fit at the estimated motion, and at the best one near the
+// required motion, because the map between the closures has errors, too.
 void SlipSearch::compare(std::vector<Span>& spans, const mapper::State& state) const {
   constexpr double kSpacing = 0.25;  // [m] between the points
   grid::LikelihoodOptions grid;
@@ -247,19 +247,19 @@ void SlipSearch::compare(std::vector<Span>& spans, const mapper::State& state) c
     const grid::LikelihoodPyramid pyramid(seenBefore(span, state).points, grid);
     const auto query = matching::voxelDownsample(seenAfter(span, state), kSpacing).points;
     span.as_estimated = pyramid.score(query, span.estimated);
-    const auto found = matching::search(pyramid, query, {span.required, kMapErrs, kMapErrs, kMapErrsBy}, limits);
+    const auto found = matching::search(pyramid, query, {span.required, kMapError, kMapError, kMapAngleError}, limits);
     if (found.empty()) continue;
     span.found = found.front().map_from_scan;
     span.as_found = found.front().score;
   }
 }
 
-// The span whose scans gain most overlap by the motion that the closures require, by a fine match.
+// The span whose scans gain most overlap at the motion that the closures require, by a fine match.
 std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByScans(std::vector<Span> spans,
                                                                        const mapper::State& state) const {
   constexpr double kFine = 0.08;         // [m] between the points
-  constexpr double kLeastOverlap = 0.4;  // as laser odometry asks for
-  constexpr double kBetter = 0.1;        // of the overlap, than as the map has it
+  constexpr double kLeastOverlap = 0.4;  // as laser odometry requires
+  constexpr double kBetter = 0.1;        // least gain of overlap over the estimated motion
   constexpr std::size_t kMost = 5;
   const auto gain = [](const Span& span) { return span.as_found - span.as_estimated; };
   std::stable_sort(spans.begin(), spans.end(), [&](const Span& a, const Span& b) { return gain(a) > gain(b); });
@@ -272,34 +272,35 @@ std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByScans(std::vect
     const auto match = matcher_->match(*reference, query, span.found);
     if (match.degenerate || match.overlap < kLeastOverlap) continue;
     if (distanceBetween(match.reference_from_scan, span.estimated).within(kSameSlip, kSameSlipTurn)) continue;
-    // What the matcher leads away from the motion that the map has does not speak for it.
+    // A match that starts at the estimated motion and ends elsewhere does not support that motion.
     const auto as_it_is = matcher_->match(*reference, query, span.estimated);
     const bool stays = distanceBetween(as_it_is.reference_from_scan, span.estimated).within(kSameSlip, kSameSlipTurn);
     const double better = match.overlap - (stays ? as_it_is.overlap : 0);
     if (better <= best_gain) continue;
     best_gain = better;
-    best = SpanCorrection{span,
-                          scanMotion(options_, match),
-                          "closures that agree contradict the motion here, and the scans fit better as they say",
-                          {{"overlap", match.overlap}, {"overlap gained", better}}};
+    best = SpanCorrection{
+        span,
+        scanMotion(options_, match),
+        "closures that agree contradict the motion here, and the scans fit better at the one they require",
+        {{"overlap", match.overlap}, {"overlap gained", better}}};
   }
   return best;
 }
 
-// The only span whose scans do not bear out its motion, such as one that only the wheels measured. The closures say how
-// it was, as well as the map between them is known.
+// The only span whose scans do not confirm its motion, such as one that only the wheels measured. It gets the motion
+// that follows from the closures, with the uncertainty of the map between them.
 std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByClosures(std::vector<Span> spans) {
-  constexpr double kMost = 0.2;  // of the scans that fit by chance
+  constexpr double kMost = 0.2;  // share of the scans that may fit by chance
   if (spans.empty()) return std::nullopt;
   std::stable_sort(spans.begin(), spans.end(),
                    [](const Span& a, const Span& b) { return a.as_estimated < b.as_estimated; });
   const Span& worst = spans[0];
   if (worst.as_estimated > kMost || (spans.size() > 1 && spans[1].as_estimated < worst.as_estimated + kMost / 2))
     return std::nullopt;
-  const Eigen::Vector3d sigmas(kMapErrs, kMapErrs, kMapErrsBy);
+  const Eigen::Vector3d sigmas(kMapError, kMapError, kMapAngleError);
   return SpanCorrection{worst,
                         planarMotion(worst.required, sigmas.cwiseAbs2().asDiagonal()),
-                        "closures that agree contradict the motion here, which no scans bear out",
+                        "closures that agree contradict the motion here, which no scans confirm",
                         {{"share of the scans that fitted [1]", worst.as_estimated}}};
 }
 

@@ -8,21 +8,21 @@
 
 namespace omnimapper::plugins {
 
-/// A search for the span of the trajectory that slipped, as a job. Refused closures that agree with one another, but
-/// not with the map, say how far its end is off; what the motion of each single span would have to be if it alone were
-/// wrong follows from them. The span whose scans gain most overlap by the motion that the closures require takes that
-/// motion. If no scans confirm one, and the scans of a single span do not fit its odometry either, the motion follows
-/// from the closures, with the uncertainty of the map between them.
+/// A job that searches for the span of the trajectory in which the odometry slipped. Refused closures that agree with
+/// one another, but not with the map, determine the error at the end of the trajectory. From it follows the motion that
+/// each span must have had if only that span was wrong. The span whose scans gain most overlap at that motion gets it.
+/// If scans confirm no span, but those of exactly one span do not fit its odometry either, that span gets the motion
+/// that follows from the closures, with the uncertainty of the map between them.
 class SlipSearch {
  public:
-  /// `refused`: closures by scans that do not act. `trajectory`: what was seen at each key frame of the map, in order;
-  /// an empty scan where that was nothing.
+  /// `refused`: refused closures by scans. `trajectory`: the scan of each key frame of the map, in order; an empty one
+  /// where there is none.
   SlipSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
              std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<base::FactorId> refused,
              std::vector<LoopSearch::KeyScan> trajectory);
 
-  /// Empty if no two of them agree; else a decision of the kind kSlip, with the new motion if it is accepted. It is of
-  /// another kind if no slip can explain them.
+  /// Empty if no two closures agree; else a decision of kind kSlip, with the new motion if it is accepted. The decision
+  /// is of another kind if no slip can explain the closures.
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:
@@ -41,8 +41,8 @@ class SlipSearch {
   static std::optional<SpanCorrection> correctedByClosures(std::vector<Span> spans);
   matching::ScanWithNormals seenBefore(const Span& span, const mapper::State& state) const;
   matching::ScanWithNormals seenAfter(const Span& span, const mapper::State& state) const;
-  static mapper::RelativeMotion withTheRest(mapper::RelativeMotion motion, const map::KeyFrame& before,
-                                            const map::KeyFrame& after, const mapper::State& state);
+  static mapper::RelativeMotion withHeightAndTilt(mapper::RelativeMotion motion, const map::KeyFrame& before,
+                                                  const map::KeyFrame& after, const mapper::State& state);
   mrpt::math::TPose2D motion(std::size_t from, std::size_t to, const mapper::State& state) const;
 
   LoopClosureOptions options_;
@@ -52,9 +52,9 @@ class SlipSearch {
   std::vector<LoopSearch::KeyScan> trajectory_;
 };
 
-/// Kind of the decision, and note of the factor that replaces what was measured.
+/// Kind of the decision, and note of the factor that replaces the measured motion.
 inline constexpr char kSlip[] = "slip";
-/// Numbers of an accepted one.
+/// Names of the numbers of an accepted decision.
 inline constexpr char kSlippedBy[] = "slipped by [m]", kSlippedByAngle[] = "slipped by [deg]";
 
 }  // namespace omnimapper::plugins

@@ -18,7 +18,7 @@ void TestedClosures::noteSolves(std::size_t solves) {
   for (auto& closure : closures_) closure.is_tested = true;
 }
 
-// Of its later end.
+// Stamp of the later key frame of a factor.
 std::optional<base::Stamp> TestedClosures::stampOf(const graph::FactorRecord& record) const {
   std::optional<base::Stamp> newest;
   for (const auto variable : record.variables) {
@@ -82,7 +82,7 @@ mapper::Batch TestedClosures::proposedAgain(const mapper::State& state, const st
     decision.is_loop_closure = true;
     decision.from = newest->id;
     decision.to = place->id;
-    decision.reason = "proposed again, without the slip";
+    decision.reason = "proposed again after a slip was corrected";
     record.weight = 1;
     batch.removeFactor(id);
     batch.addHypothesis(std::move(record), std::move(decision));

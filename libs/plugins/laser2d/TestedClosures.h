@@ -12,23 +12,24 @@
 
 namespace omnimapper::plugins {
 
-/// The closures of this run, and what the consistency test made of them.
+/// The closures of this run and the results of their consistency tests.
 class TestedClosures {
  public:
-  /// A key frame that a closure may begin or end at.
+  /// Adds a key frame at which a closure may begin or end.
   void add(const map::KeyFrame& frame) { stamp_of_[frame.pose] = frame.stamp; }
-  /// Factors between key frames that the engine has taken.
+  /// Adds factors between key frames that the engine has applied.
   void add(const std::vector<base::FactorId>& factors);
-  /// Takes note of the solves so far: what was there before the last one has been tested. Once for each key frame.
+  /// Notes the number of solves so far: all closures that were there before the last solve have been tested. To be
+  /// called once for each key frame.
   void noteSolves(std::size_t solves);
 
-  /// Stamp of the newest key frame that a closure ties to the map; of one with that note, whether it acts or not. None
-  /// without such a closure.
+  /// Stamp of the newest key frame that an accepted closure ties to the map; for newestWithNote() that of a closure
+  /// with the given note, accepted or not. None without such a closure.
   std::optional<base::Stamp> newestTied(const graph::Graph& graph) const;
   std::optional<base::Stamp> newestWithNote(const graph::Graph& graph, const std::string& note) const;
-  /// Closures of global searches that were tested and do not act.
+  /// Closures of global searches that were tested and refused.
   std::vector<base::FactorId> refusedGlobally(const graph::Graph& graph) const;
-  /// Proposes every refused global closure again, once, when the map is solved with a corrected motion; else empty.
+  /// Proposes all refused global closures again, once after each solve with a newly corrected motion; else empty.
   mapper::Batch proposedAgain(const mapper::State& state, const std::string& section);
   /// How many motions were corrected so far.
   std::size_t corrections() const { return corrections_; }
@@ -37,7 +38,7 @@ class TestedClosures {
   struct Closure {
     base::FactorId id;
     bool is_tested;
-    bool is_settled;  // of a corrected motion: what it was found by has been proposed again
+    bool is_settled;  // of a corrected motion: the refused closures have been proposed again
   };
   std::optional<base::Stamp> stampOf(const graph::FactorRecord& record) const;
 

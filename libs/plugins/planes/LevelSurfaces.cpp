@@ -38,7 +38,7 @@ std::vector<surfaces::Judgement> LevelSurfaces::judged(PlaneLandmarksOptions::Gr
   return surfaces::classify(surfaces_, floor(ground, key_frames));
 }
 
-// Whether the map's own z is up, by what is known or for lack of it.
+// Whether z of the map is up; true, too, if nothing is known of its level.
 bool LevelSurfaces::isMapLevel() const {
   constexpr double kLevel = 0.996;  // cosine of 5 deg
   return !level_ || level_->up.z() > kLevel;
@@ -53,7 +53,7 @@ double LevelSurfaces::floor(PlaneLandmarksOptions::Ground ground, const map::Key
     const Eigen::Vector3d start = geometry::fromMrpt(key_frames.front().map_from_base).translation;
     return level_ ? (level_->levelFromMap() * start).z() : start.z();
   }
-  constexpr double kLevelNormal = 0.95, kLarge = 0.5, kApart = 0.1;  // of the normal's height, [m^2], [m]
+  constexpr double kLevelNormal = 0.95, kLarge = 0.5, kApart = 0.1;  // z of the normal, [m^2], [m]
   std::vector<std::pair<double, double>> heights;                    // and areas
   double lowest = HUGE_VAL;
   for (const auto& surface : surfaces_) {
@@ -61,7 +61,7 @@ double LevelSurfaces::floor(PlaneLandmarksOptions::Ground ground, const map::Key
     if (surface.plane.normal.z() > kLevelNormal) heights.emplace_back(heightOf(surface), areaOf(surface));
   }
   std::sort(heights.begin(), heights.end());
-  // Parts of one floor count together.
+  // Parts of one floor are added up.
   for (std::size_t begin = 0; begin < heights.size(); ++begin) {
     double area = 0, sum = 0;
     for (std::size_t i = begin; i < heights.size() && heights[i].first < heights[begin].first + kApart; ++i) {

@@ -11,19 +11,20 @@
 
 namespace omnimapper::plugins {
 
-/// The surfaces of a map, turned so that up is z, for whoever judges by what is level, upright, high or low.
+/// The surfaces of a map, rotated so that z is up, to judge them by slope and height.
 class LevelSurfaces {
  public:
-  /// Without a level z of the map is up.
+  /// Without `level`, z of the map is up.
   explicit LevelSurfaces(std::optional<map::Level> level) : level_(std::move(level)) {}
 
   void add(const surfaces::Surface& in_map);
-  /// As they lie where z is up; in the order in which they were added.
+  /// The rotated surfaces, in the order in which they were added.
   const std::vector<surfaces::Surface>& all() const { return surfaces_; }
-  /// What each of them is. Where nobody knows which way is up all are "surface".
+  /// The class of each surface; "surface" for all if it is not known which way is up.
   std::vector<surfaces::Judgement> judged(PlaneLandmarksOptions::Ground ground, const map::KeyFrames& key_frames) const;
-  /// z of where people walk in the level frame [m]. Of a base that stands on it, or of poses whose z = 0 it is, that;
-  /// else the lowest large level surface, else the lowest corner.
+  /// Height of the floor that people walk on, in the level frame [m]: 0 with Ground::map in a level map; that of the
+  /// first base if the base stands on the floor; else that of the lowest large level surface or, without one, the
+  /// lowest corner.
   double floor(PlaneLandmarksOptions::Ground ground, const map::KeyFrames& key_frames) const;
 
  private:

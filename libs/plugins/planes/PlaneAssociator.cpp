@@ -34,9 +34,9 @@ PlaneAssociator::PlaneAssociator(const PlaneLandmarksOptions& options, const map
 
 namespace {
 
-constexpr double kSigmas = 4;  // of what the base may be off, to look at a landmark at all
+constexpr double kSigmas = 4;  // of the pose of the base, within which landmarks are considered
 
-PlaneLandmarkIndex::Heights toldBy(const PlaneMeasurement& measurement) {
+PlaneLandmarkIndex::Heights heightsKnownBy(const PlaneMeasurement& measurement) {
   return measurement.is_line ? PlaneLandmarkIndex::Heights::unknown : PlaneLandmarkIndex::Heights::known;
 }
 
@@ -59,7 +59,7 @@ mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
     found.describe(i, decision);
     if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
     const bool spans_two = spansTwo(match, pairings);
-    if (spans_two) decision.reason = "matched: reaches over two landmarks of one plane";
+    if (spans_two) decision.reason = "matched: it spans two landmarks on one plane";
     if (match.kind == mapper::Match::Kind::matched || spans_two) {
       decision.accepted = true;
       addToKnown(measurements[i], pairings[*match.pairing], std::move(decision));
@@ -74,7 +74,7 @@ mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
 
 std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<PlaneMeasurement>& measurements) {
   std::vector<mapper::Pairing> pairings;
-  // Where nothing is learnt any more, what may be noise must not hold a pose as if it were exact.
+  // A run that only localizes does not update landmarks, so candidates, which may be noise, must not constrain a pose.
   const auto isOf = [&](const PlaneLandmarkIndex::Surface& surface) {
     if (others_seek_ && !view_.areJoined(frame_.id.session, surface.id.session)) return false;
     return !view_.map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
@@ -86,7 +86,7 @@ std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<Plane
     for (const auto& [id, surface] : known_.all()) {
       if (!isOf(surface)) continue;
       const auto miss = missIfAlike(surface, measurements[i], points);
-      // Farther ones where the base may have slid so far since it saw them.
+      // Beyond the gate, landmarks are considered if drift since their last measurement may explain the distance.
       if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
       pairings.push_back({i, surface.id, record(measurements[i], surface.variable, surface.id)});
     }
@@ -112,7 +112,7 @@ std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Sur
   if (off > kSigmas * pose_sigma_) return std::nullopt;
   const double max_gap = maxGap(surface, measurement, points), farthest = max_gap + kSigmas * pose_sigma_;
   if (gapAtLeast(surface, points, middle) > farthest) return std::nullopt;
-  const double gap = gapBetween(surface, points, toldBy(measurement)) - max_gap;
+  const double gap = gapBetween(surface, points, heightsKnownBy(measurement)) - max_gap;
   if (gap > kSigmas * pose_sigma_) return std::nullopt;
   return std::max(off, gap);
 }
@@ -158,21 +158,21 @@ void PlaneAssociator::addToKnown(const PlaneMeasurement& measurement, const mapp
   if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
   batch_.log(std::move(decision));
   batch_.addFactor(pairing.record);
-  // A landmark may be met twice in a moment: the second time goes on from what the first made of it.
+  // One observation may measure a landmark twice: the second measurement continues from the payload of the first.
   auto& payload = payloads_[id];
   if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view_.map.landmark(id).payload);
   const PlaneLandmarkIndex::Surface& surface = known_.all().at(id);
   const auto points = inMap(measurement.outline_in_base);
-  if (tellsLean(measurement, points, surface, *payload)) {
+  if (determinesTilt(measurement, points, surface, *payload)) {
     const auto upright = uprightFactor(view_.graph, surface.variable);
-    if (upright && leaning_.insert(*upright).second) batch_.removeFactor(*upright);
+    if (upright && removed_priors_.insert(*upright).second) batch_.removeFactor(*upright);
   }
   payload = payload->with(frame_.id, measurement, newsOf(measurement, points, surface, *payload));
   batch_.addEvidence(id, payload);
 }
 
-bool PlaneAssociator::tellsLean(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
-                                const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) {
+bool PlaneAssociator::determinesTilt(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
+                                     const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) {
   constexpr double kSecondHeight = 0.4;  // [m]
   if (payload.wasSeenAsPlane()) return false;
   if (!measurement.is_line) return true;
@@ -193,9 +193,9 @@ bool PlaneAssociator::reachesOver(const PlaneLandmarkIndex::Surface& surface,
 
 namespace {
 
-// Whether a part of a surface covers more cells that were not yet seen than edges that are seen elsewhere each time do.
+// Whether a part of a surface covers more cells that were not yet seen than the poor repeatability of edges explains.
 bool showsMore(const surfaces::FlatPart& part, const geometry::Plane3& plane, const surfaces::CellGrid& seen) {
-  constexpr double kBay = 0.02, kEdge = 0.004;  // [m^2], [m] that edges are seen alike
+  constexpr double kBay = 0.02, kEdge = 0.004;  // [m^2], [m] repeatability of edges
   const auto& points = part.outline;
   if (!(extentOf(points) < kLargestCounted)) return false;
   double around = 0;
@@ -237,7 +237,7 @@ News PlaneAssociator::newsOf(const PlaneMeasurement& measurement, const std::vec
 
 double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                                const std::vector<Eigen::Vector3d>& points) const {
-  // What reaches so high and goes on behind a bookcase or a door is one wall.
+  // Surfaces that reach this high on both sides of a bookcase or a door are one wall.
   constexpr double kOverFurniture = 1.5;  // [m]
   if (measurement.is_line || surface.heights == PlaneLandmarkIndex::Heights::unknown) return options_.max_gap;
   const double high = known_.emptyPayload().groundIn(view_.map.key_frames) + kOverFurniture;
@@ -258,9 +258,9 @@ void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decisi
   }
   const Plane3 plane = map_from_base_ * measurement.plane_in_base;
   const auto points = inMap(measurement.outline_in_base);
-  if (Fresh* same = alikeInThisMoment(measurement, points)) {
+  if (Fresh* same = freshMatch(measurement, points)) {
     decision.accepted = true;
-    decision.reason = "of a new landmark seen twice at once";
+    decision.reason = "another measurement of a new landmark in the same observation";
     batch_.log(std::move(decision));
     batch_.addFactor(record(measurement, same->surface.variable, same->surface.id));
     same->payload = same->payload->with(frame_.id, measurement, {true, true});
@@ -272,7 +272,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decisi
   }
   const bool large = measurement.size >= (measurement.is_line ? options_.min_length : options_.min_area);
   decision.accepted = large;
-  decision.reason = (large ? "new: " : "too small for a new one: ") + decision.reason;
+  decision.reason = (large ? "new: " : "too small for a new landmark: ") + decision.reason;
   batch_.log(std::move(decision));
   if (!large) return;
   const auto variable = batch_.addVariable(form_.variable(), form_.value(plane, points));
@@ -295,13 +295,13 @@ void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decisi
   fresh.surface.plane = plane;
   fresh.surface.hull = hullOn(landmarks::PlaneAxes(plane), points);
   std::tie(fresh.surface.lowest, fresh.surface.highest) = heightsOf(points);
-  fresh.surface.heights = toldBy(measurement);
+  fresh.surface.heights = heightsKnownBy(measurement);
   fresh.payload = payload;
   fresh_.push_back(std::move(fresh));
 }
 
-PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasurement& measurement,
-                                                           const std::vector<Eigen::Vector3d>& points) {
+PlaneAssociator::Fresh* PlaneAssociator::freshMatch(const PlaneMeasurement& measurement,
+                                                    const std::vector<Eigen::Vector3d>& points) {
   constexpr double kTurn = 0.05, kOff = 0.05;  // [rad], [m]
   const Eigen::Vector3d normal = map_from_base_.rotation * measurement.plane_in_base.normal;
   for (Fresh& fresh : fresh_) {
@@ -310,7 +310,7 @@ PlaneAssociator::Fresh* PlaneAssociator::alikeInThisMoment(const PlaneMeasuremen
       return std::abs(signedDistance(plane, point)) > kOff;
     });
     if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
-        gapBetween(fresh.surface, points, toldBy(measurement)) <= maxGap(fresh.surface, measurement, points))
+        gapBetween(fresh.surface, points, heightsKnownBy(measurement)) <= maxGap(fresh.surface, measurement, points))
       return &fresh;
   }
   return nullptr;

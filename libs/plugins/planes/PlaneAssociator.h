@@ -18,7 +18,8 @@
 
 namespace omnimapper::plugins {
 
-/// The work of PlaneLandmarksPlugin on one observation: which landmark each measurement is of, and what becomes of it.
+/// Associates the measurements of one observation with plane landmarks, for PlaneLandmarksPlugin, and makes the batch
+/// of what follows.
 class PlaneAssociator {
  public:
   PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
@@ -30,39 +31,43 @@ class PlaneAssociator {
   mapper::Batch take(const std::vector<PlaneMeasurement>& measurements);
 
  private:
+  // A landmark that this observation creates.
   struct Fresh {
     PlaneLandmarkIndex::Surface surface;
     std::shared_ptr<const PlanePayload> payload;
   };
 
   std::vector<mapper::Pairing> pairingsOf(const std::vector<PlaneMeasurement>& measurements);
-  // Of two landmarks on one plane, say on both sides of a door: each is as right, and now they touch.
+  // Whether a match is ambiguous between two landmarks on one plane, say on both sides of a door: either is right, and
+  // the measurement connects them.
   bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
   // Distance of a measurement outside the association gate of a surface [m], off its plane or along it; <= 0 within the
   // gate. None if the normals disagree, however wrong the pose of the base may be.
   std::optional<double> missIfAlike(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                                     const std::vector<Eigen::Vector3d>& points) const;
-  // How far what is at that range from the base may have slid since then [m, sigma].
+  // Standard deviation [m] of what is at `range` [m] from the base, relative to the key frame `frame`.
   double sigmaSince(base::KeyFrameId frame, double range);
   std::vector<Eigen::Vector3d> inMap(const std::vector<Eigen::Vector3d>& in_base) const;
   graph::FactorRecord record(const PlaneMeasurement& measurement, base::VariableId plane,
                              base::LandmarkId landmark) const;
   mapper::Decision decisionOf(const PlaneMeasurement& measurement) const;
   void addToKnown(const PlaneMeasurement& measurement, const mapper::Pairing& pairing, mapper::Decision decision);
-  // Whether it is the first that shows how the landmark leans: a plane, or a line of a second height (thesis 4.2.3).
-  static bool tellsLean(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
-                        const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload);
-  // Whether a corner lies outside by more than edges are seen alike.
+  // Whether it is the first measurement that determines the tilt of the landmark: a plane, or a line at a second height
+  // (thesis 4.2.3).
+  static bool determinesTilt(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
+                             const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload);
+  // Whether a point lies outside the surface by more than the repeatability of edges.
   static bool reachesOver(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points);
   News newsOf(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
               const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const;
-  // [m] between a surface and a measurement of it.
+  // Largest gap [m] between a surface and a measurement of it.
   double maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                 const std::vector<Eigen::Vector3d>& points) const;
   void logUseless(const PlaneMeasurement& measurement);
   void addNew(const PlaneMeasurement& measurement, mapper::Decision decision);
-  // Two stretches of one wall, with a door between them.
-  Fresh* alikeInThisMoment(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points);
+  // The landmark among `fresh_` that the measurement is of, too, such as another stretch of one wall beside a door;
+  // null if there is none.
+  Fresh* freshMatch(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points);
 
   const PlaneLandmarksOptions& options_;
   const mapper::PluginContext& context_;
@@ -70,13 +75,13 @@ class PlaneAssociator {
   const landmarks::PlaneParametrization& form_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
-  const bool others_seek_;  // where the newest session lies: it is tied to no other by what is measured here
+  const bool others_seek_;  // for the pose of the newest session: no measurement here ties it to others
   geometry::Se3 map_from_base_;
   double pose_sigma_ = 0;                                                  // [m] of the base in the map
-  std::map<base::KeyFrameId, std::pair<double, double>> variances_since_;  // of the way [m^2], of the turn [rad^2]
+  std::map<base::KeyFrameId, std::pair<double, double>> variances_since_;  // of position [m^2], of rotation [rad^2]
   std::vector<Fresh> fresh_;
-  std::set<base::FactorId> leaning_;                                          // upright priors that were removed
-  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those that were met
+  std::set<base::FactorId> removed_priors_;                                   // upright priors that were removed
+  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those matched so far
   mapper::Batch batch_;
 };
 

@@ -14,7 +14,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-/// A landmark of the map with what is seen of it.
+/// A landmark with its surface in the map.
 struct DrawnLandmark {
   base::LandmarkId id;
   std::shared_ptr<PlanePayload> payload;
@@ -36,7 +36,7 @@ std::vector<DrawnLandmark> drawnOf(const PlanePayloads& payloads, const PlaneLan
   return all;
 }
 
-// How rough at most half of the area is that the map has.
+// Median roughness of the surfaces of the map, weighted by area; 0 if unknown.
 double usualRoughness(const std::vector<DrawnLandmark>& all) {
   std::vector<std::pair<double, double>> by_roughness;  // and their areas
   double whole = 0;
@@ -56,12 +56,13 @@ double usualRoughness(const std::vector<DrawnLandmark>& all) {
   return 0;
 }
 
-// How often a surface must have been seen as a plane to be drawn; `rough`: how rough it is, to what is usual. Planes
-// through the spines of books, the legs of chairs and heaps of things lie rougher than walls do, most of them upright
-// or leaning, and the longer a log, the more chance views agree. Not at all where nothing makes up for how rough it is.
+// How often a surface must have been measured as a plane to be drawn; none if it is too rough to be drawn at all.
+// `rough`: its roughness relative to the usual one. Planes through the spines of books, the legs of chairs and heaps of
+// objects are rougher than walls, and most are upright or tilted. The longer a log is, the more measurements agree by
+// chance.
 std::optional<std::size_t> measurementsToDraw(const geometry::Plane3& plane, double rough, std::size_t key_frames) {
-  constexpr double kLevel = 0.95, kUpright = 0.2;                   // of the normal's height
-  constexpr double kSmooth = 1.2, kRough = 1.5, kRoughLevel = 2.5;  // to what is usual
+  constexpr double kLevel = 0.95, kUpright = 0.2;                   // z of the normal
+  constexpr double kSmooth = 1.2, kRough = 1.5, kRoughLevel = 2.5;  // relative to the usual roughness
   constexpr std::size_t kLevelOnes = 2, kSmoothOnes = 3, kFewest = 2, kMost = 7, kKeyFramesForOne = 200;
   const double height = std::abs(plane.normal.z());
   const std::size_t by_length = std::min(kMost, kFewest + key_frames / kKeyFramesForOne);
@@ -89,7 +90,7 @@ PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& kn
     }
     const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;
     const auto needed = measurementsToDraw(level.all()[i].plane, rough, view.map.key_frames.size());
-    // That a laser saw it often tells that something is there, not how far it reaches: it counts as one view.
+    // Many lines of a laser show that a surface exists, not how far it extends: they count as one measurement.
     constexpr std::size_t kOften = 8;
     const std::size_t planes = payload.planeMeasurements(), lines = payload.measurements() - planes;
     payload.is_candidate = !payload.isAccepted() && (!needed || planes + (lines >= kOften ? 1 : 0) < *needed);

@@ -9,11 +9,11 @@
 
 namespace omnimapper::plugins {
 
-/// What is known of plane landmarks, by landmark.
+/// The payloads of plane landmarks, by landmark.
 using PlanePayloads = std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>>;
 
-/// The payloads of landmarks of a map, with what each surface is in the midst of the others (surfaces::classify()), and
-/// whether it was seen often and well enough to be drawn. Lines of a laser alone are walls, and drawn if seen three
+/// The payloads with the class of each surface among all others (surfaces::classify()), and whether it was measured
+/// often and well enough to be drawn. Landmarks that only laser lines measured are walls, drawn if measured three
 /// times.
 PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& known, const mapper::View& view);
 

@@ -12,7 +12,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr double kUpright = 0.2;  // of the normal's height
+constexpr double kUpright = 0.2;  // z of the normal
 
 struct Interval {
   double low, high;
@@ -54,7 +54,7 @@ void PlaneLandmarkIndex::update(const mapper::View& view) {
     ++at;
     const auto plane = form().plane(view.graph.value(landmark->variables.front()));
     const bool is_solved = surface.solve != view.solves.size() + 1;
-    // Between solutions nothing moves but a session as a whole, and patches are but added.
+    // Between solves only whole sessions move, and patches are only added.
     const bool is_placed = plane.normal != surface.plane.normal || plane.distance != surface.plane.distance;
     if (surface.payload == landmark->payload && !is_solved && !is_placed) continue;
     const auto& payload = dynamic_cast<const PlanePayload&>(*landmark->payload);

@@ -93,7 +93,7 @@ PlaneLandmarksPlugin::PlaneLandmarksPlugin(const PlaneLandmarksOptions& options,
   throw base::Error(base::ExitCode::out_of_range,
                     "[" + context.section +
                         "] form = wall needs [mapper] motion = planar; for a map in space "
-                        "take form = plane");
+                        "set form = plane");
 }
 
 PlaneLandmarksPlugin::~PlaneLandmarksPlugin() = default;
@@ -106,10 +106,10 @@ bool PlaneLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) con
 mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                             const mapper::View& view) {
   known_->update(view);
-  // Who localizes says where it begins, and must be located soon; what is tied wrongly there harms no map.
+  // A run that only localizes states where it starts and must be located soon; a wrong association harms no map there.
   const bool is_left_to_others = others_seek_ && !view.map_is_held;
-  PlaneAssociator moment(options_, context_, *known_, frame, view, is_left_to_others);
-  return moment.take(planeMeasurements(observed.observation, moment.upInBase(), known_->form(), options_));
+  PlaneAssociator associator(options_, context_, *known_, frame, view, is_left_to_others);
+  return associator.take(planeMeasurements(observed.observation, associator.upInBase(), known_->form(), options_));
 }
 
 void PlaneLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {

@@ -15,26 +15,26 @@ namespace omnimapper::plugins {
 struct PlaneLandmarksOptions : mapper::AssociationOptions {
   enum class Form { plane, wall };
   Form form = Form::plane;
-  /// Where tables and floors are counted from: below the first key frame's base, or z = 0 of the map.
+  /// Height from which tables and floors are distinguished: that of the base at the first key frame, or z = 0.
   enum class Ground : std::uint8_t { start = 0, map = 1 };
   Ground ground = Ground::start;
-  /// How what was seen of a surface as a plane becomes its boundary in the map.
+  /// How the measured parts of a surface become its boundary in the map.
   enum class Boundary : std::uint8_t {
-    hull = 0,  ///< convex
-    seen = 1   ///< the union of what was seen, with bays and holes
+    hull = 0,  ///< their convex hull
+    seen = 1   ///< their union, with bays and holes
   };
   Boundary boundary = Boundary::seen;
-  bool planes = true;           ///< measure CObservationPlanes
-  bool lines = true;            ///< measure CObservationLaserLines
-  double min_area = 0.25;       ///< [m^2] of a new landmark, seen as a plane
-  double min_length = 0.8;      ///< [m] of a new landmark, seen as a line
-  double max_gap = 0.5;         ///< [m] between stretches of one wall: of lines, and of what is higher than furniture
+  bool planes = true;       ///< measure CObservationPlanes
+  bool lines = true;        ///< measure CObservationLaserLines
+  double min_area = 0.25;   ///< [m^2] of a new landmark, seen as a plane
+  double min_length = 0.8;  ///< [m] of a new landmark, seen as a line
+  double max_gap = 0.5;     ///< [m] between stretches of one wall: for lines, and for surfaces higher than furniture
   double max_plane_gap = 0.15;  ///< [m] between other surfaces of one landmark
-  /// What a sensor sees of a surface from farther off or more aslant draws it only where nothing better is known: noise
-  /// of depth grows with the square of the distance, and mixed pixels at edges reach far along a grazing ray.
+  /// Parts of a surface that are measured from farther away or more obliquely are drawn only where nothing better is
+  /// known: depth noise grows with the square of the distance, and mixed pixels at edges reach far along a grazing ray.
   double well_seen_within = 4;                                         ///< [m]
   double well_seen_under = 75 * base::option_text::kRadiansPerDegree;  ///< [rad] between the ray and the normal
-  double plane_sigma = 0.01;                                           ///< [m] a surface is so far from flat
+  double plane_sigma = 0.01;                                           ///< [m] of a surface from flat
   double plane_angle_sigma = base::option_text::kRadiansPerDegree;     ///< [rad]
   double line_sigma = 0.01;                                            ///< [m]
   double line_angle_sigma = base::option_text::kRadiansPerDegree / 2;  ///< [rad]
@@ -45,9 +45,9 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
 };
 
 /// Planes of walls, tables and floors as landmarks (thesis 4.2), measured by the planes of depth images and clouds
-/// (CObservationPlanes) and by the lines of 2D lasers (CObservationLaserLines) alike: one wall is one landmark, whoever
-/// sees it. A landmark that only lines of one height have shown is held upright, weakly. Coplanar surfaces that are
-/// apart are landmarks of their own; landmarks that turn out to be one are merged. Opposite faces of a wall are two.
+/// (CObservationPlanes) and by the lines of 2D lasers (CObservationLaserLines): a wall is one landmark for all sensors.
+/// A landmark that only lines at one height have measured is held upright by a weak prior. Coplanar surfaces with a gap
+/// between them are separate landmarks; landmarks that turn out to be one are merged. Opposite faces of a wall are two.
 class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::LeavesSeeking {
  public:
   PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context);
@@ -67,7 +67,7 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::Le
   mapper::PluginContext context_;
   std::unique_ptr<class PlaneLandmarkIndex> known_;
   std::size_t merged_at_solve_ = 0;
-  bool others_seek_ = false;  // the newest session in the map
+  bool others_seek_ = false;  // for the pose of the newest session in the map
 };
 
 class PlaneLandmarksPluginFactory : public mapper::MeasurementPluginFactory {

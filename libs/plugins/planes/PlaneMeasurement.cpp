@@ -40,7 +40,7 @@ PlaneMeasurement useless(PlaneMeasurement measurement, std::string why) {
   return measurement;
 }
 
-// Outlines follow pixels: most of their corners tell nothing of a wall.
+// Outlines follow pixels, so most of their corners carry no information about a wall.
 std::vector<Eigen::Vector3d> withoutNeedlessCorners(const std::vector<Eigen::Vector3d>& walk,
                                                     const landmarks::PlaneAxes& axes) {
   constexpr double kStraight = 0.01;  // [m]
@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> withoutNeedlessCorners(const std::vector<Eigen::Vec
   return kept;
 }
 
-// On a plane those places lie in a disc about the foot of the sensor.
+// The well seen points of a plane lie in a disc about the foot of the perpendicular from the sensor.
 struct Disc {
   Eigen::Vector2d middle;
   double radius;
@@ -75,7 +75,7 @@ Disc wellSeenOn(const landmarks::PlaneAxes& axes, const Plane3& plane, const Eig
   return {axes.onto(sensor), std::min(near > 0 ? std::sqrt(near) : 0, aslant)};
 }
 
-// Leaves `well_seen_in_base` empty where that is all of it.
+// Leaves `well_seen_in_base` empty if the whole plane is well seen.
 void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasurement& measurement) {
   const auto dropped = [&](const std::vector<Eigen::Vector3d>& walk) {
     std::vector<Eigen::Vector2d> points;
@@ -97,7 +97,7 @@ void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasur
     for (const auto& corner : walk) corners.push_back(axes.inSpace(corner));
     return corners;
   };
-  // Areas do not tell which hole is in which outline; where there are several, each has all of them.
+  // Areas2 does not assign holes to outlines: each of several outlines gets all of them.
   for (const auto& outline : areas.outlines) {
     surfaces::FlatPart& part = measurement.well_seen_in_base.emplace_back();
     part.outline = inSpace(outline);
@@ -143,7 +143,7 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_se
   return measurement;
 }
 
-// The line x cos a + y sin a = d of the scan, with its middle as far as s along e = (-sin a, cos a): errors of a and d
+// The line x cos a + y sin a = d of the scan, with its middle at s along e = (-sin a, cos a): errors of a and d
 // turn e by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
 PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
                         const landmarks::PlaneParametrization& form, const PlaneLandmarksOptions& options) {
@@ -167,8 +167,7 @@ PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor,
   };
   Eigen::Vector3d direction = base_from_sensor.rotation * Eigen::Vector3d(along.x(), along.y(), 0);
   Eigen::Vector3d normal = up_in_base.cross(direction);
-  if (normal.norm() < 0.5)
-    return useless(measurement, "the scan does not lie level: no upright plane is known from it");
+  if (normal.norm() < 0.5) return useless(measurement, "the scan is not level: no upright plane follows from its line");
   normal.normalize();
   const Eigen::Vector3d from_wall = base_from_sensor.translation - inBase(middle);
   if (normal.dot(from_wall) < 0) {

@@ -20,8 +20,8 @@ namespace {
 
 using Surface = PlaneLandmarkIndex::Surface;
 
-constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] what is farther apart looks like two
-constexpr double kAlong = 0.94;              // cosine of the most by which two views of one surface may be turned
+constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] beyond which surfaces look like two
+constexpr double kAlong = 0.94;              // cosine of the largest angle between two views of one surface
 
 std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
   const landmarks::PlaneAxes axes(surface.plane);
@@ -34,7 +34,7 @@ bool overlap(const Surface& a, const Surface& b) {
   return gapBetween(a, cornersOf(b), b.heights) <= 0 && gapBetween(b, cornersOf(a), a.heights) <= 0;
 }
 
-// Of the change that takes a's plane to b's, by all that ties them together.
+// Fit of the difference between the planes of a and b to zero, by their joint covariance.
 std::optional<landmarks::Fit> fitOfDifference(const landmarks::PlaneParametrization& form, const Surface& a,
                                               const Surface& b, double inflation, const mapper::View& view) {
   const auto joint = view.jointCovariance({a.variable, b.variable});
@@ -54,13 +54,13 @@ bool onOnePlane(const Surface& a, const Surface& b) {
 
 namespace {
 
-// Whether what was seen of two surfaces covers the same cells, a few centimetres apart: how far two views of one
-// surface lie apart by what all views of a sensor have in common, such as its distortion, which no covariance of a map
-// knows. Farther apart, as far views of one floor lie, if that is so nearly everywhere: of two things one would hide
-// the other.
+// Whether the measured parts of two surfaces cover the same cells, a few centimetres apart. Two views of one surface
+// differ by that much because of errors that all views of a sensor share, such as its distortion, which no covariance
+// of a map includes. The distance may be larger, as between far views of one floor, if they cover each other nearly
+// everywhere: of two different surfaces one would hide the other.
 bool lieOnEachOther(const Surface& a, const Surface& b) {
-  constexpr double kApart = 0.05, kShare = 0.3;         // [m], of the smaller one
-  constexpr double kFarApart = 0.07, kNearlyAll = 0.7;  // [m], of the smaller one
+  constexpr double kApart = 0.05, kShare = 0.3;         // [m], share of the smaller one
+  constexpr double kFarApart = 0.07, kNearlyAll = 0.7;  // [m], share of the smaller one
   const bool a_is_smaller = a.seen.area() < b.seen.area();
   const Surface &smaller = a_is_smaller ? a : b, &larger = a_is_smaller ? b : a;
   std::size_t all = 0, shared = 0;
@@ -103,11 +103,11 @@ std::optional<Floor> floorOf(const PlaneLandmarkIndex& known, const mapper::View
                all.floor(known.emptyPayload().ground, view.map.key_frames)};
 }
 
-// Whether two parts of one wall, with a door or furniture between them: upright, as high as walls, on one plane from
-// one end to the other.
+// Whether two surfaces are parts of one wall, with a door or furniture between them: both are upright, as high as walls
+// and on one plane.
 bool continueEachOther(const Surface& a, const Surface& b, const Floor& floor) {
   constexpr double kOneWall = 0.995, kOffPlane = 0.04, kFar = 2;           // cosine of the turn, [m], [m]
-  constexpr double kUpright = 0.1, kHigh = 1.7, kLow = 0.7, kLeast = 0.5;  // of the normal's height, [m], [m], [m^2]
+  constexpr double kUpright = 0.1, kHigh = 1.7, kLow = 0.7, kLeast = 0.5;  // z of the normal, [m], [m], [m^2]
   for (const Surface* one : {&a, &b}) {
     if (std::abs(one->plane.normal.dot(floor.up)) > kUpright || !(one->seen.area() > kLeast)) return false;
     double lowest = HUGE_VAL, highest = -HUGE_VAL;
@@ -121,7 +121,7 @@ bool continueEachOther(const Surface& a, const Surface& b, const Floor& floor) {
          std::abs(signedDistance(b.plane, a.middle)) < kOffPlane && gapBetween(a, cornersOf(b), b.heights) < kFar;
 }
 
-/// Which landmarks become one, and what is known of those that stay.
+/// Which landmarks are merged, and the payloads of those that stay.
 struct Merges {
   std::vector<std::pair<base::LandmarkId, base::LandmarkId>> gone_into;
   PlanePayloads payloads;
@@ -133,15 +133,15 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
   known.update(view);
   const auto floor = is_end ? floorOf(known, view) : std::nullopt;
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
-  // Two surfaces may lie anyhow within those bounds: that they are one must be so many times likelier. Where little is
-  // known of how they lie to each other, nobody can tell, and they wait.
+  // Two different surfaces may have any difference within those bounds: that they are one must be min_likelihood_ratio
+  // times likelier. If their relative pose is too uncertain for that, they are not merged yet.
   const int turns = known.form().variable()->tangentSize() - 1;
   const double least_density =
       std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);
   Merges merges;
   std::set<base::LandmarkId> gone_already;
   std::set<base::FactorId> removed;
-  std::map<base::LandmarkId, std::vector<const Surface*>> parts;  // that one has taken in
+  std::map<base::LandmarkId, std::vector<const Surface*>> parts;  // that were merged into each
   const auto& all = known.all();
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end(); ++b) {
@@ -163,7 +163,7 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
       if (!continues && !is_alike && !lie) continue;
       const std::string why = is_alike    ? ""
                               : continues ? "parts of one wall, as high as walls and on one plane"
-                                          : "what was seen of them is in the same place";
+                                          : "their measured parts cover each other";
       gone_already.insert(b->first);
       parts[a->first].push_back(&b->second);
       const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
@@ -175,7 +175,7 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
       const auto of_gone = uprightFactor(view.graph, gone.variables.front());
       const bool has_kept = of_kept && removed.count(*of_kept) == 0;
       if (of_gone) merges.batch.removeFactor(*of_gone);
-      if (has_kept && !of_gone) {  // something showed how the other leans
+      if (has_kept && !of_gone) {  // the tilt of the other one was measured
         merges.batch.removeFactor(*of_kept);
         removed.insert(*of_kept);
       }

@@ -11,17 +11,17 @@
 
 namespace omnimapper::plugins {
 
-/// Merges landmarks that turn out to be one: they overlap, and their planes differ by no more than the map leaves open;
-/// or what was seen of them as planes lies on each other, whatever the covariance says.
+/// Merges landmarks that turn out to be one: they overlap, and their planes differ by no more than the covariance of
+/// the map allows; or their measured parts cover each other, whatever the covariance is.
 mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view);
 
-/// The same at the end of a run, and what each surface is in the whole map.
+/// The same at the end of a run; also merges parts of one wall, and classifies each surface in the whole map.
 mapper::Batch mergeAndJudge(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                             const mapper::View& view);
 
-/// Whether two surfaces lie on one plane, as far as anybody can see: whatever the covariance allows, what is farther
-/// apart than 10 deg and 0.15 m looks like two.
+/// Whether two surfaces lie on one plane within 10 deg and 0.15 m: beyond that they look like two, whatever the
+/// covariance allows.
 bool onOnePlane(const PlaneLandmarkIndex::Surface& a, const PlaneLandmarkIndex::Surface& b);
 
 /// The factor that holds a plane upright, if there is one.

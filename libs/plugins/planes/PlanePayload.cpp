@@ -15,10 +15,10 @@ namespace omnimapper::plugins {
 
 namespace {
 
-// 2: the ground; 3: the boundary; 4: holes; 5: the judgement; 6: what was well seen, and roughness
+// Version 2 added the ground; 3 the boundary; 4 holes; 5 the judgement; 6 whether patches are well seen, and roughness.
 constexpr std::uint64_t kVersion = 6;
 
-// What a surface is by itself, whatever stands beside it.
+// The class of a surface by itself, without what stands beside it.
 surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const geometry::Plane3& plane, double ground) {
   surfaces::Surface surface;
   surface.plane = plane;
@@ -26,11 +26,12 @@ surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const geometry:
   return surfaces::classify({surface}, ground).front();
 }
 
-// A laser at one height takes whatever is upright for a wall.
+// The class of a surface that only lines measured: any upright one is a wall for a laser at one height.
 surfaces::Judgement judgedByLines(const geometry::Plane3& plane) {
-  constexpr double kUpright = 0.2;  // of the normal's height
+  constexpr double kUpright = 0.2;  // z of the normal
   const bool is_wall = std::abs(plane.normal.z()) < kUpright;
-  return {is_wall ? surfaces::SurfaceClass::wall : surfaces::SurfaceClass::surface, "lines of a laser alone"};
+  return {is_wall ? surfaces::SurfaceClass::wall : surfaces::SurfaceClass::surface,
+          "measured by lines of a laser only"};
 }
 
 void writeWalk(std::ostream& out, const std::vector<Eigen::Vector3d>& walk) {
@@ -44,7 +45,7 @@ std::vector<Eigen::Vector3d> readWalk(std::istream& in) {
   return walk;
 }
 
-// Surfaces that were only ever seen from afar are drawn by that.
+// The well seen patches; all patches if those have no area, as of a surface that was only seen from afar.
 std::vector<SurfacePatch> wellSeenIfAny(const std::vector<SurfacePatch>& patches) {
   std::vector<SurfacePatch> well_seen;
   bool has_area = false;
@@ -109,7 +110,7 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, c
   }
   SeenBy& seen = more->seen_by[measurement.sensor_label];
   ++(measurement.is_line ? seen.lines : seen.planes);
-  more->forgetSearchUncertainty();
+  more->resetJudgement();
   more->last_seen_from = frame;
   return more;
 }
@@ -127,12 +128,12 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other
     both->judgement = other.judgement;
     both->is_candidate = false;
   }
-  both->forgetSearchUncertainty();
+  both->resetJudgement();
   both->last_seen_from = std::max(last_seen_from, other.last_seen_from);
   return both;
 }
 
-void PlanePayload::forgetSearchUncertainty() {
+void PlanePayload::resetJudgement() {
   if (isAccepted()) return;
   judgement.reset();
   is_candidate = false;
@@ -175,7 +176,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   if (hull.empty()) return shape;
   shape.is_candidate = is_candidate;
   shape.normal = plane.normal;
-  // A laser alone tells how long a wall is, not how high.
+  // A laser alone measures the length of a wall, not its height.
   if (wasSeenAsPlane() && hull.size() > 2) {
     geometry::Areas2 areas;
     if (boundary == Boundary::seen) areas = coveredOn(values.front(), key_frames);

@@ -21,7 +21,7 @@
 
 namespace omnimapper::plugins {
 
-/// A part of a surface as one observation showed it. Copies share the outline, for a payload is copied at each
+/// A part of a surface as one observation measured it. Copies share the outline, because a payload is copied at each
 /// measurement.
 class SurfacePatch {
  public:
@@ -33,7 +33,7 @@ class SurfacePatch {
             surfaces::FlatPart{std::move(outline_in_base), std::move(holes_in_base)})) {}
 
   base::KeyFrameId frame;
-  bool is_well_seen;  ///< from near and not too aslant
+  bool is_well_seen;  ///< from near and not too obliquely
   /// [m] a polygon, or the two ends of a laser line; and the holes in it.
   const std::vector<Eigen::Vector3d>& outlineInBase() const { return in_base_->outline; }
   const std::vector<std::vector<Eigen::Vector3d>>& holesInBase() const { return in_base_->holes; }
@@ -42,27 +42,27 @@ class SurfacePatch {
   std::shared_ptr<const surfaces::FlatPart> in_base_;
 };
 
-/// Which sensor saw it, and how often.
+/// How often a sensor measured a surface.
 struct SeenBy {
   std::uint32_t planes = 0;  ///< as planes
   std::uint32_t lines = 0;   ///< as lines of a laser
 };
 
-/// What a measurement tells of a surface's extent that is not known yet.
+/// Whether a measurement adds to the known extent of a surface.
 struct News {
-  bool of_extent = false;     ///< by all of it
-  bool of_well_seen = false;  ///< by what it shows from near
+  bool of_extent = false;     ///< with all its parts
+  bool of_well_seen = false;  ///< with its well seen parts
 };
 
-/// By how many times more than the sensor's noise the points of measurements scattered about their planes.
+/// Scatter of the measured points about their planes, as a multiple of the sensor's noise.
 struct Roughness {
   double sum = 0;
-  std::uint32_t count = 0;  ///< of the measurements that told
+  std::uint32_t count = 0;  ///< of the measurements that reported it
   double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
-/// What patches cover together, as it was worked out last. A copy may be asked by a payload with more patches, which
-/// does not find them in `frames`.
+/// The area that patches cover together, as it was computed last. A copied payload that got more patches notices by
+/// `frames` that the copied entry is not for them.
 class CoveredMemo {
  public:
   struct Entry {
@@ -83,22 +83,22 @@ class CoveredMemo {
   std::shared_ptr<const Entry> entry_;
 };
 
-/// What is known of a plane landmark beside where its plane is (thesis 4.2.2.1). Its parts hang on the key frames that
-/// saw them and are put on the optimised plane when somebody asks, so that a loop closure moves them for free.
+/// What is known of a plane landmark beside its plane (thesis 4.2.2.1). Its patches are attached to the key frames that
+/// measured them and are projected on the optimised plane on request, so that a loop closure moves them at no cost.
 struct PlanePayload : map::LandmarkPayload {
   using Ground = PlaneLandmarksOptions::Ground;
   using Boundary = PlaneLandmarksOptions::Boundary;
 
   landmarks::PlaneParametrization::Kind form = landmarks::PlaneParametrization::Kind::plane;
-  Ground ground = Ground::start;  ///< for what people call it
+  Ground ground = Ground::start;  ///< for its class
   Boundary boundary = Boundary::hull;
-  std::vector<SurfacePatch> patches;      ///< those that tell something of the extent that the others do not
+  std::vector<SurfacePatch> patches;      ///< each adds to the extent of the others
   std::map<std::string, SeenBy> seen_by;  ///< sensor label
   Roughness roughness;
   base::KeyFrameId last_seen_from;
-  /// What it is in the whole map, as the end of a run found it; none before.
+  /// Its class in the whole map, determined at the end of a run; none before.
   std::optional<surfaces::Judgement> judgement;
-  bool is_candidate = false;  ///< seen too little to be drawn
+  bool is_candidate = false;  ///< measured too rarely or too roughly to be drawn
 
   std::string_view kind() const override { return "plane"; }
   void write(std::ostream& out) const override;
@@ -109,25 +109,26 @@ struct PlanePayload : map::LandmarkPayload {
   static void addTo(map::PayloadRegistry& registry);
 
   bool wasSeenAsPlane() const;
-  /// How often it was seen, by all sensors, as plane or line.
+  /// How often it was measured, by all sensors, as plane or line.
   std::uint32_t measurements() const;
-  /// z of where people walk, in the map [m].
+  /// z of the floor that people walk on, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
-  /// How often it was seen as a plane.
+  /// How often it was measured as a plane.
   std::uint32_t planeMeasurements() const;
-  /// With one more measurement; its outline only where that is news.
+  /// A copy with one more measurement; its outline is added only where `news` is set.
   std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& measurement,
                                            const News& news) const;
-  /// With all that is known of another.
+  /// A copy that is merged with another payload.
   std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;
 
-  /// An end of a run has found it good enough to be drawn. It stays so: that a map grows elsewhere says nothing of it.
+  /// Whether the end of a run found it good enough to be drawn. It stays so: growth of the map elsewhere is no argument
+  /// against it.
   bool isAccepted() const { return judgement && !is_candidate; }
 
  private:
-  // What was seen once more is judged anew at the next end, and drawn until then.
-  void forgetSearchUncertainty();
-  // What is drawn of it [m, PlaneAxes of the plane of that value].
+  // After a new measurement, a surface that is not accepted is drawn until the next end of a run judges it again.
+  void resetJudgement();
+  // The area that is drawn [m, PlaneAxes of the plane with that value].
   geometry::Areas2 coveredOn(const Eigen::VectorXd& value, const map::KeyFrames& key_frames) const;
 
   mutable CoveredMemo memo_;

@@ -54,9 +54,10 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
 
 namespace {
 
-// However the hand moved last in directions that nothing tells, it may go another way. That it does so for a while, and
-// not anew at each image, makes the spans' errors alike: they add up as those of such a while do.
-double freeVariance(base::Stamp begin, base::Stamp end) {
+// Variance of the motion in directions that nothing measures: a hand may change its motion at any time. Its speed is
+// correlated over kWhile, and so are the errors of the spans in it; a variance that is linear in time adds up to the
+// right one over longer spans.
+double unconstrainedVariance(base::Stamp begin, base::Stamp end) {
   constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
   return kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(begin, end);
 }
@@ -85,19 +86,19 @@ CameraOdometry::Taken CameraOdometry::add(const mrpt::obs::CObservation::ConstPt
   if (!options_.label.empty() && scan->sensorLabel != options_.label) return Taken::not_mine;
   if (label_ && scan->sensorLabel != *label_) return Taken::not_mine;
   label_ = scan->sensorLabel;
-  if (!reached_ || scan->timestamp > *reached_) wait_.emplace(scan->timestamp, scan);
+  if (!reached_ || scan->timestamp > *reached_) queue_.emplace(scan->timestamp, scan);
   return Taken::taken;
 }
 
 std::optional<base::Stamp> CameraOdometry::coveredUntil() const {
-  if (!wait_.empty()) return wait_.rbegin()->first;
+  if (!queue_.empty()) return queue_.rbegin()->first;
   return reached_;
 }
 
-// One image beyond it, so that the motion to between two images is known.
+// Processes one image beyond `stamp`, so that the motion to a stamp between two images is known.
 void CameraOdometry::processUntil(base::Stamp stamp) {
-  while (!wait_.empty() && (!reached_ || *reached_ < stamp)) {
-    const auto next = wait_.extract(wait_.begin());
+  while (!queue_.empty() && (!reached_ || *reached_ < stamp)) {
+    const auto next = queue_.extract(queue_.begin());
     reached_ = next.key();
     follow(next.mapped());
   }
@@ -107,19 +108,19 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
   gyroscope_.forgetBefore(turn_begun_ ? std::min(*turn_begun_, forgotten) : forgotten);
 }
 
-// An image may come before the wheels' next reading: then they go on as they did just before.
+// An image may arrive before the next reading of the wheels, whose last motion is then extrapolated.
 std::optional<mapper::RelativeMotion> CameraOdometry::wheelsBetween(base::Stamp begin, base::Stamp end) const {
   constexpr double kLongestLag = 0.2, kAcceleration = 1, kTurnAcceleration = 2;  // [s] [m/s2] [rad/s2]
-  if (auto told = wheels_.between(begin, end)) return told;
+  if (auto measured = wheels_.between(begin, end)) return measured;
   const auto covered = wheels_.coveredUntil();
   if (!covered || *covered >= end) return std::nullopt;
   const double lag = base::secondsBetween(*covered, end), seconds = base::secondsBetween(begin, end);
   if (lag > kLongestLag || seconds > kLongestLag) return std::nullopt;
-  auto told = wheels_.between(*covered - base::durationFromSeconds(seconds), *covered);
-  if (!told) return std::nullopt;
-  told->covariance.diagonal().head<3>().array() += std::pow(kAcceleration * lag * seconds, 2);
-  told->covariance.diagonal().tail<3>().array() += std::pow(kTurnAcceleration * lag * seconds, 2);
-  return told;
+  auto measured = wheels_.between(*covered - base::durationFromSeconds(seconds), *covered);
+  if (!measured) return std::nullopt;
+  measured->covariance.diagonal().head<3>().array() += std::pow(kAcceleration * lag * seconds, 2);
+  measured->covariance.diagonal().tail<3>().array() += std::pow(kTurnAcceleration * lag * seconds, 2);
+  return measured;
 }
 
 std::optional<CameraOdometry::BaseMotion> CameraOdometry::measuredBetween(base::Stamp begin, base::Stamp end) const {
@@ -144,14 +145,15 @@ std::optional<CameraOdometry::BaseMotion> CameraOdometry::measuredBetween(base::
 std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
                                                                       base::Stamp stamp) const {
   constexpr double kStampError = 0.02;                 // [s] between the clocks of wheels and images
-  constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] a base nods and sways, too
+  constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] as a base also pitches and sways
   const auto measured = last_ ? measuredBetween(*last_, stamp) : std::nullopt;
   if (!measured) return std::nullopt;
   const geometry::Se3& motion = measured->begin_from_end;
   const geometry::Vector6d shifted =
       minus(motion, geometry::Se3{}) * (kStampError / std::max(kStampError, base::secondsBetween(*last_, stamp)));
   geometry::Matrix6d covariance = measured->covariance + shifted * shifted.transpose();
-  covariance.diagonal().head<3>().array() += measured->only_turn ? freeVariance(*last_, stamp) : kPosition * kPosition;
+  covariance.diagonal().head<3>().array() +=
+      measured->only_turn ? unconstrainedVariance(*last_, stamp) : kPosition * kPosition;
   covariance.diagonal().tail<3>().array() += kAngle * kAngle;
   const geometry::Se3 camera_from_base = inverse(base_from_camera);
   const geometry::Matrix6d ad = adjoint(camera_from_base);
@@ -159,8 +161,8 @@ std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geom
                                    measured->only_turn};
 }
 
-// Over a second or so, for what a key frame is off by is in each image that was registered with it. Where a view of
-// before is found again, drift is taken out at once, which is no turn.
+// Estimates the gyroscope's bias over a second or so, because images share the error of the key frame they were
+// registered with. An image that shows an earlier view again is left out: it corrects drift at once, which is no turn.
 void CameraOdometry::learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera) {
   constexpr double kWhile = 1;      // [s]
   constexpr double kAngle = 0.005;  // [rad]
@@ -190,8 +192,8 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;
   }
-  constexpr std::size_t kRunaway = 3;  // images in a row: one alone is where another key frame is taken
-  constexpr double kShortest = 0.03;   // [s] of stamps that nearly coincide the noise would be a speed
+  constexpr std::size_t kRunaway = 3;  // images in a row; a single one may be due to a change of the key frame
+  constexpr double kShortest = 0.03;   // [s] between stamps that nearly coincide noise would look like speed
   if (!begun_) begun_ = scan.timestamp;
   ++images_;
   learnBias(tracked, scan.timestamp, base_from_camera);
@@ -213,7 +215,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
         tracked.last_from_camera.translation.norm() > options_.max_speed * std::max(seconds, kShortest);
     hasty_in_a_row_ = is_hasty ? hasty_in_a_row_ + 1 : 0;
     runaways_ += hasty_in_a_row_ == kRunaway;
-    // However well a view fits, another place may look like it, as one bare wall looks like another.
+    // Even a view that fits well may be of another place that looks alike, such as another bare wall.
     constexpr double kLong = 0.4;  // [s]
     found_ += !by_wheels && is_lost_ && seconds > kLong;
     bridged_ += !by_wheels && !tracked.open.isZero();
@@ -224,13 +226,13 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   lost_images_.clear();
 }
 
-// Across images that showed no motion the base moved as wheels or gyroscope measured it, and what these are off by came
-// evenly: the translation along a straight line, as the base stood at the beginning.
+// Across lost images the base moved as wheels or gyroscope measured it. Their error at the end is distributed evenly
+// over time, that of the translation along a straight line in the base at the beginning.
 void CameraOdometry::addMotion(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion) {
   std::vector<base::Stamp> stamps{begin};
   stamps.insert(stamps.end(), lost_images_.begin(), lost_images_.end());
   stamps.push_back(end);
-  std::vector<geometry::Se3> begin_from{{}};  // the base at each of them
+  std::vector<geometry::Se3> begin_from{{}};  // pose of the base at each stamp
   for (std::size_t i = 1; i < stamps.size() && stamps.size() > 2 && begin_from.size() == i; ++i) {
     if (const auto measured = measuredBetween(stamps[i - 1], stamps[i]))
       begin_from.push_back(begin_from.back() * measured->begin_from_end);
@@ -257,24 +259,25 @@ void CameraOdometry::addMotion(base::Stamp begin, base::Stamp end, const mapper:
   }
 }
 
-// From image to image, for a robot does not go straight on while its camera sees nothing. False where they do not tell
-// all of it.
+// Adds the motion of the wheels from image to image, because a robot does not move uniformly while its camera is lost.
+// False, and nothing is added, if the wheels do not cover the whole gap.
 bool CameraOdometry::bridgeByWheels(base::Stamp stamp) {
   if (!last_) return false;
-  std::vector<std::pair<base::Stamp, mapper::RelativeMotion>> told;
+  std::vector<std::pair<base::Stamp, mapper::RelativeMotion>> measured;
   auto from = *last_;
   lost_images_.push_back(stamp);
   for (const auto& to : lost_images_) {
     const auto motion = wheelsBetween(from, to);
     if (!motion) return false;
-    told.emplace_back(std::exchange(from, to), *motion);
+    measured.emplace_back(std::exchange(from, to), *motion);
   }
-  for (std::size_t i = 0; i < told.size(); ++i) timeline_.insert(told[i].first, lost_images_[i], told[i].second);
+  for (std::size_t i = 0; i < measured.size(); ++i)
+    timeline_.insert(measured[i].first, lost_images_[i], measured[i].second);
   return true;
 }
 
-// Variances grow with the way and the turn so that spans add up: what a key frame is off by counts once for all images
-// that were registered with it.
+// Variances grow linearly with distance and rotation, so that those of consecutive spans add up: the error of a key
+// frame counts once for all images that were registered with it.
 mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base::Stamp stamp,
                                                 const geometry::Se3& base_from_camera,
                                                 const std::optional<matching::PredictedMotion>& prediction) const {
@@ -291,7 +294,7 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
   if (prediction) {
     of_camera += tracked.open * prediction->covariance * tracked.open;
   } else {
-    of_camera += freeVariance(tracked.last, stamp) * tracked.open;
+    of_camera += unconstrainedVariance(tracked.last, stamp) * tracked.open;
   }
   const geometry::Matrix6d ad = adjoint(base_from_camera);
   return {geometry::toMrpt(base_from_camera * moved * inverse(base_from_camera)), ad * of_camera * ad.transpose()};
@@ -300,8 +303,8 @@ mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base
 std::vector<std::string> CameraOdometry::warnings() const {
   std::vector<std::string> all;
   if (unreadable_ > 0) {
-    all.push_back(base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) + " told " +
-                  what_ + " nothing: " + why_unreadable_);
+    all.push_back(base::counted(unreadable_, "image") + " of the camera " + base::sensorName(*label_) +
+                  " could not be used for " + what_ + ": " + why_unreadable_);
   }
   return all;
 }
@@ -312,7 +315,8 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
   std::vector<mapper::Evidence> all;
   char text[200];
   if (gaps_ > 0) {
-    std::snprintf(text, sizeof text, "the camera was lost and began anew (%s, first %.0f s after its start)",
+    std::snprintf(text, sizeof text,
+                  "the camera was lost and its tracking started anew (%s, first %.0f s after the start)",
                   base::counted(gaps_, "time").c_str(), first_gap_);
     all.push_back({"camera_begun_anew", static_cast<double>(gaps_), mapper::Evidence::Says::against_it, text});
   }
@@ -323,23 +327,21 @@ std::vector<mapper::Evidence> CameraOdometry::evidence() const {
       {"camera_lost_percent", percent, percent > kMuch ? Says::too_little : Says::good, percent > kMuch ? text : ""});
   if (found_ > 0) {
     std::snprintf(text, sizeof text,
-                  "the camera was lost and only a view that looked like one of before told where it was (%s)",
+                  "the camera was lost, and only a view that looks like an earlier one showed where it was (%s)",
                   base::counted(found_, "time").c_str());
     all.push_back({"camera_found_again", static_cast<double>(found_), Says::too_little, text});
   }
   if (runaways_ > 0) {
-    std::snprintf(text, sizeof text,
-                  "the camera seems to have moved at more than %.1f m/s (%s): it was tracked wrong there",
+    std::snprintf(text, sizeof text, "the camera was tracked at more than %.1f m/s (%s), so its motion is wrong there",
                   options_.max_speed, base::counted(runaways_, "time").c_str());
     all.push_back({"camera_runaways", static_cast<double>(runaways_), Says::against_it, text});
   }
   const double open = 100.0 * static_cast<double>(bridged_) / static_cast<double>(images_);
-  std::snprintf(text, sizeof text, "in %.0f %% of the images the camera saw nothing that tells all of its motion",
-                open);
+  std::snprintf(text, sizeof text, "%.0f %% of the images left a direction of the camera's motion unconstrained", open);
   all.push_back({"camera_blind_percent", open, open > kMuch ? Says::too_little : Says::good, open > kMuch ? text : ""});
   auto returns = returnEvidence(loops_, *begun_, last_.value_or(*begun_));
   if (!seeksReturns())
-    returns.back().reason = "odometry by clouds does not look for views of before, where drift would be seen";
+    returns.back().reason = "odometry by clouds does not look for earlier views, which would reveal drift";
   all.insert(all.end(), returns.begin(), returns.end());
   return all;
 }

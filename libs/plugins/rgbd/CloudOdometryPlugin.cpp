@@ -37,8 +37,8 @@ CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
       source.source == matching::CloudSource::voxels || source.source == matching::CloudSource::all_points;
   if (matching.method == matching::CloudMethod::point_to_plane && !has_normals) {
     throw base::Error(base::ExitCode::out_of_range,
-                      "edges have no planes to be registered by: method = point_to_plane needs source = voxels or "
-                      "all_points; edges are registered by gicp or point_to_point");
+                      "method = point_to_plane needs normals, which edges do not have: set source = voxels or "
+                      "all_points, or register edges with method = gicp or point_to_point");
   }
 }
 

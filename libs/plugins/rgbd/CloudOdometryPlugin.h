@@ -8,7 +8,7 @@
 
 namespace omnimapper::plugins {
 
-/// Whose registration of clouds.
+/// Which library registers the clouds.
 struct CloudLibraryOptions {
   enum class Library { omnimapper, pcl };
   Library library = Library::omnimapper;
@@ -20,8 +20,8 @@ struct CloudLibraryOptions {
 /// registered with those of a key frame (matching/CloudTracker.h).
 class CloudOdometryPlugin : public CameraOdometry {
  public:
-  /// Throws Error(out_of_range) for edges that are to be registered by planes, and Error(unknown_plugin) for a library
-  /// that this was built without.
+  /// Throws Error(out_of_range) if edges are to be registered by point_to_plane, and Error(unknown_plugin) for a
+  /// library that is missing in this build.
   CloudOdometryPlugin(const CameraOdometryOptions& options, const matching::CloudTrackerOptions& tracking,
                       const matching::CloudSourceOptions& source, const matching::CloudMatcherOptions& matching,
                       const CloudLibraryOptions& by = {});

@@ -20,7 +20,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-// Of farness(): a view from so near is seen again for sure.
+// viewDistance() within which a view is certainly visible again.
 constexpr double kSurelySeen = 1.5;
 
 double percentOf(std::size_t part, std::size_t all) {
@@ -70,7 +70,7 @@ mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper:
   if (scan.sensorLabel != label_) return {};
   try {
     return linksOf(frame, scan, view);
-  } catch (const base::Error&) {  // of an image that cannot be read, which the odometry warns of
+  } catch (const base::Error&) {  // the image cannot be read; the odometry warns of it
     return {};
   }
 }
@@ -85,9 +85,9 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
   if (!depth) return {};
   const Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
   const auto motion = motionAt(frame, base_from_camera, view);
-  Seen image{frame.id, matcher_.prepare(pyramid, motion), base_from_camera, *depth, motion.velocity};
+  KeyImage image{frame.id, matcher_.prepare(pyramid, motion), base_from_camera, *depth, motion.velocity};
   std::vector<Link> links;
-  // By their places in the trajectory: a late image may have put a key frame between others.
+  // Compares positions in the trajectory, because a late image may have inserted a key frame between others.
   const std::size_t position = view.map.key_frames.position(frame.id);
   for (auto earlier = recent_.rbegin(); earlier != recent_.rend(); ++earlier) {
     const std::size_t other = view.map.key_frames.position(earlier->frame);
@@ -96,10 +96,10 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
     if (!is_near || earlier->frame.session != frame.id.session) continue;
     if (auto link = linkTo(*earlier, image, pyramid, motion, view)) links.push_back(std::move(*link));
   }
-  for (const Seen* old : viewsSeenAgain(image, view)) {
+  for (const KeyImage* old : viewsSeenAgain(image, view)) {
     auto link = linkTo(*old, image, pyramid, motion, view);
     const bool was_left = wasLeft(*old, frame, view);
-    if (was_left && farness(*old, image, view) < kSurelySeen) {
+    if (was_left && viewDistance(*old, image, view) < kSurelySeen) {
       ++expected_;
       missed_ += !link;
     }
@@ -133,22 +133,22 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
   return batch;
 }
 
-Se3 ViewLinksPlugin::between(const Seen& from, const Seen& to, const mapper::State& state) const {
+Se3 ViewLinksPlugin::between(const KeyImage& from, const KeyImage& to, const mapper::State& state) const {
   const Se3 map_from = geometry::fromMrpt(state.map.keyFrame(from.frame).map_from_base) * from.base_from_camera;
   const Se3 map_to = geometry::fromMrpt(state.map.keyFrame(to.frame).map_from_base) * to.base_from_camera;
   return inverse(map_from) * map_to;
 }
 
-double ViewLinksPlugin::farness(const Seen& from, const Seen& to, const mapper::State& state) const {
-  return farness(between(from, to, state), from.depth);
+double ViewLinksPlugin::viewDistance(const KeyImage& from, const KeyImage& to, const mapper::State& state) const {
+  return viewDistance(between(from, to, state), from.depth);
 }
 
-double ViewLinksPlugin::farness(const Se3& motion, double depth) const {
+double ViewLinksPlugin::viewDistance(const Se3& motion, double depth) const {
   return std::max(geometry::logSo3(motion.rotation).norm() / tracking_.key_angle,
                   motion.translation.norm() / (tracking_.key_distance * depth));
 }
 
-std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const Seen& to, const Seen& image,
+std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const KeyImage& to, const KeyImage& image,
                                                              const matching::RgbdPyramid& pyramid,
                                                              const matching::CameraMotion& motion,
                                                              const mapper::State& state) const {
@@ -158,8 +158,8 @@ std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const Seen& to, con
   return Link{&to, std::move(match)};
 }
 
-// Whether the camera was elsewhere between a view and `frame`, so that coming back shows what it drifted by.
-bool ViewLinksPlugin::wasLeft(const Seen& old, const map::KeyFrame& frame, const mapper::State& state) const {
+// Whether the camera was elsewhere between a view and `frame`, so that its return reveals drift.
+bool ViewLinksPlugin::wasLeft(const KeyImage& old, const map::KeyFrame& frame, const mapper::State& state) const {
   constexpr double kLeft = 8;
   const auto& frames = state.map.key_frames;
   const Se3 camera_from_map =
@@ -167,29 +167,29 @@ bool ViewLinksPlugin::wasLeft(const Seen& old, const map::KeyFrame& frame, const
   const std::size_t end = frames.position(frame.id);
   for (std::size_t i = frames.position(old.frame); i < end; ++i) {
     const Se3 motion = camera_from_map * geometry::fromMrpt(frames[i].map_from_base) * old.base_from_camera;
-    if (farness(motion, old.depth) > kLeft) return true;
+    if (viewDistance(motion, old.depth) > kLeft) return true;
   }
   return false;
 }
 
-// The nearest ones, by the estimate.
-std::vector<const ViewLinksPlugin::Seen*> ViewLinksPlugin::viewsSeenAgain(const Seen& image,
-                                                                          const mapper::State& state) const {
+// The nearest older views, by the estimate.
+std::vector<const ViewLinksPlugin::KeyImage*> ViewLinksPlugin::viewsSeenAgain(const KeyImage& image,
+                                                                              const mapper::State& state) const {
   constexpr double kFarthest = 4;
-  std::vector<std::pair<double, const Seen*>> near;
-  for (const Seen& old : views_) {
-    const double far = farness(old, image, state);
+  std::vector<std::pair<double, const KeyImage*>> near;
+  for (const KeyImage& old : views_) {
+    const double far = viewDistance(old, image, state);
     if (far < kFarthest) near.emplace_back(far, &old);
   }
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   near.resize(std::min(near.size(), static_cast<std::size_t>(options_.old_views)));
-  std::vector<const Seen*> nearest;
+  std::vector<const KeyImage*> nearest;
   for (const auto& one : near) nearest.push_back(one.second);
   return nearest;
 }
 
-mapper::RelativeMotion ViewLinksPlugin::motionOf(const Link& link, const Seen& image, std::size_t links) const {
-  // Neighbours share errors: so many residuals count as one. And how long a shutter takes is known to a fifth.
+mapper::RelativeMotion ViewLinksPlugin::motionOf(const Link& link, const KeyImage& image, std::size_t links) const {
+  // Neighbouring residuals share errors: kAlike of them count as one. A shutter's readout time is known to a fifth.
   constexpr double kAlike = 30, kReadoutError = 0.2;
   const double readout_sigma =
       kReadoutError * std::max(std::abs(tracking_.depth_readout), std::abs(tracking_.picture_readout));
@@ -205,7 +205,7 @@ mapper::RelativeMotion ViewLinksPlugin::motionOf(const Link& link, const Seen& i
       ad * of_camera * ad.transpose()};
 }
 
-// For the shutters: since the last image or key frame before.
+// The velocity since the image or key frame before, to correct for the shutters.
 matching::CameraMotion ViewLinksPlugin::motionAt(const map::KeyFrame& frame, const Se3& base_from_camera,
                                                  const mapper::State& state) const {
   matching::CameraMotion motion{geometry::Vector6d::Zero(), tracking_.depth_readout, tracking_.picture_delay,
@@ -224,16 +224,16 @@ matching::CameraMotion ViewLinksPlugin::motionAt(const map::KeyFrame& frame, con
   return motion;
 }
 
-// What is no longer recent is kept where no view that is kept is near.
-void ViewLinksPlugin::remember(Seen seen, const mapper::State& state) {
+// An image that is no longer recent becomes an older view if none of these is near it.
+void ViewLinksPlugin::remember(KeyImage seen, const mapper::State& state) {
   constexpr std::size_t kRecent = 10;  // key frames
   constexpr double kApart = 0.5;
   recent_.push_back(std::move(seen));
   if (recent_.size() <= std::max(kRecent, static_cast<std::size_t>(options_.key_frames_back))) return;
-  Seen old = std::move(recent_.front());
+  KeyImage old = std::move(recent_.front());
   recent_.erase(recent_.begin());
-  const bool is_known =
-      std::any_of(views_.begin(), views_.end(), [&](const Seen& view) { return farness(view, old, state) < kApart; });
+  const bool is_known = std::any_of(views_.begin(), views_.end(),
+                                    [&](const KeyImage& view) { return viewDistance(view, old, state) < kApart; });
   if (is_known) return;
   views_.push_back(std::move(old));
   if (views_.size() > static_cast<std::size_t>(options_.stored_views)) views_.erase(views_.begin());
@@ -241,14 +241,15 @@ void ViewLinksPlugin::remember(Seen seen, const mapper::State& state) {
 
 void ViewLinksPlugin::retired(const map::KeyFrame& frame) {
   for (auto* list : {&recent_, &views_}) {
-    list->erase(std::remove_if(list->begin(), list->end(), [&](const Seen& seen) { return seen.frame == frame.id; }),
-                list->end());
+    list->erase(
+        std::remove_if(list->begin(), list->end(), [&](const KeyImage& seen) { return seen.frame == frame.id; }),
+        list->end());
   }
 }
 
 std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view) const {
   if (label_.empty() || options_.old_views == 0 || view.map.key_frames.empty()) return {};
-  // Of earlier sessions no images are known.
+  // The images of earlier sessions are not known.
   const auto& last = view.map.key_frames.back();
   const auto& first = *std::find_if(view.map.key_frames.begin(), view.map.key_frames.end(),
                                     [&](const map::KeyFrame& frame) { return frame.id.session == last.id.session; });
@@ -264,14 +265,14 @@ std::vector<mapper::Evidence> ViewLinksPlugin::evidence(const mapper::View& view
   return evidence;
 }
 
-// Whether the map has the camera so far from where its image has it that a point at the median depth is some pixels
-// off.
+// Whether the pose of the camera in the map differs so much from that measured by its image that a point at the median
+// depth is some pixels off.
 bool ViewLinksPlugin::isElsewhere(const Return& one, const mapper::State& state) const {
   constexpr double kFar = 0.5;
   const Se3 map_from_before =
       geometry::fromMrpt(state.map.keyFrame(one.before).map_from_base) * one.before_base_from_camera;
   const Se3 map_from_camera = geometry::fromMrpt(state.map.keyFrame(one.frame).map_from_base) * one.base_from_camera;
-  return farness(inverse(one.before_from_camera) * inverse(map_from_before) * map_from_camera, one.depth) > kFar;
+  return viewDistance(inverse(one.before_from_camera) * inverse(map_from_before) * map_from_camera, one.depth) > kFar;
 }
 
 mapper::Evidence ViewLinksPlugin::elsewhereEvidence(std::size_t elsewhere, std::size_t all) {
@@ -280,23 +281,24 @@ mapper::Evidence ViewLinksPlugin::elsewhereEvidence(std::size_t elsewhere, std::
   const double percent = percentOf(elsewhere, all);
   const bool is_many = percent > kMany;
   char text[200];
-  std::snprintf(text, sizeof text, "of %zu views that came back the map has %zu elsewhere than their images", all,
-                elsewhere);
+  std::snprintf(text, sizeof text, "of %zu returns to earlier views %zu lie elsewhere in the map than by their images",
+                all, elsewhere);
   return {"camera_returns_elsewhere_percent", percent, is_many ? Says::too_little : Says::good, is_many ? text : ""};
 }
 
 mapper::Evidence ViewLinksPlugin::missedEvidence() const {
   using Says = mapper::Evidence::Says;
   constexpr double kMany = 10;      // [%]
-  constexpr std::size_t kFew = 10;  // of so few nothing is concluded
+  constexpr std::size_t kFew = 10;  // fewer are not judged
   const double percent = percentOf(missed_, expected_);
-  const bool is_bent = percent > kMany && expected_ >= kFew;
+  const bool is_distorted = percent > kMany && expected_ >= kFew;
   char text[200];
   std::snprintf(text, sizeof text,
-                "of the %zu times that the map has the camera back at a view of before, the image showed something "
-                "else %zu times: the map is bent",
+                "of the %zu times that the map has the camera back at an earlier view, the image showed something "
+                "else %zu times: the map is distorted",
                 expected_, missed_);
-  return {"camera_returns_missed_percent", percent, is_bent ? Says::against_it : Says::good, is_bent ? text : ""};
+  return {"camera_returns_missed_percent", percent, is_distorted ? Says::against_it : Says::good,
+          is_distorted ? text : ""};
 }
 
 const std::vector<base::OptionSpec>& ViewLinksPluginFactory::options() const {

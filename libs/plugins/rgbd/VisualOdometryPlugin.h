@@ -8,8 +8,8 @@
 
 namespace omnimapper::plugins {
 
-/// Dense visual odometry: every image of one depth camera is registered, by depth and brightness, with a key frame of
-/// before (matching/RgbdTracker.h).
+/// Dense visual odometry: every image of one depth camera is registered, by depth and brightness, with an earlier key
+/// frame (matching/RgbdTracker.h).
 class VisualOdometryPlugin : public CameraOdometry {
  public:
   VisualOdometryPlugin(const CameraOdometryOptions& options, const matching::RgbdTrackerOptions& tracking,
@@ -23,7 +23,7 @@ class VisualOdometryPlugin : public CameraOdometry {
   matching::RgbdTracker tracker_;
 };
 
-/// The options of a section of it.
+/// The options in an INI section of VisualOdometryPlugin.
 using VisualOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::RgbdTrackerOptions,
                                                     matching::DenseMatcherOptions, matching::FeatureMatcherOptions>;
 

@@ -6,7 +6,7 @@
 
 namespace omnimapper::plugins {
 
-/// The projector onto the directions that have the variance of what is open.
+/// Projector onto the unconstrained directions: those whose variance is more than half of `variance_of_open`.
 inline geometry::Matrix6d openDirections(const geometry::Matrix6d& covariance, double variance_of_open) {
   const Eigen::SelfAdjointEigenSolver<geometry::Matrix6d> axes(covariance);
   const geometry::Vector6d is_open =

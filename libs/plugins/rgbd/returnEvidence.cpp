@@ -10,7 +10,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-// Of the time from `begin` on, what lies in any of them.
+// Time since `begin` that lies in any of the loops [s].
 double secondsIn(std::vector<Loop> loops, base::Stamp begin) {
   std::sort(loops.begin(), loops.end());
   double seconds = 0;
@@ -32,13 +32,14 @@ std::vector<mapper::Evidence> returnEvidence(std::vector<Loop> loops, base::Stam
   const double all = base::secondsBetween(begin, end);
   const double percent = all > 0 ? 100 * secondsIn(std::move(loops), begin) / all : 0;
   const bool is_enough = percent >= kEnough;
-  char text[250] = "the camera never came back to a view of before, where drift would be seen";
+  char text[250] = "the camera never returned to an earlier view, which would reveal drift";
   if (returns > 0) {
-    std::snprintf(text, sizeof text,
-                  "views of long before came back %s and the images fitted them%s %.0f %% of the time lies between two "
-                  "views of one place%s",
-                  base::counted(returns, "time").c_str(), is_enough ? ";" : ", but only", percent,
-                  is_enough ? "" : ", where drift would be seen");
+    std::snprintf(
+        text, sizeof text,
+        "the camera returned to old views (%s) and the images fit them%s %.0f %% of the time lies between two "
+        "views of one place%s",
+        base::counted(returns, "time").c_str(), is_enough ? ";" : ", but only", percent,
+        is_enough ? "" : ", where drift would show");
   }
   return {{"camera_returns", static_cast<double>(returns), returns > 0 ? Says::good : Says::too_little,
            is_enough ? text : ""},

@@ -8,11 +8,11 @@
 
 namespace omnimapper::plugins {
 
-/// A view, and when it came back.
+/// Stamps of a view and of its return.
 using Loop = std::pair<base::Stamp, base::Stamp>;
 
-/// How often a camera came back to a view of long before, and whether enough of the time from `begin` to `end` lies
-/// between two views of one place: only there a map shows what it drifted by.
+/// How often a camera returned to an old view, and whether enough of the time from `begin` to `end` lies between two
+/// views of one place: only there does drift show in a map.
 std::vector<mapper::Evidence> returnEvidence(std::vector<Loop> loops, base::Stamp begin, base::Stamp end);
 
 }  // namespace omnimapper::plugins

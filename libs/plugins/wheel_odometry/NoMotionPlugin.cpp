@@ -20,7 +20,7 @@ const base::OptionTable<NoMotionOptions>& NoMotionOptions::table() {
 
 std::optional<mapper::RelativeMotion> NoMotionPlugin::between(base::Stamp begin, base::Stamp end) const {
   if (end < begin) return std::nullopt;
-  // Even a span of no length is a belief, not a certainty: a factor needs a variance.
+  // A span of no length gets a variance, too, because a factor needs one.
   const double seconds = std::max(1e-3, base::secondsBetween(begin, end));
   mapper::RelativeMotion motion{mrpt::poses::CPose3D(), Eigen::Matrix<double, 6, 6>::Zero()};
   motion.covariance.diagonal().head<3>().setConstant(options_.position_sigma * options_.position_sigma * seconds);

@@ -6,14 +6,14 @@
 namespace omnimapper::plugins {
 
 struct NoMotionOptions {
-  double position_sigma = 0.5;                                       ///< [m] after 1 s; grows with its root
-  double angle_sigma = 45.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with its root
+  double position_sigma = 0.5;                                       ///< [m] after 1 s; grows with the root of time
+  double angle_sigma = 45.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with the root of time
 
   static const base::OptionTable<NoMotionOptions>& table();
 };
 
-/// The null motion model (thesis 5.3.4.3): the robot probably stayed where it was. Keeps the trajectory connected
-/// where no other source tells the motion.
+/// The null motion model (thesis 5.3.4.3): the robot probably stayed where it was. Keeps the trajectory connected where
+/// no other source measures the motion.
 class NoMotionPlugin : public mapper::PosePlugin {
  public:
   explicit NoMotionPlugin(const NoMotionOptions& options) : options_(options) {}
@@ -32,7 +32,9 @@ class NoMotionPluginFactory : public mapper::PosePluginFactory {
   DEFINE_MRPT_OBJECT(NoMotionPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "NoMotionPlugin"; }
-  std::string summary() const override { return "Weak belief that nothing moved, where no odometry tells the motion."; }
+  std::string summary() const override {
+    return "Weak assumption that nothing moved where no odometry measures the motion.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return NoMotionOptions::table().specs(); }
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
                                            const mapper::PluginContext& context) const override;

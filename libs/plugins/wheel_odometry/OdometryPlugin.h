@@ -6,7 +6,7 @@
 namespace omnimapper::plugins {
 
 struct OdometryOptions : matching::WheelOdometryOptions {
-  bool fallback = false;  ///< only where no other source tells the motion
+  bool fallback = false;  ///< used only where no other source measures the motion
 
   static const base::OptionTable<OdometryOptions>& table();
 };

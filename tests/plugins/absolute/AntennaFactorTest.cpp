@@ -88,7 +88,8 @@ TEST(AntennaFactor, TakesPosesOfAPlanarMapToo) {
   EXPECT_GT(graph.whitenedResidual(factor).norm(), 1);
   const geometry::Se2 antenna = geometry::Se2{1, 2, 0.5} * geometry::Se2{4, 1, 0};
   graph.setValue(pose, Vector3d(antenna.x, antenna.y, -1));
-  EXPECT_LT(graph.whitenedResidual(factor).norm(), 1e-12) << "the antenna stands over the base: its heading is free";
+  EXPECT_LT(graph.whitenedResidual(factor).norm(), 1e-12)
+      << "the antenna is above the base: its heading is unconstrained";
 }
 
 TEST(AntennaFactor, SurvivesTheArchiveOfAGraph) {

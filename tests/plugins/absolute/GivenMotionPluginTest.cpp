@@ -23,7 +23,7 @@ mrpt::obs::CObservationRobotPose::Ptr given(double seconds, const CPose3D& pose,
   return made;
 }
 
-TEST(GivenMotionPlugin, TellsTheMotionBetweenPosesAndWithinThem) {
+TEST(GivenMotionPlugin, ReturnsTheMotionBetweenPosesAndWithinThem) {
   GivenMotionPlugin plugin({});
   EXPECT_FALSE(plugin.coveredUntil());
   EXPECT_EQ(plugin.add(given(0, CPose3D(1, 2, 3, 0.5, 0, 0))), Taken::taken);
@@ -76,7 +76,7 @@ TEST(GivenMotionPlugin, LeavesOutOtherLabelsRepeatedStampsAndWhatIsNotFinite) {
   EXPECT_EQ(named.add(given(0, CPose3D())), Taken::taken);
 }
 
-// The base stands 1 m behind the tracked body: turning on the spot it swings about it.
+// The base is 1 m behind the tracked body: when the body turns on the spot, the base swings around it.
 TEST(GivenMotionPlugin, TheTrackedBodyIsTakenBackToTheBase) {
   GivenMotionPlugin plugin({});
   for (const double yaw : {0.0, 0.1}) {

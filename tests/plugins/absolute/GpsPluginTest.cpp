@@ -24,7 +24,7 @@ class = OdometryPlugin
 class = GpsPlugin
 )";
 
-// Round the ring with an RTK receiver and no laser.
+// A drive around the ring with an RTK receiver and no laser.
 testing::SimulatedLogOptions ringWithGps(double heading = 0.7) {
   testing::SimulatedLogOptions options;
   options.lasers.clear();
@@ -45,7 +45,7 @@ std::vector<CObservationGPS::Ptr> fixes(const std::vector<mrpt::obs::CObservatio
   return found;
 }
 
-// map_from_enu as a run has found it.
+// map_from_enu as estimated by a run.
 CPose3D foundAlignment(const mapper::View& view) {
   const auto& frames = view.map.key_frames;
   for (const auto& [id, record] : view.graph.variables()) {
@@ -57,7 +57,7 @@ CPose3D foundAlignment(const mapper::View& view) {
   return {};
 }
 
-// Root mean square distance [m] of the key frames from the truth on the earth, whatever the map's own frame. The
+// Root mean square distance [m] of the key frames from the truth on the earth, independent of the frame of the map. The
 // plugin's origin is the first fix.
 double errorOnEarth(const mapper::View& view, const testing::SimulatedLog& log,
                     const testing::SimulatedLogOptions& options) {
@@ -111,20 +111,20 @@ TEST(GpsPlugin, TheLeverArmOfTheAntennaCounts) {
   options.gps.sigma = 0.005;
   const testing::SimulatedLog log(options);
   double errors[2];
-  for (const bool told : {true, false}) {
+  for (const bool lever_given : {true, false}) {
     auto observations = log.observations();
-    if (!told) {
+    if (!lever_given) {
       for (const auto& fix : fixes(observations)) fix->sensorPose = CPose3D();
     }
     const auto engine = testing::makeEngine(kGpsIni);
     testing::run(*engine, observations);
-    errors[told] = errorOnEarth(engine->view(), log, options);
+    errors[lever_given] = errorOnEarth(engine->view(), log, options);
   }
   EXPECT_LT(errors[true], 0.05);
   EXPECT_GT(errors[false], 0.5);
 }
 
-// The antenna stands over the base's middle: nothing tells the heading of the base.
+// The antenna is above the origin of the base, so nothing determines the heading of the base.
 TEST(GpsPlugin, MapsWithoutOdometryWithTheMapsXToTheEast) {
   auto options = ringWithGps();
   options.gps.antenna = CPose3D(0, 0, 1, 0, 0, 0);
@@ -137,7 +137,7 @@ TEST(GpsPlugin, MapsWithoutOdometryWithTheMapsXToTheEast) {
   EXPECT_LT(errorOnEarth(engine->view(), log, options), 0.1);
 }
 
-TEST(GpsPlugin, NoiseOfARobotThatStandsTellsNoHeading) {
+TEST(GpsPlugin, NoiseOfARobotAtRestDeterminesNoHeading) {
   const auto engine =
       testing::makeEngine(kGpsIni + "[no_motion]\nclass = NoMotionPlugin\n",
                           {"mapper.pose_plugins=no_motion", "trigger.every_observation=true", "gps.sigma_m=3"});
@@ -154,7 +154,7 @@ TEST(GpsPlugin, NoiseOfARobotThatStandsTellsNoHeading) {
     log.push_back(fix);
   }
   testing::run(*engine, log);
-  EXPECT_EQ(engine->view().graph.factors().size(), engine->view().map.key_frames.size() - 1) << "links alone";
+  EXPECT_EQ(engine->view().graph.factors().size(), engine->view().map.key_frames.size() - 1) << "only links";
 }
 
 TEST(GpsPlugin, AMapInSpaceFindsHeightAndTiltToo) {
@@ -169,7 +169,7 @@ TEST(GpsPlugin, AMapInSpaceFindsHeightAndTiltToo) {
   EXPECT_NEAR(found.roll(), -0.03, 0.02);
 }
 
-TEST(GpsPlugin, ATenthOfTheFixesFarOffBendsNothing) {
+TEST(GpsPlugin, ATenthOfOutlierFixesDistortsNothing) {
   const auto options = ringWithGps();
   const testing::SimulatedLog log(options);
   auto observations = log.observations();
@@ -186,8 +186,8 @@ TEST(GpsPlugin, BadFixesAreRefusedWithTheReason) {
   using Edit = std::function<void(mrpt::obs::gnss::Message_NMEA_GGA::content_t&)>;
   const std::vector<std::pair<std::string, Edit>> cases{
       {"no fix", [](auto& fields) { fields.fix_quality = 0; }},
-      {"satellites stand badly", [](auto& fields) { fields.HDOP = 30; }},
-      {"satellites stand badly", [=](auto& fields) { fields.HDOP = static_cast<float>(nan); }},
+      {"poor satellite geometry", [](auto& fields) { fields.HDOP = 30; }},
+      {"poor satellite geometry", [=](auto& fields) { fields.HDOP = static_cast<float>(nan); }},
       {"not finite", [=](auto& fields) { fields.latitude_degrees = nan; }},
       {"not finite", [=](auto& fields) { fields.altitude_meters = nan; }},
   };
@@ -223,8 +223,8 @@ TEST(GpsPlugin, FixesWaitUntilTheySpreadAndThenAllCount) {
     }
     EXPECT_EQ(batch.addedFactors().size(), waiting + 1);
     EXPECT_EQ(batch.addedVariables().size(), 1U);
-    const double way = log.truthAt(fix->timestamp).norm();
-    EXPECT_NEAR(way, 3, 0.8) << "0.7 m a second";
+    const double distance = log.truthAt(fix->timestamp).norm();
+    EXPECT_NEAR(distance, 3, 0.8) << "0.7 m a second";
     return;
   }
   FAIL() << "never enough";

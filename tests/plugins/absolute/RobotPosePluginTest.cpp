@@ -44,7 +44,7 @@ mrpt::obs::CObservationRobotPose measured(const CPose3D& pose, const CPose3D& ba
 
 class RobotPoseAnywhere : public ::testing::TestWithParam<double> {};
 
-// Poses in the map's own frame place the whole trajectory, wherever and however turned the robot starts in it.
+// Poses in the map frame place the whole trajectory, whatever the pose is at which the robot starts.
 TEST_P(RobotPoseAnywhere, PosesInTheMapPlaceTheTrajectory) {
   const CPose3D start(30, -20, 0, GetParam(), 0, 0);
   const testing::SimulatedLog log(tracked(start));
@@ -126,7 +126,7 @@ TEST(RobotPosePlugin, WhatIsNotFiniteIsRefusedWithTheReason) {
   EXPECT_EQ(batch.decisions().front().reason, "not finite");
 }
 
-// One pose is given 0.3 m beside where the map is held: 3 of its standard deviations, or 15.
+// One given pose is 0.3 m off its pose in the map: 3 of its standard deviations, or 15.
 TEST(RobotPosePlugin, SaysHowFarTheMapIsFromTheGivenPoses) {
   for (const double sigma : {0.1, 0.02}) {
     RobotPoseOptions options;
@@ -144,7 +144,7 @@ TEST(RobotPosePlugin, SaysHowFarTheMapIsFromTheGivenPoses) {
   }
 }
 
-TEST(RobotPosePlugin, PosesHoldUnlessALossIsAskedFor) {
+TEST(RobotPosePlugin, PosesAreTrustedUnlessALossIsSet) {
   for (const double scale : {0.0, 3.0}) {
     RobotPoseOptions options;
     options.loss_scale = scale;

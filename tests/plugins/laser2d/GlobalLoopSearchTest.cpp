@@ -1,4 +1,4 @@
-// Two rooms, 15 m apart, in which key frames saw all walls; then the robot is in the second.
+// Earlier key frames saw all walls of two rooms, 15 m apart; now the robot is in the second room.
 #include <gtest/gtest.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -39,10 +39,10 @@ class GlobalLoopSearchTest : public ::testing::Test {
     travel_ = 60;
   }
 
-  /// A key frame that truly is there, and is thought to be at `thought` if that is given, known to `sigma` [m].
-  LoopSearch::KeyScan see(const CPose3D& truly, const std::optional<CPose3D>& thought, double sigma,
+  /// Adds a key frame with the true pose `truly`. The estimate is `estimated`, or the truth, with `sigma` [m].
+  LoopSearch::KeyScan see(const CPose3D& truly, const std::optional<CPose3D>& estimated, double sigma,
                           const World& world = twoRooms()) {
-    const CPose3D estimate = thought.value_or(truly);
+    const CPose3D estimate = estimated.value_or(truly);
     const auto id = run_.addFrame(estimate).id;
     auto& frame = run_.map.key_frames.edit(id);
     const auto scan = seenFrom(truly, world, 5.5);
@@ -78,7 +78,7 @@ class GlobalLoopSearchTest : public ::testing::Test {
   std::vector<LoopSearch::KeyScan> earlier_;
 };
 
-TEST_F(GlobalLoopSearchTest, WhoIsSureOfAPlaceThatLooksOtherwiseIsFoundInTheOtherRoom) {
+TEST_F(GlobalLoopSearchTest, ACertainButWrongPoseIsFoundInTheOtherRoom) {
   const CPose3D truly(kApart + 0.3, 0.8, 0, 2, 0, 0);
   const auto batch = search({see(truly, CPose3D(0.4, 0.2, 0, 0.5, 0, 0), 0.02)});
   ASSERT_EQ(batch.decisions().size(), 1U);
@@ -92,18 +92,18 @@ TEST_F(GlobalLoopSearchTest, WhoIsSureOfAPlaceThatLooksOtherwiseIsFoundInTheOthe
   EXPECT_LT(minus(measured, geometry::project(geometry::fromMrpt(truly - place))).norm(), 0.05);
 }
 
-TEST_F(GlobalLoopSearchTest, WhoMayBeAnywhereIsFoundToo) {
+TEST_F(GlobalLoopSearchTest, AnUncertainPoseIsFoundToo) {
   const CPose3D truly(kApart + 0.3, 0.8, 0, 2, 0, 0);
   const auto batch = search({see(truly, CPose3D(40, 30, 0, 0, 0, 0), 20)});
   ASSERT_EQ(batch.addedFactors().size(), 1U);
 }
 
-TEST_F(GlobalLoopSearchTest, NothingIsSoughtWhereWhatIsSeenFitsTheMap) {
+TEST_F(GlobalLoopSearchTest, NoSearchWhereTheScanFitsTheMap) {
   const CPose3D truly(kApart + 0.3, 0.8, 0, 2, 0, 0);
   EXPECT_TRUE(search({see(truly, {}, 0.02)}).empty());
 }
 
-TEST_F(GlobalLoopSearchTest, WhoIsSureToBeOnNewGroundIsSoughtWhereItIsAskedFor) {
+TEST_F(GlobalLoopSearchTest, OnNewGroundItSearchesOnlyOnRequest) {
   const CPose3D truly(kApart + 0.3, 0.8, 0, 2, 0, 0);
   const auto seen = see(truly, CPose3D(0, 30, 0, 0, 0, 0), 0.02);
   EXPECT_TRUE(search({seen}).empty());

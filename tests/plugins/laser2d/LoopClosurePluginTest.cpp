@@ -44,7 +44,7 @@ std::vector<mapper::Decision> loopClosures(const mapper::View& view) {
   return found;
 }
 
-TEST(LoopClosurePlugin, NoLoopIsTriedOnAFirstStraightAndBend) {
+TEST(LoopClosurePlugin, NoLoopIsTriedOnAFirstStraightAndCurve) {
   testing::SimulatedLogOptions options;
   options.laps = 0.35;
   const auto engine = testing::makeEngine(testing::kLaserIni);
@@ -89,8 +89,8 @@ TEST(LoopClosurePlugin, OnTheSecondLapClosuresLieOnTheTruth) {
   EXPECT_EQ(wrong, 0U) << "a wrong closure that acts";
 }
 
-// The wheels, which alone measure the motion, turn by 40 deg too far while the laser is silent for 5 s, and nothing but
-// the places seen before says so.
+// Only the wheels measure the motion. While the laser is silent for 5 s they turn by 40 deg too much, which only places
+// seen before can reveal.
 class UnseenSlip : public ::testing::Test {
  protected:
   UnseenSlip() {

@@ -1,5 +1,5 @@
-// Each verdict of a search, in a world that leads to it. A key frame at (0, 0) saw the walls; another, 20 m of way
-// later, stands at (1, 0.2) and is thought to be somewhat off.
+// Each result of a search, in a world that leads to it. A key frame at (0, 0) saw the walls; another one, after 20 m of
+// travel, is at (1, 0.2), with an error in its estimate.
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
@@ -18,18 +18,18 @@ using namespace seen_walls;
 
 class LoopSearchVerdict : public ::testing::Test {
  protected:
-  /// How well the newest key frame's place is known: within the fine matcher's reach, or not at all.
+  /// How well the newest key frame's pose is known: within the convergence region of the fine matcher, or not at all.
   enum class Known { nearly, not_at_all };
 
   mapper::Decision search(const World& then, const World& now, Known known, double reach_now = 8) {
     const CPose3D truly(1, 0.2, 0, 0.1, 0, 0);
-    const CPose3D thought =
+    const CPose3D estimated =
         truly + (known == Known::nearly ? CPose3D(0.1, 0.1, 0, 0.02, 0, 0) : CPose3D(1, 0.5, 0, 0.2, 0, 0));
     run_ = HandMadeRun();
-    const auto place = run_.addFrame({}).id, newest = run_.addFrame(thought).id;
+    const auto place = run_.addFrame({}).id, newest = run_.addFrame(estimated).id;
     if (known == Known::nearly) {
       const auto sigmas = graph::SquareRootInformation::fromSigmas(Eigen::Vector3d(0.1, 0.1, 0.03));
-      const auto measured = std::make_shared<graph::BetweenSe2>(geometry::project(geometry::fromMrpt(thought)));
+      const auto measured = std::make_shared<graph::BetweenSe2>(geometry::project(geometry::fromMrpt(estimated)));
       run_.graph.addFactor(
           {{run_.map.keyFrame(place).pose, run_.map.keyFrame(newest).pose}, measured, sigmas, {}, 1, {}});
       run_.uncertainty = mapper::Uncertainty(run_.graph);
@@ -63,9 +63,9 @@ TEST_F(LoopSearchVerdict, AnUnevenRoomIsFoundFromNearAndFromFar) {
   }
 }
 
-TEST_F(LoopSearchVerdict, NothingAlikeWhereTheWallsAreOthers) {
+TEST_F(LoopSearchVerdict, NoMatchWhereTheWallsDiffer) {
   const World posts{{{4, 4}, {4.5, 4.5}}, {{-5, 3}, {-5.4, 3.5}}, {{0, -6}, {0.5, -6}}, {{6, -1}, {6.3, -1.6}}};
-  EXPECT_EQ(search(room(3, 3), posts, Known::not_at_all).reason, "nothing alike");
+  EXPECT_EQ(search(room(3, 3), posts, Known::not_at_all).reason, "no match in the search window");
 }
 
 TEST_F(LoopSearchVerdict, TooLittleOverlapWhereOneWallOfMoreIsTheSame) {
@@ -79,17 +79,17 @@ TEST_F(LoopSearchVerdict, AmbiguousWhereDoorsAlongACorridorAreAlike) {
     world.push_back({{2.0 * i, 1.2}, {2.0 * i, 0.8}});
     world.push_back({{2.0 * i, -1.2}, {2.0 * i, -0.8}});
   }
-  EXPECT_EQ(search(world, world, Known::not_at_all, 4).reason, "ambiguous: it fits as well elsewhere");
-  EXPECT_TRUE(search(world, world, Known::nearly, 4).accepted) << "who knows where it is has no choice of doors";
+  EXPECT_EQ(search(world, world, Known::not_at_all, 4).reason, "ambiguous: the scans fit elsewhere as well");
+  EXPECT_TRUE(search(world, world, Known::nearly, 4).accepted) << "a known pose leaves no choice of doors";
 }
 
 TEST_F(LoopSearchVerdict, AmbiguousInASquareRoomWhereTheHeadingMayBeAny) {
   options_.max_window_angle = 3.2;
-  EXPECT_EQ(search(room(5, 5), room(5, 5), Known::not_at_all).reason, "ambiguous: it fits as well elsewhere");
+  EXPECT_EQ(search(room(5, 5), room(5, 5), Known::not_at_all).reason, "ambiguous: the scans fit elsewhere as well");
 }
 
-// A room, and 12 m farther one that is like it but for a wall: the robot is in the first.
-TEST_F(LoopSearchVerdict, ARoomThatIsLikeAnotherIsNoClosureWhereTheOtherFitsBetter) {
+// A room, and 12 m away another one that differs by one wall: the robot is in the first.
+TEST_F(LoopSearchVerdict, ARoomThatLooksLikeAnotherIsNoClosureIfTheOtherFitsBetter) {
   auto whole = room(6, 4);
   whole.push_back({{1, 2}, {1, 0.8}});
   const World lacking{whole[0], whole[2], whole[3]};
@@ -115,24 +115,24 @@ TEST_F(LoopSearchVerdict, ARoomThatIsLikeAnotherIsNoClosureWhereTheOtherFitsBett
   const auto both =
       LoopSearch(options_, context, matcher, {seen}, {{in_second, {in_second}}, {in_first, {in_first}}})(run_.view());
   ASSERT_EQ(both.decisions().size(), 2U);
-  EXPECT_EQ(both.decisions()[0].reason, "ambiguous: it fits as well or better at another place");
+  EXPECT_EQ(both.decisions()[0].reason, "ambiguous: the scans fit another place as well or better");
   EXPECT_TRUE(both.decisions()[1].accepted) << both.decisions()[1].reason;
   EXPECT_EQ(both.addedFactors().size(), 1U);
 }
 
-TEST_F(LoopSearchVerdict, OpenAlongABareCorridor) {
-  EXPECT_EQ(search(corridor(), corridor(), Known::nearly).reason, "the walls leave a direction open");
+TEST_F(LoopSearchVerdict, UnconstrainedAlongABareCorridor) {
+  EXPECT_EQ(search(corridor(), corridor(), Known::nearly).reason, "the walls leave a direction unconstrained");
 }
 
-TEST_F(LoopSearchVerdict, HardlyFixedWhereTheWallsTellLessThanIsAskedFor) {
+TEST_F(LoopSearchVerdict, TooWeakWhereTheWallsConstrainLessThanIsRequired) {
   const auto decision = search(room(6, 4), room(6, 4), Known::nearly);
   ASSERT_TRUE(decision.accepted) << decision.reason;
   ASSERT_EQ(decision.numbers.back().first, "uncertainty of the match [m]");
   options_.max_sigma = 0.9 * decision.numbers.back().second;
-  EXPECT_EQ(search(room(6, 4), room(6, 4), Known::nearly).reason, "the walls hardly fix it");
+  EXPECT_EQ(search(room(6, 4), room(6, 4), Known::nearly).reason, "the walls constrain the match too weakly");
 }
 
-TEST_F(LoopSearchVerdict, NothingIsSoughtWhereThePlaceIsKnownAsWellAsAClosureWouldTell) {
+TEST_F(LoopSearchVerdict, NoSearchWhereAClosureWouldAddNoInformation) {
   options_.known_sigma = 0.2;
   options_.known_angle_sigma = 0.1;
   search(room(6, 4), room(6, 4), Known::nearly);

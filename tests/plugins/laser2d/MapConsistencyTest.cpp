@@ -13,7 +13,7 @@ namespace {
 using mapper::Evidence;
 using Says = Evidence::Says;
 
-// 30 m there and, turned round twice as it were, 30 m along the same line again, a key frame each metre.
+// Drives 30 m along a line, jumps back, and drives it again with the same heading; one key frame each metre.
 testing::HandMadeRun thereAgain() {
   testing::HandMadeRun run;
   for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
@@ -30,7 +30,7 @@ void close(testing::HandMadeRun& run, std::size_t from, std::size_t to, double w
   run.graph.addFactor(std::move(record));
 }
 
-TEST(MapConsistency, WithoutAWayBackNothingCanBeTold) {
+TEST(MapConsistency, WithoutARevisitTheEvidenceIsTooLittle) {
   testing::HandMadeRun run;
   for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
   const auto evidence = revisits(run.view(), "loops", {}, 8);
@@ -48,15 +48,15 @@ TEST(MapConsistency, NothingWasDrivenBetweenTwoSessions) {
   EXPECT_DOUBLE_EQ(revisits(run.view(), "loops", {}, 8)[0].value, 4);
 }
 
-TEST(MapConsistency, ALongWayAgainWithoutAClosureIsAgainstTheMap) {
+TEST(MapConsistency, ALongRevisitWithoutAClosureIsAgainstTheMap) {
   const auto evidence = revisits(thereAgain().view(), "loops", {}, 8);
   EXPECT_EQ(evidence[0].says, Says::good);
-  EXPECT_NEAR(evidence[0].value, 60, 1.5) << "30 m again, and the jump back along them";
+  EXPECT_NEAR(evidence[0].value, 60, 1.5) << "30 m driven again, and 30 m of the jump back";
   EXPECT_EQ(evidence[1].says, Says::against_it);
-  EXPECT_NE(evidence[1].reason.find("sees something else"), std::string::npos);
+  EXPECT_NE(evidence[1].reason.find("scans show something else"), std::string::npos);
 }
 
-// Two walls along the way, as a laser in the base sees them, the second time `off` to the side [m].
+// Two walls along the path, as a laser in the base sees them, shifted by `off` [m] to the side in the second pass.
 testing::HandMadeRun thereAgainBetweenWalls(double off) {
   auto run = thereAgain();
   for (std::uint32_t i = 0; i < run.map.key_frames.size(); ++i) {
@@ -75,7 +75,7 @@ testing::HandMadeRun thereAgainBetweenWalls(double off) {
   return run;
 }
 
-TEST(MapConsistency, AWayAgainOnWhichTheScansFitIsNotAgainstTheMap) {
+TEST(MapConsistency, ARevisitOnWhichTheScansFitIsNotAgainstTheMap) {
   const auto fits = revisits(thereAgainBetweenWalls(0).view(), "loops", {"laser_points"}, 8);
   EXPECT_EQ(fits[1].says, Says::good);
   EXPECT_EQ(fits[1].value, 0);
@@ -84,7 +84,7 @@ TEST(MapConsistency, AWayAgainOnWhichTheScansFitIsNotAgainstTheMap) {
   EXPECT_EQ(doubled[1].says, Says::against_it);
 }
 
-// 100 m along a line, then again from `from` [m] on, where every fifth key frame closes a loop.
+// Drives 100 m along a line, then again from `from` [m] on, where every fifth key frame closes a loop.
 Evidence spannedFrom(std::size_t from, bool closures) {
   testing::HandMadeRun run;
   for (int i = 0; i <= 100; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
@@ -93,12 +93,12 @@ Evidence spannedFrom(std::size_t from, bool closures) {
   return revisits(run.view(), "loops", {}, 8).at(2);
 }
 
-TEST(MapConsistency, AWayOfWhichLittleLiesBetweenTwoVisitsCannotBeTold) {
+TEST(MapConsistency, TooLittleTravelBetweenTwoVisitsIsReported) {
   const auto none = spannedFrom(95, false);
   EXPECT_EQ(none.value, 0) << "without a closure or fitting scans";
   EXPECT_EQ(none.says, Says::too_little);
   EXPECT_NE(none.reason.find("only 0 m of the 110 m"), std::string::npos) << none.reason;
-  // From 93 m on, the jump back, and the way again: 7 + 5 + 5 m of 110.
+  // The travel from 93 m on, the jump back, and the second pass: 7 + 5 + 5 m of 110.
   const auto end = spannedFrom(95, true), all = spannedFrom(10, true);
   EXPECT_NEAR(end.value, 100.0 * 17 / 110, 2);
   EXPECT_EQ(end.says, Says::too_little);
@@ -107,8 +107,9 @@ TEST(MapConsistency, AWayOfWhichLittleLiesBetweenTwoVisitsCannotBeTold) {
   EXPECT_EQ(all.says, Says::good);
 }
 
-// Whatever run they are of: a session that goes on has the closures of those before it in the graph alone.
-TEST(MapConsistency, AClosureOfTheGraphTiesFifteenMetresAroundIt) {
+// Closures count whatever run they are of: a session that continues a map has those of earlier sessions only in the
+// graph.
+TEST(MapConsistency, AClosureOfTheGraphConfirmsFifteenMetresAroundIt) {
   auto run = thereAgain();
   close(run, 45, 14);
   const auto evidence = revisits(run.view(), "loops", {}, 8);
@@ -116,13 +117,13 @@ TEST(MapConsistency, AClosureOfTheGraphTiesFifteenMetresAroundIt) {
   EXPECT_LT(evidence[1].value, revisits(thereAgain().view(), "loops", {}, 8)[1].value - 28);
 }
 
-TEST(MapConsistency, AClosureThatWasRefusedOrIsSomebodyElsesTiesNothing) {
+TEST(MapConsistency, ARefusedClosureOrOneOfAnotherPluginConfirmsNothing) {
   auto run = thereAgain();
-  const double open = revisits(run.view(), "loops", {}, 8)[1].value;
+  const double unconfirmed = revisits(run.view(), "loops", {}, 8)[1].value;
   close(run, 45, 14, 0);
-  EXPECT_EQ(revisits(run.view(), "loops", {}, 8)[1].value, open);
+  EXPECT_EQ(revisits(run.view(), "loops", {}, 8)[1].value, unconfirmed);
   close(run, 45, 14);
-  EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, open);
+  EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, unconfirmed);
 }
 
 mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::string& kind, std::size_t from,
@@ -138,7 +139,7 @@ mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::strin
   return decision;
 }
 
-TEST(MapConsistency, ASlipThatWasUndoneIsToldWithItsPlaceAndSize) {
+TEST(MapConsistency, ASlipThatWasUndoneIsReportedWithItsTimeAndSize) {
   auto run = thereAgain();
   EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
   auto decision = decisionAbout(run, kSlip, 20, 19, true);

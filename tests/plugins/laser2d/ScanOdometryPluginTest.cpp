@@ -31,12 +31,12 @@ SimulatedLog halfALap() {
 
 using Change = std::function<CObservation::Ptr(CObservation::Ptr)>;
 
-// The motion over the log, from its first scan to its last, by a plugin that hears all of it first.
-struct Told {
+// The motion over the log, from its first scan to its last, by a plugin that gets all observations first.
+struct Measured {
   CPose2D motion, truth;
   Eigen::Matrix3d covariance;
 };
-Told follow(const SimulatedLog& log, const Change& change, const ScanOdometryOptions& options = {}) {
+Measured follow(const SimulatedLog& log, const Change& change, const ScanOdometryOptions& options = {}) {
   ScanOdometryPlugin plugin(options, {}, {});
   std::vector<base::Stamp> scans;
   for (auto observation : log.observations()) {
@@ -46,18 +46,18 @@ Told follow(const SimulatedLog& log, const Change& change, const ScanOdometryOpt
     if (dynamic_cast<const CObservation2DRangeScan*>(observation.get())) scans.push_back(observation->timestamp);
   }
   plugin.processUntil(scans.back());
-  const auto told = plugin.between(scans.front(), scans.back());
-  if (!told) return {};
+  const auto measured = plugin.between(scans.front(), scans.back());
+  if (!measured) return {};
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   const int planar[] = {0, 1, 5};
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) covariance(i, j) = told->covariance(planar[i], planar[j]);
-  return {CPose2D(told->begin_from_end), log.truthAt(scans.back()) - log.truthAt(scans.front()), covariance};
+    for (int j = 0; j < 3; ++j) covariance(i, j) = measured->covariance(planar[i], planar[j]);
+  return {CPose2D(measured->begin_from_end), log.truthAt(scans.back()) - log.truthAt(scans.front()), covariance};
 }
 
-void expectNear(const Told& told, const std::string& what) {
-  const CPose2D error = told.motion - told.truth;
-  EXPECT_GT(told.truth.norm(), 5) << what;
+void expectNear(const Measured& measured, const std::string& what) {
+  const CPose2D error = measured.motion - measured.truth;
+  EXPECT_GT(measured.truth.norm(), 5) << what;
   EXPECT_LT(error.norm(), 0.25) << what;
   EXPECT_LT(std::abs(error.phi()), 1.5 * kDegree) << what;
 }
@@ -91,12 +91,12 @@ TEST(ScanOdometryPlugin, FollowsTheLaserWhateverTheWheelsSay) {
              "a jump of 5 m");
 }
 
-// A log that holds odometry twice, as CARMEN's do: each scan repeats what was last told, however old that is.
-TEST(ScanOdometryPlugin, OfTwoOdometriesThatWhichAgreesWithTheMatchesBridgesAGap) {
+// A log with each odometry twice, as CARMEN's logs have it: each scan repeats the last reading, however old it is.
+TEST(ScanOdometryPlugin, TheOdometryThatAgreesWithTheMatchesBridgesAGap) {
   testing::SimulatedLogOptions options;
   options.laps = 0.8;
   const SimulatedLog log(options);
-  // 3 s without a scan, where the base turns.
+  // There are no scans for 3 s, in which the base turns.
   const auto heading = [&](double seconds) {
     return log.truthAt(log.begin() + base::durationFromSeconds(seconds)).phi();
   };
@@ -108,7 +108,7 @@ TEST(ScanOdometryPlugin, OfTwoOdometriesThatWhichAgreesWithTheMatchesBridgesAGap
   };
   ScanOdometryPlugin plugin({}, {}, {});
   std::vector<base::Stamp> scans;
-  CPose2D last_told;
+  CPose2D last_reading;
   for (const auto& observation : log.observations()) {
     const bool is_scan = observation->sensorLabel == "laser";
     if (is_scan && in_gap(observation->timestamp)) continue;
@@ -116,27 +116,27 @@ TEST(ScanOdometryPlugin, OfTwoOdometriesThatWhichAgreesWithTheMatchesBridgesAGap
       const auto stale = CObservationOdometry::Create();
       stale->sensorLabel = "laser_ODOM";
       stale->timestamp = observation->timestamp;
-      stale->odometry = last_told;
+      stale->odometry = last_reading;
       plugin.add(stale);
       scans.push_back(observation->timestamp);
     } else {
       const auto& wheels = dynamic_cast<const CObservationOdometry&>(*observation);
-      if (!in_gap(wheels.timestamp)) last_told = wheels.odometry;
+      if (!in_gap(wheels.timestamp)) last_reading = wheels.odometry;
     }
     plugin.add(observation);
   }
   plugin.processUntil(scans.back());
-  const auto told = plugin.between(scans.front(), scans.back());
-  ASSERT_TRUE(told) << "the gap was not bridged";
-  const CPose2D error = CPose2D(told->begin_from_end) - (log.truthAt(scans.back()) - log.truthAt(scans.front()));
+  const auto measured = plugin.between(scans.front(), scans.back());
+  ASSERT_TRUE(measured) << "the gap was not bridged";
+  const CPose2D error = CPose2D(measured->begin_from_end) - (log.truthAt(scans.back()) - log.truthAt(scans.front()));
   EXPECT_LT(error.norm(), 0.3);
   EXPECT_LT(std::abs(error.phi()), 2 * kDegree);
-  // Not straight across it: what a camera saw meanwhile belongs where the base was.
+  // The path across the gap is not straight, so that observations of other sensors in it get the right pose.
   const auto at = [&](double seconds) { return log.begin() + base::durationFromSeconds(seconds); };
   for (double seconds = gap + 0.5; seconds < gap + 3; seconds += 0.5) {
-    const auto way = plugin.between(at(gap), at(seconds));
-    ASSERT_TRUE(way);
-    const CPose2D off = CPose2D(way->begin_from_end) - (log.truthAt(at(seconds)) - log.truthAt(at(gap)));
+    const auto motion = plugin.between(at(gap), at(seconds));
+    ASSERT_TRUE(motion);
+    const CPose2D off = CPose2D(motion->begin_from_end) - (log.truthAt(at(seconds)) - log.truthAt(at(gap)));
     EXPECT_LT(off.norm(), 0.05) << seconds - gap;
     EXPECT_LT(std::abs(off.phi()), 2 * kDegree) << seconds - gap;
   }
@@ -162,7 +162,7 @@ TEST(ScanOdometryPlugin, FollowsALaserThatIsUpsideDownOrALittleTilted) {
   expectNear(follow(halfALapWith({laserAt("laser", 5 * kDegree, 0)}), as_it_is), "tilted by 5 degrees");
 }
 
-TEST(ScanOdometryPlugin, OfATiltedLaserNothingIsTakenAndTheUserIsTold) {
+TEST(ScanOdometryPlugin, OfATiltedLaserNothingIsTakenAndTheUserIsWarned) {
   const auto log = halfALapWith({laserAt("tilted", 30 * kDegree, 0)});
   ScanOdometryPlugin plugin({}, {}, {});
   std::size_t scans = 0;
@@ -183,7 +183,7 @@ TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
   auto tilted = laserAt("tilted", 30 * kDegree, 0);
   tilted.phase = 0.001;  // comes first
   const auto log = halfALapWith({tilted, laserAt("level", 0, 0)});
-  const auto told = [&](const std::string& label) {
+  const auto coveredAndWarned = [&](const std::string& label) {
     ScanOdometryOptions options;
     options.label = label;
     ScanOdometryPlugin plugin(options, {}, {});
@@ -191,9 +191,9 @@ TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
     plugin.processUntil(log.end());
     return std::pair(plugin.coveredUntil().has_value(), plugin.warnings().size());
   };
-  EXPECT_EQ(told(""), std::pair(true, std::size_t{0}));
-  EXPECT_EQ(told("level"), std::pair(true, std::size_t{0}));
-  EXPECT_EQ(told("tilted"), std::pair(false, std::size_t{1}));
+  EXPECT_EQ(coveredAndWarned(""), std::pair(true, std::size_t{0}));
+  EXPECT_EQ(coveredAndWarned("level"), std::pair(true, std::size_t{0}));
+  EXPECT_EQ(coveredAndWarned("tilted"), std::pair(false, std::size_t{1}));
 }
 
 TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {
@@ -201,7 +201,7 @@ TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {
   ScanOdometryPlugin plugin({}, {}, {});
   for (const auto& observation : log.observations()) plugin.add(observation);
   const auto at = [&](double seconds) { return log.begin() + base::durationFromSeconds(seconds); };
-  EXPECT_FALSE(plugin.between(at(2), at(3))) << "nothing is worked on before its time";
+  EXPECT_FALSE(plugin.between(at(2), at(3))) << "nothing is processed early";
   plugin.processUntil(at(6));
   EXPECT_FALSE(plugin.between(at(5), at(7)));
   const auto whole = plugin.between(at(2.03), at(5.56)), first = plugin.between(at(2.03), at(4.4)),
@@ -220,7 +220,7 @@ TEST(ScanOdometryPlugin, AScanAfterItsTimeIsLeftOutAndOrderBeforeItDoesNotMatter
     if (std::dynamic_pointer_cast<CObservation2DRangeScan>(observation)) scans.push_back(observation);
   }
   scans.resize(80);
-  const auto told = [&](const std::vector<CObservation::Ptr>& order) {
+  const auto motionInOrder = [&](const std::vector<CObservation::Ptr>& order) {
     ScanOdometryPlugin plugin({}, {}, {});
     for (const auto& scan : order) plugin.add(scan);
     plugin.processUntil(scans.back()->timestamp);
@@ -230,7 +230,7 @@ TEST(ScanOdometryPlugin, AScanAfterItsTimeIsLeftOutAndOrderBeforeItDoesNotMatter
   };
   auto shuffled = scans;
   std::reverse(shuffled.begin() + 20, shuffled.begin() + 40);
-  const auto plain = told(scans), other = told(shuffled);
+  const auto plain = motionInOrder(scans), other = motionInOrder(shuffled);
   ASSERT_TRUE(plain && other);
   EXPECT_EQ(plain->begin_from_end, other->begin_from_end);
 }
@@ -249,7 +249,7 @@ TEST(ScanOdometryPlugin, AGapIsBridgedByTheWheelsOrBySearchUnlessItIsLong) {
   EXPECT_EQ(follow(log, broken(11, false)).motion, CPose2D());
 }
 
-TEST(ScanOdometryPlugin, AGapThatNothingTellsIsEvidence) {
+TEST(ScanOdometryPlugin, AGapThatNothingMeasuresIsEvidence) {
   const auto log = halfALap();
   for (const bool wheels : {true, false}) {
     ScanOdometryPlugin plugin({}, {}, {});
@@ -268,8 +268,7 @@ TEST(ScanOdometryPlugin, AGapThatNothingTellsIsEvidence) {
   }
 }
 
-// Root mean square of the error over a second of a turning base, [m] [rad].
-// Of the two walls of a corridor, 2.4 m apart and without an end in sight.
+// A scan of the two walls of a corridor, which are 2.4 m apart and have no visible end.
 CObservation::Ptr scanOfACorridor(double seconds) {
   constexpr int kBeams = 181;
   constexpr float kReach = 8;
@@ -302,12 +301,12 @@ TEST(ScanOdometryPlugin, AlongABareCorridorItKnowsThatItDoesNotKnow) {
       plugin.add(scanOfACorridor(0.1 * i));
     }
     plugin.processUntil(*plugin.coveredUntil());
-    const auto told = plugin.between(base::stampFromUnix(1e9), base::stampFromUnix(1e9 + 10));
-    ASSERT_TRUE(told);
-    const double along = std::sqrt(told->covariance(0, 0)), across = std::sqrt(told->covariance(1, 1));
+    const auto measured = plugin.between(base::stampFromUnix(1e9), base::stampFromUnix(1e9 + 10));
+    ASSERT_TRUE(measured);
+    const double along = std::sqrt(measured->covariance(0, 0)), across = std::sqrt(measured->covariance(1, 1));
     EXPECT_LT(across, 0.2);
     if (wheels) {
-      EXPECT_NEAR(told->begin_from_end.x(), 5, 0.3);
+      EXPECT_NEAR(measured->begin_from_end.x(), 5, 0.3);
       EXPECT_LT(along, 0.5);
       EXPECT_TRUE(plugin.evidence().empty());
     } else {
@@ -319,6 +318,7 @@ TEST(ScanOdometryPlugin, AlongABareCorridorItKnowsThatItDoesNotKnow) {
   }
 }
 
+// Root mean square of the error over a second of a turning base, [m] [rad].
 struct Errors {
   double position = 0, heading = 0;
 };
@@ -338,19 +338,19 @@ Errors errorsPerSecond(const SimulatedLog& log, double sweep, bool wheels) {
   Errors errors;
   int spans = 0;
   for (std::size_t i = 0; i + 10 < scans.size(); ++i, ++spans) {
-    const auto told = plugin.between(scans[i], scans[i + 10]);
-    if (!told) {
+    const auto measured = plugin.between(scans[i], scans[i + 10]);
+    if (!measured) {
       ADD_FAILURE() << "lost at scan " << i;
       return {};
     }
-    const CPose2D error = CPose2D(told->begin_from_end) - (log.truthAt(scans[i + 10]) - log.truthAt(scans[i]));
+    const CPose2D error = CPose2D(measured->begin_from_end) - (log.truthAt(scans[i + 10]) - log.truthAt(scans[i]));
     errors.position += error.norm() * error.norm();
     errors.heading += error.phi() * error.phi();
   }
   return {std::sqrt(errors.position / spans), std::sqrt(errors.heading / spans)};
 }
 
-// Of a curve that goes on all scans are skewed alike: it is where curves begin and end that the motion is wrong.
+// In a long curve all scans are skewed in the same way: the motion is wrong where curves begin and end.
 TEST(ScanOdometryPlugin, ASweepIsTakenOutOfTheScansOfATurningBase) {
   testing::SimulatedLogOptions options;
   options.place = testing::SimulatedLogOptions::Place::box;
@@ -382,7 +382,7 @@ TEST(ScanOdometryPlugin, OfScansWithASweepAllTimeSinceTheFirstStampIsCovered) {
   EXPECT_EQ(*plugin.coveredUntil(), scans.back());
 }
 
-/// Mean over some logs of e' C^-1 e, the error by its covariance C: 3 where C is right.
+/// Mean of e' C^-1 e over some logs, with the error e and its covariance C: 3 if C is right.
 double normalisedSquares(const ScanOdometryOptions& options) {
   double squares = 0;
   constexpr int kLogs = 20;
@@ -390,12 +390,12 @@ double normalisedSquares(const ScanOdometryOptions& options) {
     testing::SimulatedLogOptions world;
     world.laps = 0.3;
     world.seed = seed;
-    const auto told = follow(
+    const auto measured = follow(
         SimulatedLog(world), [](auto observation) { return observation; }, options);
-    const CPose2D error = told.truth - told.motion;  // in the frame of the end, as the covariance is
+    const CPose2D error = measured.truth - measured.motion;  // in the frame of the end, as the covariance is
     EXPECT_LT(error.norm(), 0.05);
     const Eigen::Vector3d e(error.x(), error.y(), error.phi());
-    squares += e.dot(told.covariance.ldlt().solve(e));
+    squares += e.dot(measured.covariance.ldlt().solve(e));
   }
   return squares / kLogs;
 }
@@ -410,15 +410,15 @@ TEST(ScanOdometryPlugin, TheCovarianceOfTheMatchesIsThatOfTheErrors) {
   EXPECT_GT(squares, 0.5);
 }
 
-// Beside it is what real floors, walls and mountings do, of which a simulated world has nothing: the covariance must
-// hold then, and still be of use.
+// Real floors, walls and mountings cause further errors, which a simulated world lacks: the covariance must include
+// them, and still be small enough to be useful.
 TEST(ScanOdometryPlugin, ItsCovarianceHasRoomForARealWorldButNotMore) {
   EXPECT_LT(normalisedSquares({}), 0.1);
   const auto log = halfALap();
-  const auto told = follow(log, [](auto observation) { return observation; });
-  const double way = log.lapLength() / 2;
-  EXPECT_LT(std::sqrt(told.covariance.topLeftCorner<2, 2>().trace()), 0.015 * way);
-  EXPECT_LT(std::sqrt(told.covariance(2, 2)), 2 * kDegree);
+  const auto measured = follow(log, [](auto observation) { return observation; });
+  const double travel = log.lapLength() / 2;
+  EXPECT_LT(std::sqrt(measured.covariance.topLeftCorner<2, 2>().trace()), 0.015 * travel);
+  EXPECT_LT(std::sqrt(measured.covariance(2, 2)), 2 * kDegree);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ inline World corridor() {
   return {{{-30, -1.2}, {30, -1.2}}, {{-30, 1.2}, {30, 1.2}}};
 }
 
-/// What is seen from there of walls that hide nothing: their points within `reach` [m], in the base.
+/// The points of all walls within `reach` [m], in the base: walls do not hide each other.
 inline std::shared_ptr<const matching::ScanWithNormals> seenFrom(const mrpt::poses::CPose3D& map_from_base,
                                                                  const World& world, double reach) {
   constexpr double kSpacing = 0.05;  // [m]
@@ -35,8 +35,8 @@ inline std::shared_ptr<const matching::ScanWithNormals> seenFrom(const mrpt::pos
   for (const auto& wall : world) {
     const Eigen::Vector2d along = (wall.to - wall.from).normalized();
     const double length = (wall.to - wall.from).norm();
-    for (double way = 0; way <= length; way += kSpacing) {
-      const Eigen::Vector2d p = wall.from + way * along;
+    for (double offset = 0; offset <= length; offset += kSpacing) {
+      const Eigen::Vector2d p = wall.from + offset * along;
       const auto in_base = base_from_map.composePoint({p.x(), p.y(), 0});
       if (in_base.norm() > reach) continue;
       scan->points.emplace_back(in_base.x, in_base.y);

@@ -1,5 +1,5 @@
-// A drive of 24 m through a hall, one key frame in each metre. Between two of them the map has another motion than the
-// robot made; closures at the end say where the robot really is.
+// A drive of 24 m through a hall, with one key frame each metre. Between two of them the map has a wrong motion, and
+// closures at the end measure the true pose of the robot.
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
@@ -33,7 +33,7 @@ Se2 onCircle(double angle) {
 
 class SlipSearchTest : public ::testing::Test {
  protected:
-  static constexpr std::size_t kFrames = 24, kSlipped = 11;  // the motion from that to the next one is wrong
+  static constexpr std::size_t kFrames = 24, kSlipped = 11;  // the motion from this key frame to the next is wrong
 
   Se2 trueMapFromBase(std::size_t i) const {
     return onCircle(static_cast<double>(i) / 3 + (i > kSlipped ? unseen_ : 0));
@@ -79,7 +79,7 @@ class SlipSearchTest : public ::testing::Test {
 
   World world_ = hall();
   double reach_ = 8;   // [m] of the laser
-  double unseen_ = 0;  // [rad] of the circle that the robot drives farther where it slips
+  double unseen_ = 0;  // [rad] of the circle that the robot drives in addition where it slips
   testing::HandMadeRun run_;
   std::vector<Se2> poses_;
   std::vector<LoopSearch::KeyScan> drive_;
@@ -87,7 +87,7 @@ class SlipSearchTest : public ::testing::Test {
   base::FactorId step_, slipped_;
 };
 
-TEST_F(SlipSearchTest, TheSpanThatSlippedGivesWayToTheMotionThatTheScansFit) {
+TEST_F(SlipSearchTest, TheSpanThatSlippedGetsTheMotionThatTheScansFit) {
   drive({0.9, -0.6, 0.5});
   refuse(1, 20);
   refuse(3, 23);
@@ -107,8 +107,8 @@ TEST_F(SlipSearchTest, TheSpanThatSlippedGivesWayToTheMotionThatTheScansFit) {
   EXPECT_LT(minus(measured, truth).norm(), 0.02);
 }
 
-// The robot drives a third of the circle unseen, and its wheels slip.
-TEST_F(SlipSearchTest, TheOnlySpanThatNoScansBearOutGivesWayToWhatTheClosuresSay) {
+// The robot drives a third of the circle without scans, and its wheels slip there.
+TEST_F(SlipSearchTest, TheOnlySpanThatNoScansConfirmGetsTheMotionOfTheClosures) {
   world_ = room(9.6, 9.6);
   world_.push_back({{-4.8, 1}, {-3.8, 1}});
   world_.push_back({{1, 4.8}, {1.5, 4}});
@@ -121,13 +121,13 @@ TEST_F(SlipSearchTest, TheOnlySpanThatNoScansBearOutGivesWayToWhatTheClosuresSay
   const auto batch = search();
   ASSERT_EQ(batch.decisions().size(), 1U);
   ASSERT_TRUE(batch.decisions()[0].accepted) << batch.decisions()[0].reason;
-  EXPECT_EQ(batch.decisions()[0].reason, "closures that agree contradict the motion here, which no scans bear out");
+  EXPECT_EQ(batch.decisions()[0].reason, "closures that agree contradict the motion here, which no scans confirm");
   EXPECT_EQ(*batch.decisions()[0].to, run_.map.key_frames[kSlipped].id);
   ASSERT_EQ(batch.addedFactors().size(), 1U);
   const auto& measured = dynamic_cast<const graph::BetweenSe2&>(*batch.addedFactors()[0].factor).measured();
   const Se2 truth = geometry::inverse(trueMapFromBase(kSlipped)) * trueMapFromBase(kSlipped + 1);
   EXPECT_LT(minus(measured, truth).norm(), 1e-6);
-  EXPECT_GT(1 / batch.addedFactors()[0].noise.information()(0, 0), 0.5) << "as vague as the map between them";
+  EXPECT_GT(1 / batch.addedFactors()[0].noise.information()(0, 0), 0.5) << "as uncertain as the map between them";
 }
 
 TEST_F(SlipSearchTest, OneClosureAloneChangesNothing) {
@@ -151,7 +151,7 @@ TEST_F(SlipSearchTest, ClosuresThatActAreNoReason) {
   EXPECT_TRUE(search().empty());
 }
 
-// All motions are right, and the closures take one place for another: no scans fit as they say.
+// All motions are right, and the closures confuse two places: no scans fit at the motion they require.
 TEST_F(SlipSearchTest, ClosuresThatAgreeOnAPlaceWhereTheRobotWasNotMoveNothing) {
   drive({});
   const Se2 other{1.5, 0.7, 0.3};  // in the frame of the place
@@ -168,7 +168,7 @@ TEST_F(SlipSearchTest, ClosuresThatAgreeOnAPlaceWhereTheRobotWasNotMoveNothing) 
   EXPECT_FALSE(batch.changesGraph());
 }
 
-// The place is 20 m from where the robot is: no span of a metre is wrong by that.
+// The place of the closures is 20 m from the robot: the motion over one metre cannot be wrong by that much.
 TEST_F(SlipSearchTest, ClosuresThatNoSlipLeadsToAreOfPlacesThatLookAlike) {
   drive({});
   refuse(1, 20, {20, 0, 0});

@@ -23,11 +23,11 @@ TEST_F(PlaneLandmarks, AWallSeenByLaserAndCameraIsOne) {
   ASSERT_EQ(active().size(), 1U);
   EXPECT_EQ(factorsOfKind("upright_plane"), 1U);
   EXPECT_EQ(shapeOf(active()[0]).label, "wall");
-  EXPECT_TRUE(shapeOf(active()[0]).surfaces.empty()) << "a laser tells no height";
+  EXPECT_TRUE(shapeOf(active()[0]).surfaces.empty()) << "a laser measures no height";
   ASSERT_EQ(shapeOf(active()[0]).lines.size(), 1U);
   see(planesOf({wallPlane(3, -1, 1)}));
   ASSERT_EQ(active().size(), 1U);
-  EXPECT_EQ(factorsOfKind("upright_plane"), 0U) << "the camera tells how it leans";
+  EXPECT_EQ(factorsOfKind("upright_plane"), 0U) << "the camera determines the tilt";
   EXPECT_EQ(factorsOfKind("line_on_plane"), 1U);
   EXPECT_EQ(factorsOfKind("plane_from_se3"), 1U);
   const auto shape = shapeOf(active()[0]);
@@ -38,16 +38,16 @@ TEST_F(PlaneLandmarks, AWallSeenByLaserAndCameraIsOne) {
   EXPECT_EQ(payload.seen_by.at("camera").planes, 1U);
 }
 
-TEST_F(PlaneLandmarks, ALineOfASecondHeightTellsHowAWallLeans) {
+TEST_F(PlaneLandmarks, ALineAtASecondHeightDeterminesTheTiltOfAWall) {
   driveTo({});
   see(linesOf({line({3, -2}, {3, 2})}, 0.2));
   see(linesOf({line({3, -2}, {3, 2})}, 0.5));
-  EXPECT_EQ(factorsOfKind("upright_plane"), 1U) << "0.3 m of height tell too little";
+  EXPECT_EQ(factorsOfKind("upright_plane"), 1U) << "0.3 m of height are not enough";
   see(linesOf({line({3.05, -2}, {3.05, 2})}, 1.2));
   ASSERT_EQ(active().size(), 1U);
   EXPECT_EQ(factorsOfKind("upright_plane"), 0U);
   solve();
-  EXPECT_NEAR(shapeOf(active()[0]).normal->z(), 0.05, 0.02) << "it leans back by 5 cm over 0.85 m";
+  EXPECT_NEAR(shapeOf(active()[0]).normal->z(), 0.05, 0.02) << "it tilts back by 5 cm over 0.85 m";
   see(linesOf({line({3.05, -2}, {3.05, 2})}, 1.25));
   EXPECT_EQ(factorsOfKind("upright_plane"), 0U);
 }
@@ -82,8 +82,8 @@ TEST_F(PlaneLandmarks, MoveThePoseThatSeesThemAgain) {
   EXPECT_LT(run_.map.key_frames.back().map_from_base.x(), 1.03);
 }
 
-// Back after a long way the base takes itself to be 0.9 m off. A wall behind the one it sees again, seen just now, is
-// nearer to where it takes that to be.
+// After a long drive the estimate of the base is 0.9 m off, so that a wall just seen, behind the one that it sees
+// again, is nearer to the measurement.
 TEST_F(PlaneLandmarks, OneSeenLongAgoIsFoundPastOneThatWasSeenJustNow) {
   driveTo(CPose3D());
   see(planesOf({wallPlane(3, -1, 1)}));
@@ -105,7 +105,7 @@ TEST_F(PlaneLandmarks, WhatIsTooFarOffIsNotMatched) {
   EXPECT_EQ(run_.decisions.back().reason, "new: gated out: too far from the nearest");
 }
 
-TEST_F(PlaneLandmarks, SmallThingsMakeNoLandmark) {
+TEST_F(PlaneLandmarks, SmallSurfacesMakeNoLandmark) {
   driveTo({});
   see(linesOf({line({3, 0}, {3, 0.5})}));
   see(planesOf({plane({2, 0, 1}, {0, -0.1, 0}, {0, 0, 0.1})}));
@@ -136,7 +136,7 @@ TEST_F(PlaneLandmarks, BadInputIsLeftOut) {
   EXPECT_TRUE(run_.graph.factors().empty());
 }
 
-// Its distance is 0 from the base: no normal of its own there, but a plane like any other here.
+// The plane goes through the base, at distance 0, which is a plane like any other here.
 TEST_F(PlaneLandmarks, APlaneThroughTheOriginIsAPlane) {
   driveTo({});
   see(planesOf({tableTop(1, 0, 0)}));
@@ -147,7 +147,7 @@ TEST_F(PlaneLandmarks, APlaneThroughTheOriginIsAPlane) {
   EXPECT_EQ(shapeOf(active()[0]).label, "floor");
 }
 
-// Lines of two heights lean it, the prior holds it upright: neither breaks the solution.
+// Lines at two heights tilt the wall, the prior holds it upright: the contradiction does not break the solution.
 TEST_F(PlaneLandmarks, ContradictoryLinesAreSettled) {
   driveTo({});
   see(linesOf({line({3, -2}, {3, 2})}, 0.3));

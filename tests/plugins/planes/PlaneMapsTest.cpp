@@ -54,7 +54,7 @@ TEST_F(PlaneMaps, MadeWithWallsAreNotContinuedWithPlanes) {
   }
 }
 
-// Where the second session lies is a guess until something that is tested for consistency ties it to the map.
+// The pose of the second session is a guess until a consistency-tested hypothesis ties it to the map.
 TEST_F(PlaneMaps, ASessionOfUnknownPlaceIsTiedOnlyByWhatIsTested) {
   driveTo({});
   see(planesOf({wallPlane(3, -1, 1)}));
@@ -67,7 +67,7 @@ TEST_F(PlaneMaps, ASessionOfUnknownPlaceIsTiedOnlyByWhatIsTested) {
   EXPECT_EQ(active()[0].evidence, 1U);
 }
 
-// A wall fits many places: whoever can tell them apart ties the session, and then it is the same wall.
+// A wall fits many places. A plugin that distinguishes them ties the session, and then it is the same wall.
 TEST_F(PlaneMaps, ASessionThatOthersSeekInTheMapKeepsItsLandmarksToItselfUntilItIsJoined) {
   driveTo({});
   for (int i = 0; i < 3; ++i) see(planesOf({wallPlane(3, -1, 1)}));
@@ -86,7 +86,7 @@ TEST_F(PlaneMaps, ASessionThatOthersSeekInTheMapKeepsItsLandmarksToItselfUntilIt
   EXPECT_EQ(active()[0].evidence, 6U);
 }
 
-// Between two solves nothing else moves what was seen.
+// Between two solves only the placing of a session moves its surfaces.
 TEST_F(PlaneMaps, AreKnownAgainWhereTheirSessionWasPlaced) {
   driveTo({});
   see(planesOf({wallPlane(3, -1, 1)}));
@@ -106,7 +106,7 @@ TEST_F(PlaneMaps, AreKnownAgainWhereTheirSessionWasPlaced) {
   EXPECT_EQ(active()[0].evidence, 2U);
 }
 
-// That they look like one may be chance while it is not known how the sessions lie to each other.
+// Two walls may look like one by chance while the relative pose of their sessions is unknown.
 TEST_F(PlaneMaps, LandmarksOfSessionsThatAreNotJoinedAreNotMerged) {
   driveTo({});
   for (int i = 0; i < 3; ++i) see(planesOf({wallPlane(3, -1, 1)}));

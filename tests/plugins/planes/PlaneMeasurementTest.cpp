@@ -21,13 +21,13 @@ PlaneLandmarksOptions smooth() {
 
 struct Mounting {
   const char* name;
-  double roll;          // [rad] of the sensor: one that hangs upside down sees everything the other way round
+  double roll;          // [rad] of the sensor: one that hangs upside down sees left and right swapped
   bool is_turned_back;  // its scans run clockwise, and so do its lines
 };
 
 class LineOfASensor : public ::testing::TestWithParam<Mounting> {
  protected:
-  // chi-square of the residual of a line, measured with those errors, against the true wall.
+  // Chi-square of the residual of a line, measured with those errors, against the true wall.
   double chi2(double angle_error, double distance_error) const {
     const Se3 base_from_sensor = geometry::fromMrpt(CPose3D(0.2, 0.1, 0.4, 0.3, 0, GetParam().roll));
     obs::CObservationLaserLines observation;
@@ -60,7 +60,7 @@ class LineOfASensor : public ::testing::TestWithParam<Mounting> {
   }
 };
 
-// Chi-square of (direction, offset) over 400 lines: its sum has 800 degrees of freedom, with 95 % bounds of 723 and
+// The sum of chi-squares of (direction, offset) over 400 lines has 800 degrees of freedom, with 95 % bounds of 723 and
 // 880.
 TEST_P(LineOfASensor, IsAsUncertainAsItsCovarianceSays) {
   testing::Dice dice(3);

@@ -12,7 +12,7 @@ using namespace surface_run;
 
 class PlaneMerging : public SurfaceRun {};
 
-// A table like an L, its arms seen one after the other, and then the corner between them.
+// A table in the form of an L: its arms are seen one after the other, then the corner between them.
 TEST_F(PlaneMerging, ABoundaryAsSeenHasBaysUntilTheyAreSeen) {
   PlaneLandmarksOptions options;
   options.boundary = PlaneLandmarksOptions::Boundary::seen;
@@ -34,10 +34,10 @@ TEST_F(PlaneMerging, ABoundaryAsSeenHasBaysUntilTheyAreSeen) {
     const double noise = 0.01 * (i % 3 - 1);
     see(planesOf({plane({2.2 + noise, 0.5, 0.7}, {0.2 + noise, 0, 0}, {0, 0.2 - noise, 0})}));
   }
-  EXPECT_EQ(patches(), 3U) << "edges are seen a little elsewhere each time";
+  EXPECT_EQ(patches(), 3U) << "edges are measured slightly differently each time";
 }
 
-// Lines of two heights span a hull that a camera's plane lies within.
+// Lines at two heights span a hull in which the plane of a camera lies.
 TEST_F(PlaneMerging, ABoundaryAsSeenOfAWallThatLinesHaveShownFirst) {
   PlaneLandmarksOptions options;
   options.boundary = PlaneLandmarksOptions::Boundary::seen;
@@ -74,7 +74,7 @@ TEST_F(PlaneMerging, PartsThatAreFoundToBeOneAreMerged) {
   EXPECT_EQ(run_.decisions.back().kind, "merge");
 }
 
-// What the covariance of the map calls two, since both are seen far more precisely than they are true.
+// By the covariance of the map the views are two surfaces, because their covariances are far too small.
 TEST_F(PlaneMerging, ViewsThatLieOnEachOtherAreOne) {
   PlaneLandmarksOptions options;
   options.plane_sigma = options.plane_angle_sigma = 1e-4;
@@ -90,10 +90,11 @@ TEST_F(PlaneMerging, ViewsThatLieOnEachOtherAreOne) {
   see(planesOf({precise(3.12)}));
   ASSERT_EQ(active().size(), 3U);
   solve();
-  EXPECT_EQ(active().size(), 2U) << "what is a hand's breadth before it stays";
+  EXPECT_EQ(active().size(), 2U) << "a surface 0.1 m in front of it stays";
 }
 
-// 6 cm apart: half of each lies on the other one, which may be before it; or all of the smaller, which would be hidden.
+// Views 6 cm apart: if half of each covers the other, one may be in front of the other; if all of the smaller one does,
+// one would hide the other.
 TEST_F(PlaneMerging, ViewsThatLieOnEachOtherNearlyEverywhereAreOneEvenFartherApart) {
   PlaneLandmarksOptions options;
   options.plane_sigma = options.plane_angle_sigma = 1e-4;
@@ -123,7 +124,7 @@ TEST_F(PlaneMerging, AtTheEndPartsOfOneWallAreOneAndTwoTablesAreTwo) {
   ASSERT_EQ(active().size(), 4U);
   apply(plugin_->atEnd(run_.view()));
   ASSERT_EQ(active().size(), 3U);
-  EXPECT_EQ(shapeOf(active()[0]).surfaces.size(), 2U) << "nobody saw what is between";
+  EXPECT_EQ(shapeOf(active()[0]).surfaces.size(), 2U) << "the part between them was not seen";
 }
 
 TEST_F(PlaneMerging, AtTheEndSurfacesAreJudgedAndWhatWasSeenOnceIsACandidate) {
@@ -136,10 +137,10 @@ TEST_F(PlaneMerging, AtTheEndSurfacesAreJudgedAndWhatWasSeenOnceIsACandidate) {
   EXPECT_FALSE(shapeOf(active()[0]).reason.empty());
   EXPECT_FALSE(shapeOf(active()[0]).is_candidate);
   EXPECT_TRUE(shapeOf(active()[1]).is_candidate);
-  EXPECT_EQ(active()[0].evidence, 2U) << "to judge is no measurement";
+  EXPECT_EQ(active()[0].evidence, 2U) << "judging is no measurement";
 }
 
-// A second end, as of a run that goes on in a saved map.
+// A second end of a run, as when a saved map is continued.
 TEST_F(PlaneMerging, WhatAnEndAcceptedStaysAndACandidateIsJudgedAnew) {
   driveTo({});
   see(planesOf({wallPlane(3, -2, 2), tableTop(2, 1, 0.7)}));
@@ -218,7 +219,7 @@ TEST_F(PlaneMerging, AtTheEndWhatIsRougherThanTheRestIsACandidate) {
   EXPECT_FALSE(shapeOf(active()[0]).is_candidate);
   EXPECT_TRUE(shapeOf(active()[1]).is_candidate) << "upright, and twice as rough as the wall";
   EXPECT_FALSE(shapeOf(active()[2]).is_candidate);
-  EXPECT_FALSE(shapeOf(active()[3]).is_candidate) << "things on a table make it rough";
+  EXPECT_FALSE(shapeOf(active()[3]).is_candidate) << "objects on a table make it rough";
 }
 
 TEST_F(PlaneMerging, AtTheEndOneTakesInSeveral) {
@@ -253,7 +254,7 @@ TEST_F(PlaneMerging, StretchesOfANewWallSeenAtOnceAreOne) {
   EXPECT_EQ(factorsOfKind("upright_plane"), 1U);
 }
 
-// A camera in the hand whose first picture had y up: a floor 1 m below it, a table and a wall.
+// A handheld camera whose first picture had y up sees a floor 1 m below it, a table and a wall.
 TEST_F(PlaneMerging, ClassesAreThoseOfTheLevelFrame) {
   driveTo({});
   const auto place = [](const obs::ObservedPlane& floor) {
@@ -274,7 +275,7 @@ TEST_F(PlaneMerging, ClassesAreThoseOfTheLevelFrame) {
   EXPECT_NEAR(shapeOf(active()[0]).surfaces[0].vertices[0].y(), -1, 1e-6) << "the map is not turned";
 }
 
-// The same camera, before two parts of a wall with a door between them: 1 m below its eye to 1.2 m above.
+// The same camera in front of two parts of a wall with a door between them, from 1 m below the camera to 1.2 m above.
 class PartsOfAWall : public PlaneMerging, public ::testing::WithParamInterface<std::pair<map::Level, std::size_t>> {};
 
 TEST_P(PartsOfAWall, areOneAtTheEndIfTheyStandUpright) {
@@ -307,7 +308,7 @@ TEST_F(PlaneMerging, NothingHasAClassWhereUpIsNotKnown) {
   }
 }
 
-// Whatever two outlines are, and whether their heights are known.
+// Holds for any two outlines, whether or not their heights are known.
 TEST(PlaneGaps, TheCheapBoundIsNeverAboveTheGap) {
   testing::Dice dice(7);
   std::size_t apart = 0;
@@ -339,7 +340,7 @@ TEST(PlaneGaps, TheCheapBoundIsNeverAboveTheGap) {
     EXPECT_LE(bound, gap + 1e-9) << i;
     apart += bound > 0;
   }
-  EXPECT_GT(apart, 500u) << "it is of use";
+  EXPECT_GT(apart, 500u) << "the bound is useful";
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ inline obs::ObservedPlane plane(const Vector3d& middle, const Vector3d& a, const
   return seen;
 }
 
-/// A wall on x = `x`, facing the origin, from y0 to y1 and as high as a camera sees.
+/// A wall on x = `x`, facing the origin, from y0 to y1 and as high as the view of a camera.
 inline obs::ObservedPlane wallPlane(double x, double y0, double y1) {
   return plane({x, 0.5 * (y0 + y1), 1}, {0, -0.5 * (y1 - y0), 0}, {0, 0, 0.8});
 }
@@ -74,7 +74,7 @@ inline obs::CObservationLaserLines linesOf(std::vector<obs::LaserLine> lines, do
   return stamped(observation, "laser", z);
 }
 
-/// A map that surfaces are seen in by hand, one observation after the other.
+/// A map to which observations of surfaces are added by hand, one after the other.
 class SurfaceRun : public ::testing::Test {
  protected:
   explicit SurfaceRun(PlaneLandmarksOptions options = {}) { make(options); }
@@ -107,7 +107,7 @@ class SurfaceRun : public ::testing::Test {
     ASSERT_TRUE(plugin_->wants(observation));
     apply(plugin_->measure(run_.map.key_frames.back(), {observation, nullptr}, run_.view()));
   }
-  // As the engine does, with what plugins do after it.
+  // Solves as the engine does, and runs what plugins do after it.
   void solve() {
     graph::solve(run_.graph);
     for (std::size_t i = 0; i < run_.map.key_frames.size(); ++i) {

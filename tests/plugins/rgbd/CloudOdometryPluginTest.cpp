@@ -17,7 +17,7 @@ base::Stamp at(double seconds) {
 
 const CPose3D kBaseFromCamera(0.1, 0.05, 0.2, 0, 0.3, 0);
 
-/// Of the base, in the room's frame, whose z is forward and y down. Its camera looks into a corner at the floor.
+/// Pose of the base in the room's frame, whose z is forward and y down. Its camera looks into a corner at the floor.
 Se3 truth(double seconds) {
   geometry::Vector6d delta;
   delta << 0.1 * std::sin(seconds), 0.08 * seconds, 0.02 * seconds, 0.05 * std::sin(seconds), 0.03 * seconds,
@@ -65,7 +65,7 @@ class CloudOdometry : public ::testing::Test {
   std::unique_ptr<CloudOdometryPlugin> plugin_;
 };
 
-TEST_F(CloudOdometry, TellsTheMotionOfTheBaseNotOfTheCamera) {
+TEST_F(CloudOdometry, MeasuresTheMotionOfTheBaseNotOfTheCamera) {
   for (const auto method : {matching::CloudMethod::point_to_plane, matching::CloudMethod::gicp}) {
     matching_.method = method;
     make();
@@ -77,7 +77,7 @@ TEST_F(CloudOdometry, TellsTheMotionOfTheBaseNotOfTheCamera) {
   }
 }
 
-TEST_F(CloudOdometry, PclTellsTheMotionTooOrSaysThatItIsNotThere) {
+TEST_F(CloudOdometry, PclMeasuresTheMotionTooOrItsAbsenceIsReported) {
   using matching::CloudMethod;
   CloudLibraryOptions by;
   by.library = CloudLibraryOptions::Library::pcl;
@@ -96,10 +96,10 @@ TEST_F(CloudOdometry, PclTellsTheMotionTooOrSaysThatItIsNotThere) {
   }
 }
 
-TEST_F(CloudOdometry, AcrossACoveredLensTheMotionIsToldWhenTheViewIsFoundAgain) {
+TEST_F(CloudOdometry, AcrossACoveredLensTheMotionIsMeasuredWhenTheViewIsFoundAgain) {
   for (int i = 0; i <= 5; ++i) add(0.1 * i);
   for (int i = 6; i <= 8; ++i) add(0.1 * i, true);
-  EXPECT_FALSE(plugin_->between(at(0), at(0.8))) << "lost is said, not guessed";
+  EXPECT_FALSE(plugin_->between(at(0), at(0.8))) << "a loss is reported, not guessed";
   add(0.9);
   expectMotion(0, 0.9);
   EXPECT_EQ(evidence("camera_begun_anew").value, 0);
@@ -109,7 +109,7 @@ TEST_F(CloudOdometry, AfterALongLossItBeginsAnewAtTheFirstImageThatShowsSomethin
   add(0);
   add(0.1);
   for (int i = 2; i <= 24; ++i) add(0.1 * i, true);
-  EXPECT_EQ(evidence("camera_begun_anew").value, 0) << "a covered lens is no view to begin with";
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0) << "tracking does not start at a covered lens";
   room_.half[0] = 3;  // another room
   room_.half[2] = 2.5;
   add(2.5);

@@ -10,7 +10,7 @@
 
 namespace omnimapper::plugins {
 
-/// What the camera of a base sees in a rendered room, as a rawlog has it. Of a lens that is covered all is zero.
+/// The depth image of a base's camera in a rendered room, as in a rawlog. It is all zero if the lens is covered.
 inline mrpt::obs::CObservation3DRangeScan::Ptr renderedScan(const matching::RenderedRoom& room,
                                                             const geometry::Se3& room_from_base,
                                                             const mrpt::poses::CPose3D& base_from_camera,

@@ -26,7 +26,7 @@ Se3 moved(double x, double y, double yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, 0}};
 }
 
-/// A run whose key frames are put in by hand, one each second.
+/// A run whose key frames are added by hand, one each second.
 class ViewLinks : public ::testing::Test {
  protected:
   ViewLinks() {
@@ -40,7 +40,7 @@ class ViewLinks : public ::testing::Test {
     plugin_ = std::make_unique<ViewLinksPlugin>(options, "", tracking_, matching::DenseMatcherOptions{}, context_);
   }
 
-  /// `start_from_base` is true, `estimate` is what the map has.
+  /// Adds a key frame. `start_from_base`: its true pose. `estimate`: its pose in the map.
   mapper::Batch see(const Se3& start_from_base, const Se3& estimate, bool is_covered = false) {
     const double seconds = static_cast<double>(run_.map.key_frames.size());
     map::KeyFrame frame;
@@ -83,7 +83,7 @@ TEST_F(ViewLinks, measureTheTrueMotionWhateverTheMapHas) {
   see(moved(0.04, 0.01, 0.03));
   const auto batch = see(moved(0.08, 0.01, 0.06), moved(0.11, -0.01, 0.04));
   ASSERT_EQ(batch.addedFactors().size(), 1u);
-  // Its error at the true poses.
+  // The error of the factor at the true poses.
   const auto& factor = batch.addedFactors().front();
   const std::vector<Eigen::VectorXd> truth{
       mapper::poseValue(context_.motion, geometry::toMrpt(moved(0, 0, 0))),
@@ -101,7 +101,7 @@ TEST_F(ViewLinks, doNotTieWhatACoveredLensShows) {
   EXPECT_TRUE(see(moved(0.08, 0.01, 0.06), moved(0.08, 0.01, 0.06), true).addedFactors().empty());
 }
 
-// Turns away by a radian in steps that see nothing of the one before last, and back again.
+// The camera turns by more than a radian, in steps whose views no longer show the one before last, and back again.
 TEST_F(ViewLinks, proposeAViewThatComesBack) {
   constexpr int kSteps = 12;
   for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * i));
@@ -122,8 +122,8 @@ TEST_F(ViewLinks, proposeAViewThatComesBack) {
   for (const auto& one : evidence) EXPECT_EQ(one.says, Says::good) << one.reason;
 }
 
-// The map has the camera back where it began, and the image shows another side of the room.
-TEST_F(ViewLinks, speakAgainstAMapThatIsBent) {
+// In the map the camera is back where it started, but the image shows another side of the room.
+TEST_F(ViewLinks, areEvidenceAgainstADistortedMap) {
   constexpr int kSteps = 12;
   for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * i));
   for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * kSteps), moved(0, 0, 0.01 * i));
@@ -132,11 +132,11 @@ TEST_F(ViewLinks, speakAgainstAMapThatIsBent) {
   EXPECT_EQ(evidence[0].says, Says::too_little);
   EXPECT_EQ(evidence[3].name, "camera_returns_missed_percent");
   EXPECT_EQ(evidence[3].says, Says::against_it);
-  EXPECT_NE(evidence[3].reason.find("bent"), std::string::npos);
+  EXPECT_NE(evidence[3].reason.find("distorted"), std::string::npos);
 }
 
-// Its images say that it stood still at the end, and the finished map has it half a radian away.
-TEST_F(ViewLinks, doubtAMapThatHasReturnsElsewhere) {
+// By its images the camera turned back, but in the finished map it is half a radian away.
+TEST_F(ViewLinks, reportAMapThatHasReturnsElsewhere) {
   constexpr int kSteps = 12;
   for (int i = 0; i < kSteps; ++i) see(moved(0, 0, 0.12 * i));
   for (int i = kSteps; i >= 0; --i) see(moved(0, 0, 0.12 * i + 0.01));
@@ -152,7 +152,7 @@ TEST_F(ViewLinks, doubtAMapThatHasReturnsElsewhere) {
   EXPECT_EQ(evidence[0].value, 0);
 }
 
-// Two links that share an image have twice the covariance that one alone has.
+// Each of two links that share an image has twice the covariance of a single link.
 TEST_F(ViewLinks, shareTheirImage) {
   const auto informationOfTheFirst = [&](int back) {
     ViewLinksOptions options;
@@ -177,7 +177,7 @@ TEST_F(ViewLinks, leaveOutAnImageThatCannotBeRead) {
   EXPECT_EQ(see(moved(0.08, 0.01, 0.06)).addedFactors().size(), 1u);
 }
 
-TEST_F(ViewLinks, sayNothingOfReturnsThatAreNotSought) {
+TEST_F(ViewLinks, haveNoEvidenceWithoutOldViews) {
   ViewLinksOptions options;
   options.old_views = 0;
   make(options);

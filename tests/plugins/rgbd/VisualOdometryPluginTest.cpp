@@ -24,7 +24,7 @@ base::Stamp at(double seconds) {
 
 const CPose3D kBaseFromCamera(0.1, 0.05, 0.2, 0.1, 0.2, 0);
 
-/// Of the base, in the room's frame, whose z is forward and y down.
+/// Pose of the base in the room's frame, whose z is forward and y down.
 Se3 truth(double seconds) {
   geometry::Vector6d delta;
   delta << 0.15 * std::sin(seconds), 0.1 * (1 - std::cos(seconds)), 0.02 * seconds, 0.05 * std::sin(seconds),
@@ -60,7 +60,7 @@ class VisualOdometry : public ::testing::Test {
     EXPECT_LT(off.tail<3>().norm(), 0.008) << begin << " to " << end;
   }
 
-  /// Images of 0.1 s apart up to 2 s, those from 0.6 to 1 s changed.
+  /// Adds images each 0.1 s up to 2 s, with those from 0.6 to 1 s changed.
   template <class Change>
   void addWith(const Change& change) {
     for (int i = 0; i <= 20; ++i) {
@@ -71,7 +71,7 @@ class VisualOdometry : public ::testing::Test {
     }
   }
 
-  /// What is told lies within four standard deviations; of a motion that is not told nothing is asked.
+  /// Expects each motion that is measured to be right within four standard deviations.
   void expectHonest(double begin, double end) const {
     const auto motion = plugin_->between(at(begin), at(end));
     if (!motion) return;
@@ -90,7 +90,7 @@ class VisualOdometry : public ::testing::Test {
   std::unique_ptr<VisualOdometryPlugin> plugin_;
 };
 
-TEST_F(VisualOdometry, TellsTheMotionOfTheBaseNotOfTheCamera) {
+TEST_F(VisualOdometry, MeasuresTheMotionOfTheBaseNotOfTheCamera) {
   for (int i = 0; i <= 20; ++i) add(0.1 * i);
   expectMotion(0, 1);
   expectMotion(0.5, 1.5);
@@ -101,10 +101,10 @@ TEST_F(VisualOdometry, TellsTheMotionOfTheBaseNotOfTheCamera) {
   EXPECT_LT(covariance(0, 0), 1e-2);
 }
 
-TEST_F(VisualOdometry, AcrossACoveredLensTheMotionIsToldWhenTheViewIsFoundAgain) {
+TEST_F(VisualOdometry, AcrossACoveredLensTheMotionIsMeasuredWhenTheViewIsFoundAgain) {
   for (int i = 0; i <= 5; ++i) add(0.1 * i);
   for (int i = 6; i <= 9; ++i) add(0.1 * i, true);
-  EXPECT_FALSE(plugin_->between(at(0), at(0.9))) << "lost is said, not guessed";
+  EXPECT_FALSE(plugin_->between(at(0), at(0.9))) << "a loss is reported, not guessed";
   add(1.0);
   expectMotion(0, 1);
   EXPECT_EQ(evidence("camera_found_again").says, Says::too_little);
@@ -125,8 +125,8 @@ TEST_F(VisualOdometry, AfterALongLossTheMapIsSuspicious) {
   EXPECT_EQ(evidence("camera_begun_anew").says, Says::against_it);
 }
 
-// The base drives along a bare wall: depths tell nothing of that.
-TEST_F(VisualOdometry, WheelsTellWhatABareWallDoesNot) {
+// The base drives along a bare wall, whose depths do not determine that motion.
+TEST_F(VisualOdometry, WheelsMeasureWhatABareWallLeavesUnconstrained) {
   room_.half[0] = 50;
   room_.half[1] = 50;
   const auto wallOnly = [&](double seconds) {
@@ -146,13 +146,13 @@ TEST_F(VisualOdometry, WheelsTellWhatABareWallDoesNot) {
     plugin_->processUntil(at(seconds));
   }
   const auto motion = plugin_->between(at(0), at(3));
-  ASSERT_TRUE(motion) << "longer than a camera alone is believed";
+  ASSERT_TRUE(motion) << "longer than a camera is trusted without wheels";
   EXPECT_NEAR(motion->begin_from_end.y(), -1.2, 0.02);
-  EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.03) << "as the wheels tell it";
+  EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.03) << "as the wheels measured it";
   EXPECT_EQ(evidence("camera_blind_percent").says, Says::good);
 }
 
-TEST_F(VisualOdometry, LossesAreSaidWithWheelsToo) {
+TEST_F(VisualOdometry, LossesAreReportedWithWheelsToo) {
   for (int i = 0; i <= 10; ++i) {
     const auto wheels = mrpt::obs::CObservationOdometry::Create();
     wheels->timestamp = at(0.1 * i);
@@ -162,7 +162,7 @@ TEST_F(VisualOdometry, LossesAreSaidWithWheelsToo) {
   EXPECT_EQ(evidence("camera_lost_percent").says, Says::too_little);
 }
 
-TEST_F(VisualOdometry, ASpinThatIsTooFastIsSaidNotGuessed) {
+TEST_F(VisualOdometry, ASpinThatIsTooFastIsReportedNotGuessed) {
   add(0);
   add(0.1);
   const auto spun = [&](double seconds) {  // by 115 deg from image to image
@@ -192,12 +192,12 @@ TEST_F(VisualOdometry, OfOtherCamerasAndLateImagesNothingIsTaken) {
   auto other = scan(0.3);
   other->sensorLabel = "other";
   EXPECT_EQ(plugin_->add(other), Taken::not_mine);
-  EXPECT_EQ(plugin_->add(scan(0.1)), Taken::taken) << "left out, for its time is over";
+  EXPECT_EQ(plugin_->add(scan(0.1)), Taken::taken) << "left out because a later one was processed";
   plugin_->processUntil(at(0.2));
   expectMotion(0, 0.2);
 }
 
-TEST_F(VisualOdometry, ACameraWithoutCalibrationIsToldByAWarning) {
+TEST_F(VisualOdometry, ACameraWithoutCalibrationIsAWarning) {
   auto image = scan(0);
   image->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
   EXPECT_EQ(plugin_->add(image), Taken::taken);
@@ -282,7 +282,7 @@ void bend(CObservation3DRangeScan& scan, double k1) {
   const auto picture = scan.intensityImage.makeDeepCopy();
   for (int y = 0; y < depths.rows(); ++y) {
     for (int x = 0; x < depths.cols(); ++x) {
-      // Of the ray whose image, bent, is this pixel.
+      // The ray whose distorted image is this pixel.
       const double u = (x - camera.cx()) / camera.fx(), v = (y - camera.cy()) / camera.fy();
       double stretch = 1;
       for (int i = 0; i < 30; ++i) stretch = 1 / (1 + k1 * (u * u + v * v) * stretch * stretch);
@@ -301,7 +301,7 @@ void bend(CObservation3DRangeScan& scan, double k1) {
   }
 }
 
-TEST_F(VisualOdometry, ALensThatBendsTheImagesIsTakenOut) {
+TEST_F(VisualOdometry, LensDistortionIsCorrected) {
   for (int i = 0; i <= 20; ++i) {
     auto image = scan(0.1 * i);
     bend(*image, -0.25);  // 12 px in the corners
@@ -349,15 +349,15 @@ TEST_F(VisualOdometry, ALongLossIsBridgedByTheWheelsOnTheirCurve) {
     room_ = i <= 1 ? room : other;
     add(seconds, i > 1 && i < 25);
   }
-  EXPECT_EQ(evidence("camera_begun_anew").value, 0) << "the wheels tell what happened meanwhile";
+  EXPECT_EQ(evidence("camera_begun_anew").value, 0) << "the wheels measure the motion meanwhile";
   const auto motion = plugin_->between(at(0.1), at(1.1));
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->begin_from_end.yaw(), 1, 1e-6);
   EXPECT_NEAR(motion->begin_from_end.x(), 0.3 * std::sin(1.0), 1e-3) << "on its curve, not straight on";
 }
 
-TEST_F(VisualOdometry, AcrossImagesThatToldNothingTheBaseWentAsTheWheelsSay) {
-  // It turns, stands while the lens is covered, and turns on.
+TEST_F(VisualOdometry, AcrossLostImagesTheBaseMovesAsTheWheelsMeasure) {
+  // The base turns, stands still while the lens is covered, and turns on.
   const auto yaw = [](double seconds) { return 0.5 * (std::min(seconds, 0.4) + std::max(seconds - 0.9, 0.0)); };
   const auto pose = [&](double seconds) { return geometry::lift({0, 0, yaw(seconds)}); };
   for (int i = 0; i <= 14; ++i) {
@@ -376,8 +376,8 @@ TEST_F(VisualOdometry, AcrossImagesThatToldNothingTheBaseWentAsTheWheelsSay) {
   }
 }
 
-// It turns far while the lens is covered, and moves: the gyroscope tells the turn alone.
-TEST_F(VisualOdometry, AcrossImagesThatToldNothingAGyroscopeShapesTheTurnAndTheWayIsStraight) {
+// The base turns far and moves while the lens is covered: the gyroscope measures only the turn.
+TEST_F(VisualOdometry, AcrossLostImagesAGyroscopeShapesTheTurnAndThePathIsStraight) {
   const auto pose = [&](double seconds) {
     const double covered = std::clamp(seconds - 0.3, 0.0, 0.8);
     const double there = covered < 0.4 ? 4 * covered : 4 * (0.8 - covered);  // 92 deg, and back
@@ -405,8 +405,8 @@ TEST_F(VisualOdometry, AcrossImagesThatToldNothingAGyroscopeShapesTheTurnAndTheW
   }
 }
 
-// The base turns about the normal of a bare wall: depths tell nothing of that.
-TEST_F(VisualOdometry, AGyroscopeTellsTheTurningThatABareWallDoesNot) {
+// The base turns about the normal of a bare wall, whose depths do not determine that motion.
+TEST_F(VisualOdometry, AGyroscopeMeasuresTheTurnThatABareWallLeavesUnconstrained) {
   room_.half[0] = 50;
   room_.half[1] = 50;
   const CPose3D base_from_imu(0, 0, 0, 0, 0, geometry::kPi);
@@ -431,8 +431,8 @@ TEST_F(VisualOdometry, AGyroscopeTellsTheTurningThatABareWallDoesNot) {
   const auto motion = plugin_->between(at(0), at(1));
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->begin_from_end.roll(), 0.4, 0.02);
-  EXPECT_LT(std::sqrt(motion->covariance(3, 3)), 0.05) << "as the gyroscope tells it";
-  EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.3) << "along the wall nothing does";
+  EXPECT_LT(std::sqrt(motion->covariance(3, 3)), 0.05) << "as the gyroscope measured it";
+  EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.3) << "along the wall nothing measures it";
 }
 
 }  // namespace

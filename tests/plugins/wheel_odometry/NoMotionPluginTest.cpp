@@ -18,7 +18,7 @@ NoMotionPlugin plugin() {
   return NoMotionPlugin(options);
 }
 
-TEST(NoMotionPlugin, BelievesInRestLessAndLessAsTimePasses) {
+TEST(NoMotionPlugin, IsLessCertainOfRestAsTimePasses) {
   const auto motion = plugin().between(at(3), at(7));
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->begin_from_end, mrpt::poses::CPose3D());
@@ -33,13 +33,13 @@ TEST(NoMotionPlugin, SpansAddUp) {
   EXPECT_LT((whole->covariance - sum.covariance).norm(), 1e-12);
 }
 
-TEST(NoMotionPlugin, IsAskedLastTakesNothingAndHoldsUpNobody) {
+TEST(NoMotionPlugin, IsAFallbackThatTakesNothingAndDelaysNothing) {
   auto made = plugin();
   EXPECT_TRUE(made.isFallback());
   EXPECT_FALSE(made.coveredUntil());
   EXPECT_EQ(made.add(mrpt::obs::CObservationOdometry::Create()), mapper::PosePlugin::Taken::not_mine);
   EXPECT_FALSE(made.between(at(2), at(1)));
-  EXPECT_GT(made.between(at(1), at(1))->covariance(0, 0), 0) << "a belief, not a certainty";
+  EXPECT_GT(made.between(at(1), at(1))->covariance(0, 0), 0) << "a factor needs a variance";
 }
 
 }  // namespace

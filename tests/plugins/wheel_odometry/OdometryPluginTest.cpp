@@ -68,21 +68,21 @@ TEST(OdometryPlugin, MotionIsTheDifferenceOfCumulativePosesInTheEarlierBase) {
   EXPECT_TRUE(OdometryPlugin(fallback).isFallback()) << "where the INI says so";
 }
 
-TEST(OdometryPlugin, VarianceGrowsWithWayTurnAndTimeAsWorkedByHand) {
+TEST(OdometryPlugin, VarianceGrowsWithTravelTurnAndTimeAsComputedByHand) {
   OdometryPlugin plugin(roundNoise());
   plugin.add(reading(0, {0, 0, 0}));
   plugin.add(reading(2, {1, 0, 0}));     // 1 m in 2 s
   plugin.add(reading(3, {1, 0, -1.5}));  // 1.5 rad in 1 s
-  const auto way = plugin.between(at(0), at(2)), turn = plugin.between(at(2), at(3));
-  ASSERT_TRUE(way && turn);
-  EXPECT_NEAR(way->covariance(0, 0), 0.01 * 1 + 0.0001 * 2, 1e-12);
-  EXPECT_NEAR(way->covariance(1, 1), 0.01 * 1 + 0.0001 * 2, 1e-12);
-  EXPECT_NEAR(way->covariance(5, 5), 0.0025 * 1 + 0.0004 * 2, 1e-12);
+  const auto straight = plugin.between(at(0), at(2)), turn = plugin.between(at(2), at(3));
+  ASSERT_TRUE(straight && turn);
+  EXPECT_NEAR(straight->covariance(0, 0), 0.01 * 1 + 0.0001 * 2, 1e-12);
+  EXPECT_NEAR(straight->covariance(1, 1), 0.01 * 1 + 0.0001 * 2, 1e-12);
+  EXPECT_NEAR(straight->covariance(5, 5), 0.0025 * 1 + 0.0004 * 2, 1e-12);
   EXPECT_NEAR(turn->covariance(0, 0), 0.0001 * 1, 1e-12);
   EXPECT_NEAR(turn->covariance(5, 5), 0.04 * 1.5 + 0.0004 * 1, 1e-12);
   const auto both = plugin.between(at(0), at(3));
   ASSERT_TRUE(both);
-  EXPECT_NEAR(both->covariance(5, 5), way->covariance(5, 5) + turn->covariance(5, 5), 1e-12);
+  EXPECT_NEAR(both->covariance(5, 5), straight->covariance(5, 5) + turn->covariance(5, 5), 1e-12);
 }
 
 TEST(OdometryPlugin, ActionsFollowOneAnother) {
@@ -138,7 +138,7 @@ TEST(OdometryPlugin, TimeThatStandsStillOrRunsBackwardsIsRefused) {
   EXPECT_EQ(actions.add(action(2, 1.5, CPose3D())), Taken::unusable) << "backwards";
 }
 
-TEST(OdometryPlugin, AMotionThatNoBaseCanMakeIsNotTold) {
+TEST(OdometryPlugin, AMotionThatNoBaseCanMakeIsNotReturned) {
   OdometryPlugin plugin(roundNoise());
   plugin.add(reading(0, {0, 0, 0}));
   plugin.add(reading(1, {1, 0, 0}));
@@ -147,7 +147,7 @@ TEST(OdometryPlugin, AMotionThatNoBaseCanMakeIsNotTold) {
   EXPECT_TRUE(plugin.between(at(0), at(1)));
   EXPECT_FALSE(plugin.between(at(1), at(2)));
   const auto after = plugin.between(at(2), at(3));
-  ASSERT_TRUE(after) << "it counts on from there";
+  ASSERT_TRUE(after) << "it continues from there";
   EXPECT_NEAR(after->begin_from_end.x(), 2, 1e-3);
   ASSERT_EQ(plugin.warnings().size(), 1U);
   EXPECT_NE(plugin.warnings().front().find("1e+12"), std::string::npos) << plugin.warnings().front();

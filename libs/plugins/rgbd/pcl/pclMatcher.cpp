@@ -15,7 +15,7 @@ using matching::CloudMatcherOptions;
 using matching::CloudMethod;
 using matching::MatchCloud;
 
-// Points without a normal are left out where `with_normals`.
+// Points without a normal are left out if `with_normals`.
 pcl::PointCloud<pcl::PointNormal>::Ptr toPcl(const MatchCloud& cloud, bool with_normals) {
   auto points = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
   const auto& all = cloud.cloud();
@@ -37,7 +37,7 @@ template <class Registration>
 std::optional<Se3> align(Registration& registration, const CloudMatcherOptions& options, bool with_normals,
                          const MatchCloud& target, const MatchCloud& source, const Se3& guess) {
   const auto from = toPcl(source, with_normals), to = toPcl(target, with_normals);
-  constexpr std::size_t kFewest = 30;  // points: GICP makes covariances of 20 neighbours
+  constexpr std::size_t kFewest = 30;  // points, because GICP computes covariances of 20 neighbours
   if (from->size() < kFewest || to->size() < kFewest) return std::nullopt;
   registration.setInputSource(from);
   registration.setInputTarget(to);
@@ -69,7 +69,7 @@ class PclMatcher : public matching::CloudMatcher {
  private:
   std::optional<Se3> registered(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
     using Point = pcl::PointNormal;
-    // PCL's ICP compares the square of a step with it, its GICP the step itself [m] [rad].
+    // PCL's ICP compares its epsilon with the square of a step, its GICP with the step itself [m] [rad].
     const double square = options_.tolerance * options_.tolerance;
     switch (options_.method) {
       case CloudMethod::point_to_plane: {
