@@ -135,8 +135,7 @@ TEST(Names, numbersEndInTheirUnit) {
   const std::set<std::string> others{"origin_latitude",   "origin_longitude",  // degrees, as every GPS gives them
                                      "correlated_points",                      // a number of points
                                      "brightness_noise",  "least_change",     "max_colour_distance",
-                                     "rgb_high",          "rgb_low",  // levels of grey
-                                     "pixel_noise"};                  // pixels
+                                     "rgb_high",          "rgb_low"};  // levels of grey
   const std::regex row(R"(^\| `(\w+)` \| number \|)");
   std::size_t checked = 0;
   for (const auto& line : lines(read(omnimapper::testing::sourceFile("ini/README.md")))) {

@@ -19,6 +19,7 @@ inline const std::map<std::string, std::string>& renamedKeys() {
       {"max_surprise", "max_outlier_share"},
       {"min_sightings", "min_measurements"},
       {"min_way_m", "min_travel_m"},
+      {"pixel_noise", "point_sigma_px"},
   };
   return keys;
 }

@@ -25,8 +25,8 @@ const base::OptionTable<CloudSourceOptions>& CloudSourceOptions::table() {
                   "Kind of points of a depth image that are registered.")
           .number("voxel_m", &Options::voxel, base::Range{0.001, 10}, "Side of a voxel, with source = voxels.")
           .number("max_depth_m", &Options::max_depth, base::Range{0.3, 100}, "Points with a larger depth are left out.")
-          .number("pixel_noise", &Options::pixel_noise, base::Range::positive(),
-                  "Standard deviation of a point across its ray [px].");
+          .number("point_sigma_px", &Options::pixel_noise, base::Range::positive(),
+                  "Standard deviation of a point across its ray.");
   return table;
 }
 
