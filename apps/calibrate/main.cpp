@@ -1,4 +1,4 @@
-// omnimapper-calibrate: refines what a log says of its sensors, from the log itself.
+// omnimapper-calibrate: refines the calibration of a camera from the log itself.
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/calibration/DepthRun.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-// What both tasks take.
+// Options of both tasks.
 template <class Request>
 CLI::App* addTask(CLI::App& app, const std::string& name, const std::string& help, const std::string& picture,
                   Request& request, bool& quiet) {
@@ -28,11 +28,14 @@ CLI::App* addTask(CLI::App& app, const std::string& name, const std::string& hel
       ->required();
   task->add_option("-o,--output", request.output, "folder for calibration.ini, report.txt, summary.json, " + picture)
       ->required();
-  task->add_option("--label", request.label, "sensor label of the camera; default: the first that has what is needed");
-  task->add_option("-i,--ini", request.ini, "INI file with a [calibration] to start from instead of the log's");
-  task->add_option("--start", request.start, "leave out what is before [s after the log's begin]")
+  task->add_option("--label", request.label,
+                   "sensor label of the camera; default: the first sensor with the data that is needed");
+  task->add_option("-i,--ini", request.ini,
+                   "INI file with a [calibration] section to start from instead of the log's calibration");
+  task->add_option("--start", request.start, "leave out observations before this time [s after the start of the log]")
       ->check(program::notNegative());
-  task->add_option("--end", request.end, "leave out what is after [s after the log's begin]; 0: nothing")
+  task->add_option("--end", request.end,
+                   "leave out observations after this time [s after the start of the log]; 0: none")
       ->check(program::notNegative());
   task->add_flag("-q,--quiet", quiet, "no progress, no summary");
   return task;
@@ -44,7 +47,7 @@ int runTask(CalibrationResult (*task)(const Request&, base::Progress&, const std
   program::listenForInterrupts();
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !quiet && isatty(STDERR_FILENO));
   const auto result = task(request, *progress, program::isInterrupted);
-  progress.reset();  // its line is free for the summary
+  progress.reset();  // clears its line for the summary
   const auto& folder = request.output;
   if (!quiet) std::cout << result.text << "in " << folder << ": calibration.ini, " << picture << "\n";
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-calibrate: warning: " << warning << "\n";
@@ -57,7 +60,7 @@ int runTask(CalibrationResult (*task)(const Request&, base::Progress&, const std
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Refines what a log says of its camera, from the log itself.\n"
+      "Refines the calibration of a camera from a log of it.\n"
       "Example: omnimapper-calibrate rgbd -r camera.rawlog -o out/calibration\n"
       "         omnimapper-graphslam -i rgbd_handheld.ini -i out/calibration/calibration.ini -r camera.rawlog -o "
       "out/map\n"
@@ -65,24 +68,25 @@ int main(int argc, char** argv) {
       "omnimapper-calibrate");
   app.require_subcommand(1);
   app.footer(
-      "Record some 30 s in which the camera turns and moves slowly: for rgbd before things with corners, near and "
-      "far,\n"
-      "for depth before walls, floors and tables that fill the image.\n"
-      "Exit codes: doc/exit_codes.md (0 also where rgbd finds that the log's calibration holds).");
+      "Record about 30 s in which the camera turns and moves slowly: for rgbd in front of objects with corners,\n"
+      "near and far, for depth in front of walls, floors and tables that fill the image.\n"
+      "Exit codes: doc/exit_codes.md (0 also if rgbd finds that the log's calibration is right).");
   Arguments arguments;
   auto& [rgbd, depth, quiet] = arguments;
   const std::string residuals = "residuals.svg", distortion = "distortion.svg";
-  addTask(app, "rgbd", "camera with depths: intrinsics, lens, place of the picture, depth scale, by its corners",
+  addTask(app, "rgbd",
+          "RGB-D camera: intrinsics, lens distortion, pose of the colour camera and depth scale, from image corners",
           residuals, rgbd, quiet)
-      ->add_option("--views", rgbd.views, "images that are taken at most; more take longer")
+      ->add_option("--views", rgbd.views, "largest number of images used; more take longer")
       ->check(CLI::Range(10, 500))
       ->capture_default_str();
-  auto* of_depth = addTask(app, "depth", "camera with depths: by how much it bends flat walls, floors and tables",
-                           distortion, depth, quiet);
-  of_depth->add_option("--images", depth.images, "depth images that are taken at most; more take longer")
+  auto* of_depth =
+      addTask(app, "depth", "RGB-D camera: systematic distortion of depth, from flat walls, floors and tables",
+              distortion, depth, quiet);
+  of_depth->add_option("--images", depth.images, "largest number of depth images used; more take longer")
       ->check(CLI::Range(12, 1000))
       ->capture_default_str();
-  of_depth->add_option("--degree", depth.degree, "of the polynomial over the image")
+  of_depth->add_option("--degree", depth.degree, "degree of the polynomial over the image")
       ->check(CLI::Range(perception::DepthDistortion::kLeastDegree, perception::DepthDistortion::kMostDegree))
       ->capture_default_str();
   return program::run(app, argc, argv, [&, of_depth] {

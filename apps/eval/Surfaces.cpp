@@ -16,17 +16,17 @@ namespace omnimapper::evaluation {
 
 namespace {
 
-// A folder stands for the file in it.
+// The path itself, or for a folder its surfaces.json.
 std::string surfacesFile(const std::string& path) {
   return std::filesystem::is_directory(path) ? path + "/surfaces.json" : path;
 }
 
-// A file in the same folder.
+// A file in the same folder as the surfaces.
 std::string besideSurfaces(const std::string& path, const std::string& name) {
   return (std::filesystem::path(surfacesFile(path)).parent_path() / name).string();
 }
 
-// The surfaces of the map in the frame of the truth: the trajectory beside them and the true one tell how they lie.
+// The surfaces of the map in the true frame, aligned by the trajectory beside them and the true one.
 surfaces::SurfaceSet inTrueFrame(const Arguments& arguments, const std::string& truth) {
   auto map = surfaces::readSurfaces(surfacesFile(arguments.estimate));
   const auto alignment = eval::alignmentNamed(arguments.alignment);
@@ -38,8 +38,8 @@ surfaces::SurfaceSet inTrueFrame(const Arguments& arguments, const std::string& 
     if (std::filesystem::exists(file)) continue;
     throw base::Error(base::ExitCode::unreadable_input,
                       file +
-                          ": is missing, and only trajectories tell how the frame of the map lies to the true one; "
-                          "if it is the same, say --align none");
+                          ": is missing, but the frame of the map can only be aligned to the true one by trajectories; "
+                          "if both frames are the same, use --align none");
   }
   const auto paired = eval::pairTrajectories(
       eval::readTrajectory(estimate), eval::readTrajectory(truth),

@@ -11,14 +11,14 @@ struct Arguments {
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
   std::string alignment = "none", unit = "frames";
   double delta = 1;
-  std::string log;          // of views
-  std::size_t views = 200;  // at most
+  std::string log;          // log of the verb views
+  std::size_t views = 200;  // largest number of views
 };
 
-/// Prints and writes what the verb tells; its exit code.
+/// Prints and writes the result of the verb; returns the exit code.
 int run(const std::string& verb, const Arguments& arguments);
 
-/// Of these verbs: the surfaces of a map against the true ones, and against the depth images of a log.
+/// The verbs map and views: compare the surfaces of a map with the true ones, and with the depth images of a log.
 int judgeMap(const Arguments& arguments);
 int judgeByViews(const Arguments& arguments);
 

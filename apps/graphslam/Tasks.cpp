@@ -12,12 +12,12 @@ using namespace omnimapper;
 
 namespace {
 
-// A folder that goes when it is done with.
+// A temporary folder that is removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_((std::filesystem::temp_directory_path() / "omnimapper-check-XXXXXX").string()) {
     if (!mkdtemp(path_.data()))
-      throw base::Error(base::ExitCode::unwritable_output, path_ + ": no folder can be made there; set TMPDIR");
+      throw base::Error(base::ExitCode::unwritable_output, path_ + ": no folder can be created there; set TMPDIR");
   }
   ~TemporaryFolder() {
     std::error_code none;

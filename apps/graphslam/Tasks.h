@@ -8,12 +8,12 @@
 
 #include "Arguments.h"
 
-/// What omnimapper-graphslam does beside mapping. Each gives the exit code, and frees the line of the progress for its
+/// The tasks of omnimapper-graphslam beside mapping. Each returns the exit code and clears the progress line for its
 /// summary.
 
-/// --check, of logs, or with --live of what the sensors send in `[live] check_s`.
+/// --check: checks logs, or with --live what the sensors send in `[live] check_s`.
 int checkLogs(const Arguments& arguments, const omnimapper::base::Config& config,
               std::optional<omnimapper::base::TerminalProgress>& progress, const std::function<bool()>& stop);
-/// --record-only.
+/// --record-only: records sensors.
 int recordSensors(const Arguments& arguments, const omnimapper::base::Config& config,
                   std::optional<omnimapper::base::TerminalProgress>& progress, const std::function<bool()>& stop);

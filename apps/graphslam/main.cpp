@@ -22,7 +22,7 @@ namespace {
 
 using namespace omnimapper;
 
-// An output that the command line asks for, whether the INI knows it or not.
+// Adds an output that the command line requests, whether the INI has it or not.
 void addOutput(const std::string& section, const std::string& name, base::Config& config, mapper::RunRequest& run) {
   std::string there;
   if (!config.section(section).find("class", there)) config.set(section + ".class=" + name);
@@ -30,17 +30,17 @@ void addOutput(const std::string& section, const std::string& name, base::Config
   if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
 }
 
-// The journal in a folder, and without -i the INI of its live run. Old recordings have none.
+// Finds the journal in a folder, and without -i the INI of its live run. Old recordings have none.
 void findReplay(Arguments& arguments) {
   auto& journal = arguments.run.replay;
   journal = live::findJournal(journal);
   if (!arguments.inis.empty()) return;
   const auto ini = live::findIni(journal);
-  program::require({{"-i INI, for the settings of the live run are not in " + live::iniOf(journal), ini.has_value()}});
+  program::require({{"-i INI, as the settings of the live run are not in " + live::iniOf(journal), ini.has_value()}});
   arguments.inis.push_back(*ini);
 }
 
-void tell(const mapper::RunResult& result, const Arguments& arguments) {
+void printResult(const mapper::RunResult& result, const Arguments& arguments) {
   if (arguments.verbose) std::cout << base::printableLines(result.source.text());
   if (!arguments.quiet) std::cout << base::printableLines(mapper::toText(result));
   for (const auto& warning : result.warnings) {
@@ -70,17 +70,17 @@ int run(Arguments& arguments) {
                     {"-o FOLDER", !arguments.run.output_folder.empty()}});
   if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
   if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);
-  bool told = false;
+  bool is_printed = false;
   arguments.run.before_window_closes = [&](const mapper::RunResult& result) {
     program::nothingIsLeftToDo();
     progress.reset();
-    tell(result, arguments);
+    printResult(result, arguments);
     if (!arguments.quiet) std::cout << "The window shows the map; close it to end.\n" << std::flush;
-    told = true;
+    is_printed = true;
   };
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
-  if (!told) tell(result, arguments);
+  if (!is_printed) printResult(result, arguments);
   return static_cast<int>(result.code);
 }
 
@@ -92,8 +92,8 @@ int main(int argc, char** argv) {
   addOptions(app, arguments);
   const int code = program::run(app, argc, argv, [&] { return run(arguments); });
   if (!arguments.gui && !arguments.run.live && !arguments.record_only) return code;
-  // MRPT's window thread may still paint, and a driver that hangs was abandoned: what they use must not go before they
-  // do, and they cannot be waited for.
+  // MRPT's window thread may still paint, and a driver that hangs was abandoned. They cannot be waited for, so the
+  // program exits without destroying the objects that they use.
   std::cout.flush();
   std::_Exit(code);
 }

@@ -17,5 +17,5 @@ struct Arguments {
   omnimapper::source::ImageFolderOptions photographs;
 };
 
-/// Adds a subcommand for each kind of log. Returns what does the import that the parsed command line asks for.
+/// Adds a subcommand for each kind of log. Returns a function that runs the import selected on the command line.
 std::function<omnimapper::base::ExitCode()> addKinds(CLI::App& app, Arguments& arguments);

@@ -9,15 +9,15 @@
 
 #include <string>
 
-/// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is left or takes the place of another.
+/// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is left or replaces another.
 void refuseNothing(const std::string& input, const omnimapper::source::SourceReport& report);
 
-/// How far an import has come, shown on a terminal.
+/// Shows the progress of an import on a terminal.
 class ImportProgress {
  public:
-  /// From now on Ctrl-C is heard by report().
+  /// From now on report() handles Ctrl-C.
   explicit ImportProgress(const std::string& input);
-  /// `share` in [0, 1]. Throws Error(interrupted) after Ctrl-C: half a log is not left for a whole one.
+  /// `share` is in [0, 1]. Throws Error(interrupted) after Ctrl-C, so that no incomplete log is left.
   void report(double share);
 
  private:
@@ -25,19 +25,20 @@ class ImportProgress {
   omnimapper::base::TerminalProgress terminal_;
 };
 
-/// Writes all of a folder of files, each an observation, and says on standard output what there was; colours as JPEG.
+/// Writes a folder of files, one observation each, to a rawlog with colour images as JPEG, and prints a summary on
+/// standard output.
 void importFolder(omnimapper::source::FolderSource& files, const std::string& folder, const std::string& output);
 
-/// Says on standard output what to do with a rawlog that was written, which may hold nothing but photographs.
+/// Prints on standard output what to do next with the rawlog; `has_photographs` is set if it contains only photographs.
 void sayNext(const std::string& output, bool has_photographs);
 
-/// The kinds of logs that omnimapper-import takes: each writes a rawlog and prints a summary.
+/// The kinds of logs that omnimapper-import reads: each function writes a rawlog and prints a summary.
 
 omnimapper::base::ExitCode importCarmen(const std::string& input, const std::string& output,
                                         omnimapper::source::CarmenOdometry odometry);
 
-/// Leaves the ground truth, if the folder has one, beside the rawlog as <output>.truth.tum, and with `external_images`
-/// the images in <output>_Images. With `poses` each image has its true pose beside it in the rawlog, as
+/// Writes the ground truth, if the folder has one, beside the rawlog as <output>.truth.tum, and with `external_images`
+/// the images into <output>_Images. With `poses` the rawlog also has the true pose of each image as
 /// CObservationRobotPose.
 omnimapper::base::ExitCode importRgbd(const std::string& folder, const std::string& output,
                                       const omnimapper::source::RgbdFolderOptions& options, bool external_images,

@@ -16,7 +16,7 @@ void printSummary(const source::CarmenLog& log) {
   if (log.badLineCount() > log.badLines().size())
     std::cout << "... and " << log.badLineCount() - log.badLines().size() << " more bad lines\n";
   std::cout << "odometry: of the "
-            << (log.odometry() == CarmenOdometry::lines ? "ODOM lines, and again of each scan" : "scans' own lines")
+            << (log.odometry() == CarmenOdometry::lines ? "ODOM lines, and repeated for each scan" : "scans' own lines")
             << "; ODOM lines or repetitions left out: " << log.unusedOdometry() << "\n";
 }
 

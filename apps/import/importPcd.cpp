@@ -12,8 +12,8 @@ base::ExitCode importPcd(const std::string& folder, const std::string& output,
   importFolder(clouds, folder, output);
   if (clouds.unorganised() > 0) {
     std::cout << base::counted(clouds.unorganised(), "cloud")
-              << " without rows and columns (HEIGHT 1): they stay clouds, which are mapped only with odometry or poses "
-                 "beside them\n";
+              << " without rows and columns (HEIGHT 1): they remain clouds, which can only be mapped together with "
+                 "odometry or poses\n";
   }
   return clouds.report().exitCode();
 }

@@ -35,17 +35,17 @@ void refuseWithoutPoses(const source::RgbdFolder& images, const std::string& fol
   throw base::Error(base::ExitCode::unreadable_input, folder + " " + why + " for --poses; nothing was written");
 }
 
-// Wrong units of depth or a wrong camera give a map that is wrong and looks right.
+// With wrong depth units or a wrong camera the map is wrong although it looks right, so they are printed.
 void printCamera(const source::RgbdFolder& images) {
   const auto& camera = images.camera();
   std::cout << "camera: " << images.cameraName() << ", fx " << base::fixed(camera.fx(), 1) << " fy "
             << base::fixed(camera.fy(), 1) << " cx " << base::fixed(camera.cx(), 1) << " cy "
-            << base::fixed(camera.cy(), 1) << " pixels\ndepth: " << images.depthUnits() << " units in a metre";
+            << base::fixed(camera.cy(), 1) << " pixels\ndepth: " << images.depthUnits() << " units per metre";
   const auto depth = images.medianDepth();
-  std::cout << (depth ? ", median " + base::fixed(*depth, 2) + " m" : ", no pixel has any") << "\n";
-  // A Kinect is made for 0.8 m to 4 m, or 0.4 m to 3 m in its near mode: half of a room's pixels are seldom nearer or
-  // farther. freiburg1_rpy and freiburg3_cabinet read at 1000 units in a metre come to 5.4 m and 7.2 m, ICL-NUIM's
-  // living room at 5000 to 0.35 m.
+  std::cout << (depth ? ", median " + base::fixed(*depth, 2) + " m" : ", no pixel has a depth") << "\n";
+  // A Kinect measures from 0.8 m to 4 m, or from 0.4 m to 3 m in its near mode, and the median depth of a room is
+  // seldom outside. freiburg1_rpy and freiburg3_cabinet read with 1000 units per metre have medians of 5.4 m and 7.2 m,
+  // ICL-NUIM's living room with 5000 one of 0.35 m.
   constexpr double kNearest = 0.4, kFarthest = 4;  // [m]
   if (!depth || (*depth >= kNearest && *depth <= kFarthest)) return;
   std::cerr << "omnimapper-import: warning: half of the depths are " << (*depth < kNearest ? "below " : "above ")
@@ -87,7 +87,7 @@ base::ExitCode importRgbd(const std::string& folder, const std::string& output,
     });
   }
   std::cout << images.report().text()
-            << "depth images without a colour image of their time, kept without colour: " << images.unpaired() << "\n";
+            << "depth images without a colour image at their time, kept without colour: " << images.unpaired() << "\n";
   printCamera(images);
   if (poses) std::cout << "images with a true pose in the rawlog: " << posed << "\n";
   if (!images.groundTruth().empty())

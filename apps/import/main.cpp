@@ -1,4 +1,4 @@
-// omnimapper-import: makes MRPT rawlogs of other programs' logs.
+// omnimapper-import: converts logs of other programs to MRPT rawlogs.
 #include <omnimapper/base/AtomicFile.h>
 
 #include "Arguments.h"
@@ -6,10 +6,9 @@
 int main(int argc, char** argv) {
   using namespace omnimapper;
   CLI::App app(
-      "Makes MRPT rawlogs of other programs' logs.\n"
-      "Example: omnimapper-import carmen intel.clf.bz2 intel.rawlog\n"
-      "         omnimapper-import tum rgbd_dataset_freiburg1_rpy rpy.rawlog\n"
-      "         omnimapper-import images photographs signs.rawlog",
+      "Converts logs of other programs to MRPT rawlogs.\nExample: omnimapper-import carmen intel.clf.bz2 "
+      "intel.rawlog\n         omnimapper-import tum rgbd_dataset_freiburg1_rpy rpy.rawlog\n         omnimapper-import "
+      "images photographs signs.rawlog",
       "omnimapper-import");
   app.require_subcommand(1);
   Arguments arguments;

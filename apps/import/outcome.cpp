@@ -10,8 +10,9 @@ using namespace omnimapper;
 
 void refuseNothing(const std::string& input, const source::SourceReport& report) {
   if (report.observations() > 0) return;
-  throw base::Error(base::ExitCode::unreadable_input,
-                    input + ": nothing of it can be imported; nothing was written.\nWhat was read:\n" + report.text());
+  throw base::Error(
+      base::ExitCode::unreadable_input,
+      input + ": contains nothing that can be imported; nothing was written.\nWhat was read:\n" + report.text());
 }
 
 ImportProgress::ImportProgress(const std::string& input)
@@ -37,8 +38,8 @@ void importFolder(source::FolderSource& files, const std::string& folder, const 
       },
       source::ColourImages::jpeg);
   std::cout << files.report().text()
-            << (files.areNamesTimes() ? "stamps: the names of the files\n"
-                                      : "stamps: made up by --rate, for the files' names are no Unix times\n");
+            << (files.areNamesTimes() ? "stamps: from the names of the files\n"
+                                      : "stamps: assigned with --rate, because the files' names are no Unix times\n");
 }
 
 void sayNext(const std::string& output, bool has_photographs) {

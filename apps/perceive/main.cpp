@@ -1,4 +1,4 @@
-// omnimapper-perceive: rawlog in, rawlog out with what the extractors of an INI derive.
+// omnimapper-perceive: derives a rawlog from a rawlog with the extractors of an INI.
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/export/DetectionCounts.h>
@@ -31,29 +31,29 @@ struct Arguments {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Runs perception alone: reads rawlogs and leaves a rawlog of what the extractors named by [perception] of an "
-      "INI\n"
-      "derive. omnimapper-graphslam takes it beside the raw one: -r raw.rawlog -r derived.rawlog\n"
+      "Runs only perception: reads rawlogs and writes the results of the extractors in [perception] of an INI to a\n"
+      "rawlog. omnimapper-graphslam reads it together with the raw one: -r raw.rawlog -r derived.rawlog\n"
       "Example: omnimapper-perceive -i laser2d.ini -r office.rawlog -o derived.rawlog");
-  app.add_option("-i,--ini", arguments.inis, "INI file: which extractors; a further one counts over it");
+  app.add_option("-i,--ini", arguments.inis, "INI file with the extractors; later ones override earlier ones");
   app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
   app.add_option("-o,--output", arguments.run.output, "rawlog to write");
-  app.add_flag("--with-raw", arguments.run.with_raw, "put the observations that were read into it too");
-  app.add_option("--pictures", arguments.pictures, "folder for pictures of what was found, over what the sensor saw");
-  app.add_option("--picture-every", arguments.picture_every, "so many observations of a sensor make one (10)")
+  app.add_flag("--with-raw", arguments.run.with_raw, "also write the observations that were read");
+  app.add_option("--pictures", arguments.pictures, "folder for pictures of the results, drawn over the sensor data");
+  app.add_option("--picture-every", arguments.picture_every, "draw every Nth observation of a sensor; default 10")
       ->check(omnimapper::program::positive());
-  app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
+  app.add_option("--set", arguments.settings, "section.key=value, overrides the INI file; may be repeated");
   arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")
+  app.add_option("--threads", arguments.run.threads,
+                 "number of worker threads (default: one for each core); the output does not depend on it")
       ->check(CLI::Range(1, 256));
   app.add_flag("--list-plugins", arguments.list_plugins,
-               "list the plugin classes, with -i those of its libraries too, and leave");
-  app.add_option("--print-ini", arguments.print_ini, "print the documented section of a plugin class and leave");
+               "list the plugin classes, with -i also those of its libraries, and exit");
+  app.add_option("--print-ini", arguments.print_ini, "print the documented INI section of a plugin class and exit");
   app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary");
-  app.add_flag("-v,--verbose", arguments.verbose, "also say what the logs hold");
+  app.add_flag("-v,--verbose", arguments.verbose, "also print what the logs contain");
   app.footer(
-      "MRPT's tools stop at the first class they do not know: RawLogViewer -l libomnimapper-obs.so derived.rawlog\n"
-      "Exit codes: doc/exit_codes.md (0 only for the whole of a whole log).");
+      "MRPT's tools stop at unknown classes, so load ours: RawLogViewer -l libomnimapper-obs.so derived.rawlog\n"
+      "Exit codes: doc/exit_codes.md (0 only for the complete output of a complete log).");
 }
 
 int run(Arguments& arguments) {
@@ -72,17 +72,17 @@ int run(Arguments& arguments) {
   }
   program::listenForInterrupts();
   std::optional<exports::PerceptionPictures> pictures;
-  exports::DetectionCounts findings;
+  exports::DetectionCounts counts;
   if (!arguments.pictures.empty()) pictures.emplace(arguments.pictures, arguments.picture_every);
   arguments.run.show = [&](const auto& raw, const auto& derived) {
-    findings.add(derived);
+    counts.add(derived);
     if (pictures) pictures->add(raw, derived);
   };
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const auto result = mapper::runPerception(arguments.run, config, *progress, program::isInterrupted);
-  progress.reset();  // its line is free for the summary
+  progress.reset();  // clears its line for the summary
   if (arguments.verbose) std::cout << result.source.text();
-  if (!arguments.quiet) std::cout << findings.text() << mapper::toText(result, arguments.run.output);
+  if (!arguments.quiet) std::cout << counts.text() << mapper::toText(result, arguments.run.output);
   if (!arguments.quiet && pictures) std::cout << pictures->count() << " pictures in " << arguments.pictures << "\n";
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-perceive: warning: " << warning << "\n";
   return static_cast<int>(result.code);

@@ -22,7 +22,7 @@ std::string didYouMean(const std::string& name, const std::vector<std::string>& 
   return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
-// The option that takes such a file, or "".
+// The option that takes such a file; empty if there is none.
 std::string optionFor(const std::string& argument, const CLI::App& app) {
   std::error_code error;
   const auto extension = std::filesystem::path(argument).extension();
@@ -36,11 +36,11 @@ std::string optionFor(const std::string& argument, const CLI::App& app) {
 
 void sayUnknown(const CLI::App& app) {
   std::vector<std::string> known;
-  const auto parsed = app.get_subcommands();  // of several tasks the one that was named
+  const auto parsed = app.get_subcommands();  // the task that was given, if there are several
   for (const auto* option : (parsed.empty() ? app : *parsed.front()).get_options())
     for (const auto& name : option->get_lnames()) known.push_back("--" + name);
   const auto unknown = app.remaining(true);
-  bool is_misspelt = false;  // then a value may stand alone because of that
+  bool is_misspelt = false;  // a value may then lack its option because of that
   for (const auto& argument : unknown) {
     if (!isOption(argument)) continue;
     is_misspelt = true;
@@ -51,7 +51,7 @@ void sayUnknown(const CLI::App& app) {
   for (const auto& argument : unknown) {
     if (is_misspelt) break;
     const auto option = optionFor(argument, app), text = base::printableLines(argument);
-    std::cerr << app.get_name() << ": '" << text << "' stands without an option"
+    std::cerr << app.get_name() << ": '" << text << "' is given without an option"
               << (option.empty() ? "; " : "; did you mean " + option + " " + text + "? ") << "--help has an example\n";
   }
 }

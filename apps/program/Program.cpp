@@ -17,19 +17,19 @@ namespace omnimapper::program {
 
 namespace {
 volatile std::sig_atomic_t g_interrupted = 0, g_all_is_done = 0;
-// The first is heard by whoever asks isInterrupted(); the second does not wait for that.
+// The first interrupt is seen by the next call of isInterrupted(); the second ends the program at once.
 void onInterrupt(int) {
   if (g_interrupted != 0) _exit(static_cast<int>(base::ExitCode::interrupted));
   g_interrupted = 1;
   if (g_all_is_done != 0) return;
-  constexpr char kAnswer[] = "\ninterrupted: ending with what there is; once more ends at once\n";
+  constexpr char kAnswer[] = "\ninterrupted: finishing with what was read so far; press Ctrl-C again to end at once\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kAnswer, sizeof kAnswer - 1);
 }
 
 void answer(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
-  sigaction(signal, &action, nullptr);  // without SA_RESTART: what waits for a file or a pipe ends its wait
+  sigaction(signal, &action, nullptr);  // without SA_RESTART, so that waiting for a file or a pipe is interrupted
 }
 }  // namespace
 
@@ -43,7 +43,7 @@ void require(const std::vector<std::pair<std::string, bool>>& arguments) {
 
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
   base::keepFreedMemory();
-  app.set_version_flag("--version", app.get_name() + " " OMNIMAPPER_VERSION, "print the version and leave");
+  app.set_version_flag("--version", app.get_name() + " " OMNIMAPPER_VERSION, "print the version and exit");
   try {
     app.parse(argc, argv);
     base::requireAddressSpace();
@@ -58,7 +58,7 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
     std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << "\n";
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    std::cerr << app.get_name() << ": out of memory; what was written until now is kept\n";
+    std::cerr << app.get_name() << ": out of memory; files written before are kept\n";
     return static_cast<int>(base::ExitCode::out_of_memory);
   } catch (const std::exception& error) {
     std::cerr << app.get_name() << ": " << base::printableLines(error.what()) << " (a defect: please report it)\n";

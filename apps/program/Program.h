@@ -8,23 +8,23 @@
 
 namespace omnimapper::program {
 
-/// Parses the command line into `app`, whose name is the program's, and runs `body`; --version is understood, too.
-/// Returns the exit code: that of `body`, or that of the error that stopped it, which is then told on standard error
+/// Parses the command line into `app`, which has the name of the program, and runs `body`; also handles --version.
+/// Returns the exit code of `body`, or of the error that stopped it, which is then printed on standard error
 /// (doc/exit_codes.md).
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
-/// Throws Error(command_line) that names the arguments which are needed and were not given.
+/// Throws Error(command_line) naming the required arguments that were not given.
 void require(const std::vector<std::pair<std::string, bool>>& arguments);
 
-/// Validators of numbers, which must be finite: CLI11's own let "nan" pass.
+/// Validators for finite numbers: CLI11's own ones accept "nan".
 CLI::Validator notNegative();
 CLI::Validator positive();
 
-/// From now on Ctrl-C and SIGTERM only make isInterrupted() true, a second of them ends the program at once, and a file
-/// at the limit of its size fails as on a full disk: a run can end its files properly.
+/// After this call the first Ctrl-C or SIGTERM only makes isInterrupted() true, the second ends the program at once,
+/// and reaching the limit of file size fails like a full disk, so that a run can finish its files properly.
 void listenForInterrupts();
 bool isInterrupted();
-/// From now on an interrupt finds everything written, and is no longer answered as one that cuts something short.
+/// After this call everything is written, and an interrupt is not announced as one that stops work.
 void nothingIsLeftToDo();
 
 }  // namespace omnimapper::program

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Folders of INIs that came with the program: of an installation, or of the checkout whose build this is.
+// Folders with the INIs of the program: of its installation, or of the checkout that it was built in.
 std::vector<fs::path> shippedFolders() {
   std::error_code error;
   const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -24,7 +24,7 @@ std::vector<fs::path> shippedFolders() {
   return {bin / "../share/omnimapper/ini", bin / "../share/omnimapper/rawlogs"};
 }
 
-/// Names of all of them, sorted.
+/// The names of all these INIs, sorted.
 std::vector<std::string> shippedNames() {
   std::error_code error;
   std::vector<std::string> names;
@@ -36,7 +36,7 @@ std::vector<std::string> shippedNames() {
   return names;
 }
 
-// Of a name, or of one with the folder that it has in a checkout.
+// The path of one of these INIs by its name, which may include its folder in the checkout.
 std::optional<std::string> shippedPath(const fs::path& name, const std::string& first_folder) {
   const fs::path folder_of_name = name.parent_path();
   if (!folder_of_name.empty() && folder_of_name != "ini" && folder_of_name != "rawlogs") return std::nullopt;
@@ -65,8 +65,8 @@ std::vector<std::string> findInis(const std::vector<std::string>& names, const s
     if (known.empty()) continue;
     const auto near = base::nearestName(fs::path(name).has_extension() ? name : name + ".ini", known);
     throw base::Error(base::ExitCode::unreadable_input,
-                      name + ": there is no such INI file here, and none of that name came with the program" +
-                          (near.empty() ? "." : "; did you mean " + near + "?") + " It has " +
+                      name + ": there is no such INI file here, and none of that name comes with the program" +
+                          (near.empty() ? "." : "; did you mean " + near + "?") + " It comes with " +
                           base::option_text::format(known));
   }
   return paths;

@@ -1,4 +1,4 @@
-// omnimapper-query: asks a map by name.
+// omnimapper-query: queries a map by names.
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/query/Verbs.h>
@@ -16,7 +16,7 @@ using namespace omnimapper;
 struct Arguments {
   bool json = false;
   std::string map;
-  std::vector<std::string> words;                  // without a verb
+  std::vector<std::string> words;                  // the words if no verb was given
   std::map<std::string, query::Request> requests;  // by verb
 };
 
@@ -46,9 +46,9 @@ void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bo
 }
 
 void addOptions(CLI::App& app, Arguments& arguments) {
-  app.description("Asks a map by name: where something is, what is near a point, where to stand before it.");
+  app.description("Queries a map: where a landmark is, what is near a point, a free pose in front of a landmark.");
   app.add_option("MAP", arguments.map, "folder of a map, or its map.omnimap")->type_name("")->required();
-  app.add_option("TEXT", arguments.words, "without a verb: what to find")->type_name("")->expected(1, -1);
+  app.add_option("TEXT", arguments.words, "name to find, if no verb is given")->type_name("")->expected(1, -1);
   app.add_flag("--json", arguments.json, "print one JSON document");
   app.require_subcommand(0, 1);
   for (const auto& verb : query::verbs()) addVerb(app, verb, arguments.requests[verb.name], arguments.json);
@@ -56,7 +56,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "Examples:\n"
       "  omnimapper-query out/map 213                        where the sign 213 is\n"
       "  omnimapper-query out/map near 3.5 -2 --within 4     what is at most 4 m from that point\n"
-      "  omnimapper-query out/map goal kitchen --from 0 0    a free pose before it, facing it\n"
+      "  omnimapper-query out/map goal kitchen --from 0 0    a free pose in front of it, facing it\n"
       "  omnimapper-query out/map list sign --json           all signs, for programs\n"
       "Options of one verb: omnimapper-query out/map goal --help. A text that is a verb: omnimapper-query out/map find "
       "list.\n"
@@ -72,8 +72,8 @@ int answer(const CLI::App& app, const Arguments& arguments) {
   if (parsed.empty()) request.words = arguments.words;
   if (!parsed.empty() && !arguments.words.empty())
     throw base::Error(base::ExitCode::command_line, "'" + base::printable(arguments.words.front().substr(0, 40)) +
-                                                        "' stands before the verb " + asked->name +
-                                                        ": after the map stands a text or a verb");
+                                                        "' is given before the verb " + asked->name +
+                                                        ": after the map give a text or a verb");
   query::expectWords(*asked, request);
   const query::Answer answer = asked->answer(query::openMap(arguments.map), request);
   if (arguments.json) {

@@ -1,4 +1,4 @@
-// omnimapper-simulate: a world, a robot and its sensors of an INI become a rawlog and the truth beside it.
+// omnimapper-simulate: simulates the world, robot and sensors of an INI and writes a rawlog with its ground truth.
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/sim/SimulationHelp.h>
 #include <omnimapper/sim/SimulationRun.h>
@@ -25,21 +25,23 @@ struct Arguments {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Simulates a robot's log with its truth: rawlog, trajectory, landmarks, labels,\n"
+      "Simulates a robot's log with its ground truth: rawlog, trajectory, landmarks, labels,\n"
       "flat surfaces and a mesh of the place.\n"
       "Example: omnimapper-simulate -i home.ini -o out/home --set simulation.duration_s=60");
-  app.add_option("-i,--ini", arguments.inis, "INI file: world, robot, sensors; a further one counts over it");
-  app.add_option("-o,--output", arguments.run.folder, "folder for log and truth, made if missing");
-  app.add_option("--name", arguments.run.name, "of the rawlog (the INI's)");
-  app.add_option("--set", arguments.settings, "section.key=value, over the INI file; may be repeated");
+  app.add_option("-i,--ini", arguments.inis,
+                 "INI file with world, robot and sensors; later ones override earlier ones");
+  app.add_option("-o,--output", arguments.run.folder, "folder for log and ground truth, created if missing");
+  app.add_option("--name", arguments.run.name, "name of the rawlog; default: the name of the INI");
+  app.add_option("--set", arguments.settings, "section.key=value, overrides the INI file; may be repeated");
   arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  app.add_option("--threads", arguments.run.threads, "worker threads (one a core); the bytes do not depend on them")
+  app.add_option("--threads", arguments.run.threads,
+                 "number of worker threads (default: one for each core); the output does not depend on it")
       ->check(CLI::Range(1, 256));
-  app.add_flag("--list", arguments.list, "list sensors and what a world is made of, and leave");
-  app.add_option("--print-ini", arguments.print_ini, "print the documented section of a class and leave");
-  app.add_flag("--ini-reference", arguments.ini_reference, "print all INI keys as Markdown and leave");
+  app.add_flag("--list", arguments.list, "list the classes of sensors and of the parts of a world, and exit");
+  app.add_option("--print-ini", arguments.print_ini, "print the documented INI section of a class and exit");
+  app.add_flag("--ini-reference", arguments.ini_reference, "print all INI keys as Markdown and exit");
   app.add_flag("-q,--quiet", arguments.quiet, "no progress, no summary");
-  app.footer("Exit codes: doc/exit_codes.md (0 only for a whole log).");
+  app.footer("Exit codes: doc/exit_codes.md (0 only for a complete log).");
 }
 
 int run(Arguments& arguments) {
@@ -55,7 +57,7 @@ int run(Arguments& arguments) {
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
   const sim::Simulation simulation(config);
   const auto result = sim::runSimulation(simulation, arguments.run, *progress, program::isInterrupted);
-  progress.reset();  // its line is free for the summary
+  progress.reset();  // clears its line for the summary
   if (!arguments.quiet) std::cout << sim::toText(result, arguments.run.folder);
   for (const auto& warning : result.warnings) std::cerr << "omnimapper-simulate: warning: " << warning << "\n";
   return static_cast<int>(result.code);

@@ -1,4 +1,4 @@
-// omnimapper-train-doorsigns: what tells door signs from other things, trained on pictures.
+// omnimapper-train-doorsigns: trains the model that distinguishes door signs from other regions of images.
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/signs/TrainingRun.h>
 #include <unistd.h>
@@ -25,24 +25,25 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                  "folders of pictures, one for each building, with signs.csv or a NAME.mask.png for each picture")
       ->required();
   auto* output =
-      app.add_option("-o,--output", request.output, "file of the model; without it only the tables are made");
+      app.add_option("-o,--output", request.output, "file of the model; without it only the tables are printed");
   app.add_option("--try", request.trial,
-                 "trains nothing: how well the model of this file, or the one that is 'shipped', finds the signs")
+                 "test a model instead of training one: this file, or 'shipped' for the model of the program")
       ->excludes(output);
-  app.add_option("--min-score", options.min_score, "from what probability on a region is taken for a sign")
+  app.add_option("--min-score", options.min_score, "smallest probability at which a region counts as a sign")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_option("--folds", options.folds, "of cross-validation; no sign is in two of them")
+  app.add_option("--folds", options.folds,
+                 "number of folds of the cross-validation; all images of a sign are in the same fold")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "of what is drawn by chance")
+  app.add_option("--seed", options.seed, "seed of the random numbers")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->capture_default_str();
-  app.add_option("--cost", options.cost, "what a region on the wrong side costs the machine")
+  app.add_option("--cost", options.cost, "cost of a misclassified region in the support vector machine")
       ->check(program::positive())
       ->capture_default_str();
-  app.add_option("--gamma", options.gamma, "of the kernel")->check(program::positive())->capture_default_str();
-  app.add_option("--others", options.others, "regions of a picture that are no signs, at most")
+  app.add_option("--gamma", options.gamma, "gamma of the kernel")->check(program::positive())->capture_default_str();
+  app.add_option("--others", options.others, "largest number of other regions used from each picture")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   app.add_flag("-q,--quiet", quiet, "no progress, no tables");
@@ -52,21 +53,22 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Trains what tells door signs from other things, and prints how well it does: within each building, and trained\n"
-      "on one and tried on the others.\n"
+      "Trains the model that distinguishes door signs from other regions, and prints how well it does: within each\n"
+      "building, and trained on one building and tested on the others.\n"
       "Example: omnimapper-train-doorsigns photos/north photos/south -o door_signs.svm",
       "omnimapper-train-doorsigns");
   app.footer(
       "signs.csv has a line for each sign: image,sign,x1,y1,x2,y2,x3,y3,x4,y4,visible, with the corners upper left, "
-      "upper\nright, lower right, lower left in pixels; its first line names the columns. In NAME.mask.png signs are "
-      "white.\nExit codes: doc/exit_codes.md.");
+      "upper\n"
+      "right, lower right, lower left in pixels; its first line names the columns. In NAME.mask.png signs are white.\n"
+      "Exit codes: doc/exit_codes.md.");
   Arguments arguments;
   addOptions(app, arguments);
   return program::run(app, argc, argv, [&] {
     program::listenForInterrupts();
     std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !arguments.quiet && isatty(STDERR_FILENO));
     const auto text = signs::runTraining(arguments.run, *progress, program::isInterrupted);
-    progress.reset();  // its line is free for the tables
+    progress.reset();  // clears its line for the tables
     if (!arguments.quiet) std::cout << text;
     return 0;
   });

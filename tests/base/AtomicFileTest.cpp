@@ -36,7 +36,7 @@ void writeText(const std::string& path, const std::string& text) {
   writeFile(path, [&](std::ostream& out) { out << text; });
 }
 
-// Runs `check` in a child process, so that limits and mounts of it end with it. True if it returned true.
+// Runs `check` in a child process, so that its limits and mounts end with it. Returns true if `check` returned true.
 bool holdsInChild(const std::function<bool()>& check) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -52,7 +52,7 @@ bool holdsInChild(const std::function<bool()>& check) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// True if writing `text` is refused as disk_full, the old content stays and no temporary file does.
+// Whether writing `text` is refused as disk_full, with the old content kept and no temporary file left.
 bool failsWhole(const std::string& folder, const std::string& text) {
   const std::string path = folder + "/map.txt";
   writeText(path, "old");
@@ -228,7 +228,7 @@ TEST(AtomicFile, MakesFoldersWithTheirParents) {
 TEST(AtomicFile, AFolderThatCannotBeMadeOrWrittenIsRefusedByName) {
   ScratchFolder folder;
   writeText(folder / "file", "x");
-  // Root may write nearly everywhere, but not below a file, and not into the kernel's own tree.
+  // Even root cannot write below a file or into /proc.
   for (const std::string& path : {folder / "file", folder / "file/below", std::string("/proc/self")}) {
     try {
       makeWritableFolder(path);

@@ -31,7 +31,7 @@ TriggerOptions trigger(const std::string& text) {
   return parsed(text).section("trigger").read<TriggerOptions>();
 }
 
-// Runs `act` and checks code of the error and that its message holds every one of `words`.
+// Runs `act` and checks the code of its error and that the message contains each of `words`.
 void expectError(const std::function<void()>& act, ExitCode code, const std::vector<std::string>& words) {
   try {
     act();
@@ -85,8 +85,7 @@ TEST(Config, KnowsWhichSectionsItHas) {
 
 TEST(Config, CommentsStartWithAnyOfThreeSignsAfterABlank) {
   const auto options = trigger(
-      "; a\n# b\n// c\n[trigger] # the trigger\ndistance_m = 2 // way\nevery = 3 ; scans\n"
-      "label = file://a#b;c\n");
+      "; a\n# b\n// c\n[trigger] # the trigger\ndistance_m = 2 // travel\nevery = 3 ; scans\nlabel = file://a#b;c\n");
   EXPECT_EQ(options.distance, 2);
   EXPECT_EQ(options.every, 3);
   EXPECT_EQ(options.label, "file://a#b;c");
@@ -116,7 +115,7 @@ TEST(Config, AnUnknownKeyNamesFileSectionKeyAndTheNearestKnownOne) {
   expectError([] { trigger("[trigger]\ndistence_m = 1\n"); }, ExitCode::unknown_key,
               {"test.ini:2: [trigger]", "'distence_m'", "'distance_m'"});
   expectError([] { trigger("[trigger]\nDistance_m = 1\n"); }, ExitCode::unknown_key, {"'distance_m'"});
-  // Nothing is near: all that is known is listed.
+  // If no name is close, all known names are listed.
   expectError([] { trigger("[trigger]\nxyzzyq = 1\n"); }, ExitCode::unknown_key,
               {"'xyzzyq'", "distance_m, angle_deg, every, label"});
 }
@@ -186,7 +185,8 @@ TEST(Config, ADoubledSectionIsRefusedWithItsLineInWhateverCase) {
 
 TEST(Config, WhatIsNoTextIsProbablyALog) {
   for (const std::string& bytes : {std::string("\x1f\x8b\x08"), std::string("BZh91"), std::string("\x9fmrpt\0", 6)})
-    expectError([&] { parsed(bytes); }, ExitCode::unknown_key, {"test.ini: is no text", "a log is named by -r"});
+    expectError([&] { parsed(bytes); }, ExitCode::unknown_key,
+                {"test.ini: is not a text file", "a log is given with -r"});
 }
 
 TEST(Config, ALineThatIsNeitherSectionNorKeyIsRefusedWithItsLine) {
@@ -286,7 +286,7 @@ TEST(Config, NearestNameIsByEditDistanceOrNone) {
   EXPECT_EQ(nearestName("NoMotion", names), "no_motion");
   EXPECT_EQ(nearestName("gps", names), "");
   EXPECT_EQ(nearestName("anything", {}), "");
-  // Letter by letter, these would take hours.
+  // An edit distance of these would take hours.
   const std::string x(1'000'000, 'x'), y(1'000'000, 'y');
   EXPECT_EQ(nearestName(x, {y, "odometry"}), "");
   EXPECT_EQ(nearestName("odometri", {y, "odometry"}), "odometry");

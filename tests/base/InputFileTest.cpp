@@ -13,7 +13,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-// What is said of a path that is refused, and that the exit code is that of an unreadable input.
+// The message for a path that is refused; also checks that the exit code is that of an unreadable input.
 std::string refusal(const std::string& path) {
   try {
     readInput(path);

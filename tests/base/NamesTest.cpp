@@ -43,7 +43,7 @@ TEST(Names, PrintableTextIsLeftAsItIs) {
   }
 }
 
-// Whatever fitsIni() lets through comes back as it was, and brings nothing with it.
+// Any text that fitsIni() accepts is read back unchanged, and adds no other key.
 TEST(Names, WhatFitsAnIniIsReadBack) {
   EXPECT_TRUE(fitsIni("laser 1"));
   for (const char* text : {"a\nplugin_libraries = x.so", "a ; b", "#a", "//a", "a // b", " a", "a ", "a,b",

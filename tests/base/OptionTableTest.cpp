@@ -33,7 +33,7 @@ struct Options {
   }
 };
 
-// Index of a key in the table, as the reader of a section finds it.
+// Index of a key in the table.
 std::size_t indexOf(const std::string& key) {
   const auto& specs = Options::table().specs();
   for (std::size_t i = 0; i < specs.size(); ++i) {
@@ -150,18 +150,18 @@ TEST(OptionTable, ReadsFlagsChoicesAndLists) {
 }
 
 TEST(OptionTable, ANumberWithoutADefaultStaysEmptyUnlessItIsSet) {
-  struct Told {
+  struct AngleOptions {
     std::optional<double> angle;
   };
-  const auto table = OptionTable<Told>().number("angle_deg", &Told::angle, {0, 180}, "Turn.");
+  const auto table = OptionTable<AngleOptions>().number("angle_deg", &AngleOptions::angle, {0, 180}, "Turn.");
   EXPECT_EQ(table.specs().front().default_value, "");
-  Told told;
-  EXPECT_FALSE(told.angle);
-  EXPECT_TRUE(table.set(told, 0, "200"));
-  EXPECT_FALSE(told.angle);
-  EXPECT_FALSE(table.set(told, 0, "90"));
-  ASSERT_TRUE(told.angle);
-  EXPECT_NEAR(*told.angle, 90 * option_text::kRadiansPerDegree, 1e-15);
+  AngleOptions options;
+  EXPECT_FALSE(options.angle);
+  EXPECT_TRUE(table.set(options, 0, "200"));
+  EXPECT_FALSE(options.angle);
+  EXPECT_FALSE(table.set(options, 0, "90"));
+  ASSERT_TRUE(options.angle);
+  EXPECT_NEAR(*options.angle, 90 * option_text::kRadiansPerDegree, 1e-15);
 }
 
 }  // namespace

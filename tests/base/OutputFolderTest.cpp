@@ -35,7 +35,7 @@ void write(const std::string& path, const Contents& files) {
   folder.commit();
 }
 
-// What a user sees in it: all files but those of the hidden folder.
+// The files that a user sees in the folder, without those of the hidden folder.
 Contents contents(const std::string& folder) {
   Contents files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -193,7 +193,7 @@ TEST(OutputFolder, AFullDiskAndAFolderInTheWayChangeNothing) {
   EXPECT_EQ(contents(scratch / "out"), kOld);
 }
 
-// Found before anything counts, so that the run's files are still there to be put elsewhere.
+// The obstacle is found before the commit, so that the run's files can still be moved elsewhere.
 TEST(OutputFolder, WhatIsInTheWayOfAFolderIsFoundBeforeAnythingChanges) {
   ScratchFolder scratch;
   fs::create_directory(scratch / "elsewhere");
@@ -214,7 +214,7 @@ TEST(OutputFolder, WhatIsInTheWayOfAFolderIsFoundBeforeAnythingChanges) {
   EXPECT_TRUE(fs::is_empty(scratch / "elsewhere"));
 }
 
-// Of an archive from somebody else: reading a file in it must not write or remove anything behind a link.
+// In an archive from another user, reading a file must not write or remove anything behind a link.
 TEST(OutputFolder, AHostileNoteIsNotFollowedThroughALink) {
   ScratchFolder scratch;
   put(scratch / "home/.profile", "mine");
@@ -269,13 +269,13 @@ TEST(OutputFolder, AnInnerFolderTakesWhatIsNotWholeAndGoesWithIt) {
   EXPECT_FALSE(fs::exists(scratch / "out/interrupted"));
 }
 
-// A run that is killed while it moves its files leaves the note, and some of them moved.
+// A run that is killed while it moves its files leaves the record of the commit, and some files already moved.
 class KilledCommit : public ::testing::TestWithParam<int> {
  protected:
   void SetUp() override {
     folder_ = scratch_ / "out";
     write(folder_, kOld);
-    // The note is that of another folder with the same files.
+    // The record is copied from another folder with the same files.
     OutputFolder killed(folder_);
     killed.open();
     stage(killed, kNew);
@@ -319,7 +319,7 @@ TEST(OutputFolder, AListThatNamesPlacesOutsideRemovesNothingThere) {
   EXPECT_TRUE(fs::exists(scratch / "precious"));
 }
 
-// Whatever the moment of its death: as the next program sees it, all is old or all is new.
+// Whenever the process is killed, the next program sees either all old files or all new ones.
 TEST(OutputFolder, KilledAtAnyTimeItIsWhollyOldOrWhollyNew) {
   ScratchFolder scratch;
   int old_ones = 0, new_ones = 0;

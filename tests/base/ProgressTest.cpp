@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Reports for a little longer than the two seconds after which a line may appear.
+// Reports for slightly longer than the two seconds after which a line is drawn.
 std::string shownFor(bool terminal, std::chrono::milliseconds how_long) {
   std::ostringstream out;
   {
@@ -41,7 +41,7 @@ TEST(Progress, OnATerminalLongWorkShowsOneLineAndErasesItAtTheEnd) {
   std::size_t redrawn = 0;
   for (auto at = shown.find(erase); at != std::string::npos; at = shown.find(erase, at + 1)) ++redrawn;
   EXPECT_GE(redrawn, 2u);
-  EXPECT_LE(redrawn, 6u);  // 0.35 s at ten a second, the final erasing, and one for a late machine
+  EXPECT_LE(redrawn, 6u);  // 0.35 s at ten per second, the final erasing, and one more for a slow machine
 }
 
 TEST(Progress, TheDefaultSaysNothingAnywhere) {

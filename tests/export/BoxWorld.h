@@ -22,7 +22,7 @@ namespace box_world {
 using namespace omnimapper;
 using mrpt::poses::CPose3D;
 
-/// A room of 4 x 3 m with a pillar in its upper right part: nothing of it is symmetric. Map frame, [m].
+/// A room of 4 x 3 m with a pillar in its upper right part, so that it has no symmetry. Map frame, [m].
 struct Wall {
   double x1, y1, x2, y2;
 };
@@ -43,7 +43,7 @@ inline double distanceToWalls(double x, double y) {
   return nearest;
 }
 
-/// Way from (x, y) along `angle` to the first wall; infinite if there is none.
+/// Distance from (x, y) along `angle` to the first wall; infinite if there is none.
 inline double castRay(double x, double y, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   double nearest = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ inline double castRay(double x, double y, double angle) {
   return nearest;
 }
 
-/// An exact scan of 270 deg by 1 deg from a sensor that looks along the floor; upside down where its roll is pi.
+/// An exact scan of 270 deg with steps of 1 deg from a horizontal sensor; upside down if its roll is pi.
 inline mrpt::obs::CObservation2DRangeScan::Ptr scanFrom(const CPose3D& map_from_base, const CPose3D& base_from_sensor,
                                                         base::Stamp stamp) {
   auto scan = mrpt::obs::CObservation2DRangeScan::Create();
@@ -97,7 +97,7 @@ inline map::KeyFrame keyFrame(std::uint32_t index, double seconds, const CPose3D
   return frame;
 }
 
-/// Three key frames in the room, a dependent frame after the first, a small graph, and decisions of both verdicts.
+/// Three key frames in the room, a dependent frame after the first, a small graph, and accepted and refused decisions.
 inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0.1, 0, 0)) {
   RunRecord run;
   const std::vector<CPose3D> poses{{0, 0, 0, 0, 0, 0}, {1, 0.25, 0, 0.5, 0, 0}, {0.5, 1.25, 0, 2.5, 0, 0}};
@@ -151,7 +151,7 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   return run;
 }
 
-/// The number that follows `label` in `text`, from `at` on; `at` moves behind it. NaN if there is none.
+/// The number that follows `label` in `text`, searched from `at` on; `at` is moved behind it. NaN if there is none.
 inline double numberAfter(const std::string& text, const std::string& label, std::size_t& at) {
   at = text.find(label, at);
   if (at == std::string::npos) return NAN;

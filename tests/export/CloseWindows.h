@@ -5,7 +5,7 @@
 
 #include <string>
 
-// Names that Xlib takes from everybody else.
+// Xlib defines these common names as macros.
 #undef Bool
 #undef None
 #undef Status
@@ -13,11 +13,11 @@
 
 namespace x11 {
 
-/// Asks the windows whose title begins so to close, as the cross in their title bar does.
+/// Asks the windows whose title begins with this text to close, as the button in their title bar does.
 inline void closeWindows(const std::string& title) {
   Display* display = XOpenDisplay(nullptr);
   if (!display) return;
-  // A window that is listed may have gone when it is asked for its name, which would end the program.
+  // A listed window may be gone when its name is requested, which would end the program.
   const auto handler = XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
   const Atom protocols = XInternAtom(display, "WM_PROTOCOLS", False),
              remove = XInternAtom(display, "WM_DELETE_WINDOW", False);

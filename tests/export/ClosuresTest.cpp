@@ -6,7 +6,7 @@
 namespace omnimapper::exports::closures_test {
 namespace {
 
-// What a search found where the estimate has it, a slip, and a change of mind are decisions about two key frames, too.
+// A search result that agrees with the estimate, a slip and a revoked verdict are also decisions about two key frames.
 TEST(Closures, AreLoopClosuresAndNoOtherDecisionAboutTwoKeyFrames) {
   testing::HandMadeRun run;
   for (int i = 0; i < 4; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});

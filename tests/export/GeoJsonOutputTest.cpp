@@ -1,4 +1,4 @@
-// floorplan.geojson by the rules of RFC 7946.
+// Checks floorplan.geojson against the rules of RFC 7946.
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <omnimapper/plugin/PlaceOnEarth.h>
@@ -42,7 +42,7 @@ void expectLine(const json& line) {
   for (const auto& position : line) expectPosition(position);
 }
 
-// Section 3.1.6: closed, of four positions or more, an exterior ring counter-clockwise.
+// Section 3.1.6: a ring is closed and has at least four positions; an exterior ring is counter-clockwise.
 void expectPolygon(const json& polygon) {
   ASSERT_EQ(polygon.size(), 1u);
   const auto& ring = polygon[0];
@@ -84,7 +84,7 @@ void expectRfc7946(const json& collection) {
   }
 }
 
-TEST(GeoJsonOutput, aMapIsAFeatureCollectionOfItsLandmarksAndItsWay) {
+TEST(GeoJsonOutput, aMapIsAFeatureCollectionOfItsLandmarksAndItsTrajectory) {
   const RunRecord run = shapedRun();
   const json plan = floorPlanOf(run.view());
   expectRfc7946(plan);
@@ -154,12 +154,11 @@ TEST(GeoJsonOutput, anEmptyMapIsAnEmptyCollection) {
   EXPECT_TRUE(plan["features"].empty());
 }
 
-// One metre at the equator, where east is along the equator's circle and the meridian has its radius of curvature
-// there.
+// One metre at the equator: along it to the east, and along the meridian with its radius of curvature there.
 TEST(GeoJsonOutput, whereTheMapKnowsItsPlaceItIsLongitudeAndLatitude) {
   constexpr double kRadius = 6378137, kSquaredEccentricity = 6.69437999014e-3, kDegree = M_PI / 180;
   RunRecord run = shapedRun();
-  // The map's x axis looks to the north, and its origin is 10 m north of the origin of east-north-up.
+  // The map's x axis points to the north, and its origin is 10 m north of the origin of the east-north-up frame.
   const auto map_from_enu = run.graph.addVariable(graph::se2(), graph::toValue(geometry::Se2{-10, 0, -M_PI / 2}));
   run.sections = {{"someone else's", 1, "bytes"}, {"plugin gps", 2, mapper::writePlace({map_from_enu, {0, 20, 100}})}};
   const json plan = floorPlanOf(run.view());

@@ -23,7 +23,7 @@ void expectSame(const std::optional<ScanGrid>& a, const std::optional<ScanGrid>&
   EXPECT_TRUE(a->cells == b->cells);
 }
 
-/// A map that grows and is bent at random: two lasers on the robot, one of them upside down and looking back.
+/// A map that grows and is deformed at random, with two lasers on the robot, one of them upside down and facing back.
 class ChangingMap {
  public:
   explicit ChangingMap(unsigned seed) : random_(seed) {}
@@ -49,7 +49,7 @@ class ChangingMap {
       frame.map_from_base = by + frame.map_from_base;
     }
   }
-  /// What a late observation does.
+  /// Inserts a key frame as a late observation does.
   void addScan() { addBack(anyFrame()); }
   void removeScan() {
     auto& observations = anyFrame().observations;
@@ -73,7 +73,7 @@ class ChangingMap {
 
 TEST(GridMapper, afterAnyMovesTheGridIsThatOfTheMapBuiltAtOnce) {
   exports::ScanGridOptions fine, coarse;
-  coarse.max_cells = 7000;  // so that the resolution changes as the map is bent
+  coarse.max_cells = 7000;  // so that the resolution changes when the map is deformed
   for (unsigned seed = 1; seed <= 3; ++seed) {
     ChangingMap changing(seed);
     exports::GridMapper fine_mapper(fine), coarse_mapper(coarse);

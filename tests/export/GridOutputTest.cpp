@@ -120,7 +120,7 @@ TEST(ScanGrid, aTooLargeExtentGetsCoarserCells) {
   ASSERT_TRUE(grid);
   EXPECT_DOUBLE_EQ(grid->resolution, 0.1);
   const std::string yaml = exports::encodeMapServerYaml(*grid, "grid.pgm", kResolution);
-  EXPECT_NE(yaml.find("# Warning: cells of 0.05 m were asked for"), std::string::npos) << yaml;
+  EXPECT_NE(yaml.find("# Warning: cells of 0.05 m were requested"), std::string::npos) << yaml;
   EXPECT_NE(yaml.find("resolution: 0.1\n"), std::string::npos) << yaml;
 }
 
@@ -140,7 +140,7 @@ TEST(ScanGrid, aScanThatLooksAtTheFloorIsLeftOut) {
   EXPECT_FALSE(exports::buildScanGrid(boxRun(CPose3D(0.2, 0, 0.3, 0, 0.6, 0)).map, {}));
 }
 
-/// What map_server makes of the two files: the value of the pixel over a place of the map.
+/// The value of the pixel at a place of the map, read from the two files as map_server reads them.
 struct MapServerMap {
   int columns = 0, rows = 0;
   double resolution = 0, origin_x = 0, origin_y = 0;
@@ -264,7 +264,7 @@ TEST(GridPicture, theCornersOfARoomThatStandsAslantAreInThePicture) {
   grid.resolution = 0.05;
   grid.cells.assign(201 * 201, Cell::unknown);
   for (int row = 0; row < 201; ++row) {
-    const int half = 90 - std::abs(row - 100);  // a square on its corner, ten cells of nothing around it
+    const int half = 90 - std::abs(row - 100);  // a square standing on its corner, with ten unknown cells around it
     if (half >= 0) std::fill_n(grid.cells.begin() + row * 201 + 100 - half, 2 * half + 1, Cell::free);
   }
   const auto room = exports::focused(grid, {});
@@ -273,7 +273,7 @@ TEST(GridPicture, theCornersOfARoomThatStandsAslantAreInThePicture) {
 }
 
 TEST(GridPicture, aStrayBeamDoesNotMakeTheBuildingSmall) {
-  // A room of 100 x 100 cells with one beam of 400 cells out of its window.
+  // A room of 100 x 100 cells with one beam of 400 cells through its window.
   ScanGrid grid;
   grid.columns = 500;
   grid.rows = 100;
@@ -294,7 +294,7 @@ TEST(GridPicture, aStrayBeamDoesNotMakeTheBuildingSmall) {
   EXPECT_NEAR(with_place.maxX(), 40 + 1.5, 0.15);
 }
 
-// Two red points, one over the other with a blue one between, a green one beside them, and a ceiling over all.
+// Two red points above each other with a blue one between them, a green one beside them, and a ceiling above all.
 TEST(CloudPicture, showsTheHighestPointBelowTheCeilingInItsColour) {
   map::Map map;
   map::KeyFrame frame;

@@ -1,4 +1,4 @@
-// Landmarks as outputs show them, whatever plugin they are of.
+// Tests how outputs show landmarks, whatever plugin they belong to.
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -80,7 +80,7 @@ TEST(LandmarkShapes, whatIsNotFiniteOrHasNoAreaIsLeftOut) {
   ASSERT_EQ(kept.points.size(), 1u);
   EXPECT_EQ(kept.point_stamps, std::vector<base::Stamp>{at(1)});
   EXPECT_FALSE(kept.normal);
-  EXPECT_EQ(kept.label, "beacon") << "its kind, where a payload tells no label";
+  EXPECT_EQ(kept.label, "beacon") << "its kind, if a payload has no label";
   EXPECT_FALSE(shapes[1].isSomewhere());
 }
 

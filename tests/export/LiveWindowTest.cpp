@@ -20,14 +20,14 @@ namespace {
 using namespace box_world;
 using omnimapper::testing::ScratchFolder;
 
-/// Set in the process that runs under a display of its own.
+/// Set in the process that runs on its own display.
 constexpr const char* kUnderDisplay = "OMNIMAPPER_TEST_UNDER_XVFB";
 
 bool succeeds(const std::string& command) {
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// Prints what the command prints, and runs it again where the virtual screen failed to start.
+/// Prints the output of the command, and runs it again if the virtual screen failed to start.
 bool succeedsOnScreen(const std::string& command) {
   for (int attempt = 0; attempt < 3; ++attempt) {
     FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
@@ -41,7 +41,8 @@ bool succeedsOnScreen(const std::string& command) {
   return false;
 }
 
-/// Runs the test of that name again, alone and on a virtual display. True in the process that shall do the work.
+/// Runs the test of that name again, by itself and on a virtual display. Returns true in the process that does the
+/// work.
 bool onDisplay() {
   return std::getenv(kUnderDisplay) != nullptr;
 }
@@ -59,8 +60,8 @@ std::string rerunCommand() {
     return;                                                                                            \
   }
 
-/// MRPT's window thread may still paint when a test is over, and cannot be waited for: on the display of its own the
-/// process ends without taking away what that thread uses.
+/// MRPT's window thread may still paint when a test is over and cannot be waited for. On its own display the process
+/// therefore exits without destroying the objects that this thread uses.
 class EndsAtOnce : public ::testing::EmptyTestEventListener {
   void OnTestProgramEnd(const ::testing::UnitTest& tests) override {
     if (!onDisplay()) return;
@@ -73,7 +74,7 @@ const bool kEndsAtOnce = [] {
   return true;
 }();
 
-/// As long as a busy machine may need.
+/// Long enough for a busy machine.
 void waitUntil(const std::function<bool()>& holds) {
   for (int i = 0; i < 1200 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }

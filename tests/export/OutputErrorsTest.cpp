@@ -56,7 +56,7 @@ std::set<std::string> filesIn(const std::string& folder) {
   return names;
 }
 
-/// The message of what `act` throws; empty if it throws nothing.
+/// The message of the exception that `act` throws; empty if it throws nothing.
 template <class Act>
 std::string failure(base::ExitCode code, const Act& act) {
   try {

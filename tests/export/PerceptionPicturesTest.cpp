@@ -124,7 +124,7 @@ TEST_F(PerceptionPicturesTest, aLegendTellsWhatColoursMeanWhereThereIsRoom) {
   scan->rangeImage.fill(2000);
   scan->cameraParams.setIntrinsicParamsFromValues(500, 500, 319.5, 239.5);
   EXPECT_GT(inkIn(drawCameraPicture(*scan, {plane()}), obs::indexColour(0)), 40) << "its swatch";
-  EXPECT_EQ(inkIn(drawCameraPicture(*scan, {}), obs::indexColour(0)), 0) << "nothing to tell";
+  EXPECT_EQ(inkIn(drawCameraPicture(*scan, {}), obs::indexColour(0)), 0) << "nothing to explain";
   auto edges = mrpt::obs::CObservationPointCloud::Create();
   edges->sensorLabel = "kinect.edges.occluded";
   auto points = mrpt::maps::CSimplePointsMap::Create();
@@ -159,7 +159,7 @@ TEST_F(PerceptionPicturesTest, objectsHaveTheirBoxAndPoints) {
   EXPECT_TRUE(isGrey(image, 40, 40));
 }
 
-/// Number 3, 2 m ahead and 0.2 m to the left, of a finder that is there on the base.
+/// Marker 3, 2 m ahead and 0.2 m to the left of its finder, which is at that pose on the base.
 mrpt::obs::CObservationBearingRange::Ptr marker(const mrpt::poses::CPose3D& base_from_finder) {
   auto markers = mrpt::obs::CObservationBearingRange::Create();
   markers->sensorLabel = "kinect.markers";
@@ -184,7 +184,7 @@ TEST_F(PerceptionPicturesTest, markersLieInThePictureOfWhateverCamera) {
   for (unsigned x = 47; x < 53; ++x) has_number |= isNear(of_depth, x, 39, {20, 20, 20});
   EXPECT_TRUE(has_number);
 
-  // Another camera, 0.2 m to the left of where it was found from: straight ahead.
+  // A camera 0.2 m to the left of the finder sees the marker straight ahead.
   mrpt::obs::CObservationImage image;
   image.sensorLabel = "camera";
   image.timestamp = base::stampFromUnix(1);
@@ -200,7 +200,7 @@ TEST_F(PerceptionPicturesTest, markersLieInThePictureOfWhateverCamera) {
   image.timestamp = base::stampFromUnix(2);
   pictures.add(image, {marker({})});
   EXPECT_TRUE(isGrey(picture("camera_2.000000.png"), 49, 39))
-      << "nobody knows where a camera without calibration looks";
+      << "the view of a camera without calibration is not known";
 
   image.image = mrpt::img::CImage();
   pictures.add(image, {marker({})});
@@ -254,7 +254,7 @@ TEST_F(PerceptionPicturesTest, linesLieOverTheScan) {
   EXPECT_TRUE(isNear(image, 590, 150, mrpt::img::TColor(255, 255, 255)));
 }
 
-// How many lines that are not white a row of the picture crosses; a row that lies on one crosses fewer.
+// Number of coloured lines that a row of the picture crosses; a row that coincides with a line crosses fewer.
 int squaresInARow(const draw::Image& picture) {
   int most = 0;
   for (int y = 0; y < picture.height; ++y) {
@@ -269,7 +269,7 @@ TEST_F(PerceptionPicturesTest, rangesBeyondAllMeasureHaveTheirPictureToo) {
   mrpt::obs::CObservation2DRangeScan scan;
   scan.sensorLabel = "laser";
   scan.maxRange = std::numeric_limits<float>::max();
-  scan.resizeScan(2);  // MRPT has no angle for the beam of a scan of one
+  scan.resizeScan(2);  // MRPT has no beam angles for a scan with a single beam
   scan.setScanRangeValidity(0, true);
   for (const float range : {150.F, 1e17F, 1e38F}) {
     scan.setScanRange(0, range);

@@ -24,7 +24,7 @@ std::string reportOf(const RunRecord& run, const exports::ReportOptions& options
   return contentOf(folder / "report.html");
 }
 
-/// What is wrong with the tags of a page; empty if each is closed by its own name in order.
+/// The first error in the tags of a page; empty if each tag is closed by its own name in order.
 std::string tagFault(std::string html) {
   const std::string kind = "<!DOCTYPE html>";
   if (html.rfind(kind, 0) == 0) html.erase(0, kind.size());
@@ -171,7 +171,7 @@ TEST(Chart, thinsLongCurvesButKeepsPeaks) {
   const std::string html = exports::drawChart(chart);
   EXPECT_LT(html.size(), 40000u);
   EXPECT_EQ(tagFault(html), "");
-  // 4 % of room stand above the peak, of the 204 units between the axes.
+  // 4 % of the range of 204 units is free above the peak.
   EXPECT_NE(html.find(" 17.8L"), std::string::npos) << html;
 }
 

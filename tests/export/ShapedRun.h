@@ -6,7 +6,7 @@
 
 #include "BoxWorld.h"
 
-/// The box world with landmarks of a payload that nobody but its test knows.
+/// The box world with landmarks whose payload only this test knows.
 namespace shaped_run {
 
 using namespace box_world;
@@ -20,7 +20,7 @@ struct TestPayload : map::LandmarkPayload {
   map::LandmarkShape kept;
 };
 
-/// An upright wall of 4 x 2 m along y = 2, seen by both sensors; its free side is the room's.
+/// An upright wall of 4 x 2 m along y = 2, seen by both sensors; its free side faces the room.
 inline map::LandmarkShape wall() {
   map::LandmarkShape shape;
   shape.label = "wall";
@@ -30,7 +30,7 @@ inline map::LandmarkShape wall() {
   return shape;
 }
 
-/// A wall that only the laser saw, along x = 3.
+/// A wall along x = 3 that only the laser saw.
 inline map::LandmarkShape line() {
   map::LandmarkShape shape;
   shape.label = "wall";

@@ -1,4 +1,4 @@
-// The example of doc/add_a_landmark_type.md: its factor, its variable, its plugin at work.
+// Tests the factor, the variable and the plugin of the example in doc/add_a_landmark_type.md.
 #include <BeaconFactor.h>
 #include <BeaconPayload.h>
 #include <BeaconPlugin.h>
@@ -35,7 +35,7 @@ namespace map = omnimapper::map;
 namespace mapper = omnimapper::mapper;
 namespace testing = omnimapper::testing;
 
-const std::vector<std::shared_ptr<const graph::Variable>> kTold{graph::se3(), beaconVariable()};
+const std::vector<std::shared_ptr<const graph::Variable>> kGiven{graph::se3(), beaconVariable()};
 const std::vector<std::shared_ptr<const graph::Variable>> kEstimated{graph::se3(), graph::se3(), beaconVariable()};
 
 Se3 anyPose(Dice& dice, double reach) {
@@ -43,7 +43,7 @@ Se3 anyPose(Dice& dice, double reach) {
   return {geometry::expSo3({any(1.5), any(1.5), any(1.5)}), {any(reach), any(reach), any(reach)}};
 }
 
-// What a sensor would measure without noise.
+// The measurement of a sensor without noise.
 Vector3d exactMeasurement(const Se3& map_from_sensor, const Vector3d& beacon) {
   double range, yaw, pitch;
   geometry::toMrpt(map_from_sensor).sphericalCoordinates({beacon.x(), beacon.y(), beacon.z()}, range, yaw, pitch);
@@ -62,17 +62,17 @@ TEST(BeaconVariable, MovesOnThePlaneOfItsHeight) {
 }
 
 TEST(BeaconFactor, ResidualAsWorkedByHand) {
-  // The base looks along the map's y, the sensor, half a metre ahead and a metre up, to the right of that: along x.
+  // The base points along the map's y; the sensor, half a metre ahead and a metre up, points to its right, along x.
   const Se3 map_from_base{geometry::expSo3({0, 0, kPi / 2}), {1, 2, 0}};
   const Se3 base_from_sensor{geometry::expSo3({0, 0, -kPi / 2}), {0.5, 0, 1}};
-  // So the sensor is at (1, 2.5, 1) in the map and the beacon at (3, 4, 5) in the sensor: 45 deg up.
+  // The sensor is therefore at (1, 2.5, 1) in the map and the beacon at (3, 4, 5) in the sensor frame: 45 deg up.
   const Vector3d beacon(4, 6.5, 6), measured(7, 0.9, -0.8);
   const Eigen::VectorXd pose = graph::toValue(map_from_base);
-  const BeaconFactor told(measured, base_from_sensor, false);
-  const Eigen::VectorXd r = graph::Evaluation{told, kTold, {pose, beacon}}.residual();
+  const BeaconFactor given(measured, base_from_sensor, false);
+  const Eigen::VectorXd r = graph::Evaluation{given, kGiven, {pose, beacon}}.residual();
   EXPECT_LT((r - Vector3d(std::sqrt(50.0) - 7, std::atan2(4, 3) - 0.9, 0.8 - kPi / 4)).norm(), 1e-12) << r.transpose();
 
-  // Turned by another quarter to the left, the sensor has it at (4, -3, 5).
+  // After another quarter turn to the left the beacon is at (4, -3, 5) in the sensor frame.
   const BeaconFactor estimated(measured, base_from_sensor, true);
   const Eigen::VectorXd correction = graph::toValue(Se3{geometry::expSo3({0, 0, kPi / 2}), Vector3d::Zero()});
   const Eigen::VectorXd turned = graph::Evaluation{estimated, kEstimated, {pose, correction, beacon}}.residual();
@@ -82,7 +82,7 @@ TEST(BeaconFactor, ResidualAsWorkedByHand) {
 TEST(BeaconFactor, YawBehindTheSensorIsWrapped) {
   const BeaconFactor factor({1, 3.1, 0}, Se3(), false);
   const Vector3d beacon(-std::cos(0.05), -std::sin(0.05), 0);  // yaw -pi + 0.05
-  const Eigen::VectorXd r = graph::Evaluation{factor, kTold, {graph::toValue(Se3()), beacon}}.residual();
+  const Eigen::VectorXd r = graph::Evaluation{factor, kGiven, {graph::toValue(Se3()), beacon}}.residual();
   EXPECT_NEAR(r[1], kPi + 0.05 - 3.1, 1e-12);
 }
 
@@ -92,11 +92,11 @@ TEST(BeaconFactor, JacobiansMatchDifferences) {
     const Vector3d beacon(dice.uniform(-9, 9), dice.uniform(-9, 9), dice.uniform(-9, 9));
     const Se3 map_from_base = anyPose(dice, 9), base_from_sensor = anyPose(dice, 1), correction = anyPose(dice, 0.5);
     const auto measured = exactMeasurement(map_from_base * base_from_sensor * correction, beacon);
-    const BeaconFactor told(measured, base_from_sensor, false), estimated(measured, base_from_sensor, true);
+    const BeaconFactor given(measured, base_from_sensor, false), estimated(measured, base_from_sensor, true);
     const Eigen::VectorXd pose = graph::toValue(map_from_base), sensor = graph::toValue(correction);
     graph::expectJacobiansMatchDifferences({estimated, kEstimated, {pose, sensor, beacon}});
-    // Away from the measurement too, but not where the yaw jumps.
-    graph::expectJacobiansMatchDifferences({told, kTold, {pose, beacon}});
+    // Also away from the measurement, but not where the yaw wraps around.
+    graph::expectJacobiansMatchDifferences({given, kGiven, {pose, beacon}});
   }
 }
 
@@ -136,7 +136,7 @@ TEST(BeaconFactor, IsReadBackAsItWasWritten) {
     const auto read = kinds.factors.readFactor("beacon_measurement", bytes);
     const auto at =
         estimated ? std::vector<Eigen::VectorXd>{pose, correction, beacon} : std::vector<Eigen::VectorXd>{pose, beacon};
-    const auto& variables = estimated ? kEstimated : kTold;
+    const auto& variables = estimated ? kEstimated : kGiven;
     EXPECT_EQ((graph::Evaluation{*read, variables, at}.residual()),
               (graph::Evaluation{written, variables, at}.residual()));
     std::istringstream cut(text.substr(0, text.size() - 1));

@@ -1,4 +1,4 @@
-// The plugin of doc/add_a_landmark_type.md at work on a simulated drive.
+// Runs the plugin of doc/add_a_landmark_type.md on a simulated drive.
 #include <BeaconPlugin.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(BeaconPlugin, OneDriveMapsEveryBeaconOnceWhereItIs) {
   EXPECT_LT(testing::trajectoryError(view, log), 0.05);
   std::set<int> numbers;
   for (const auto& [id, landmark] : view.map.landmarks) {
-    EXPECT_TRUE(numbers.insert(payloadOf(landmark).number).second) << "a beacon stands twice in the map";
+    EXPECT_TRUE(numbers.insert(payloadOf(landmark).number).second) << "a beacon is in the map twice";
     EXPECT_EQ(landmark.kind, "beacon");
     EXPECT_EQ(landmark.owner, "beacons");
     EXPECT_EQ(landmark.evidence, view.factorsOf(id).size()) << "every measurement is evidence";
@@ -107,7 +107,7 @@ TEST(BeaconPlugin, WhatCannotBeUsedIsRefusedWithItsReason) {
   for (const auto& decision : engine->view().decisions) {
     if (!decision.accepted) reasons.insert(decision.reason);
   }
-  EXPECT_EQ(reasons, (std::set<std::string>{"its number stands twice in the observation", "it tells no number",
+  EXPECT_EQ(reasons, (std::set<std::string>{"its number occurs twice in the observation", "it reports no number",
                                             "the range does not reach to the height of the beacons"}));
 }
 
@@ -141,7 +141,7 @@ TEST(BeaconPlugin, ASessionFindsItsPlaceInTheMapByTheBeaconsItSeesAgain) {
   options.laps = 0.4;
   const SimulatedLog second_log(options);
   const auto second = testing::makeEngine(kBeaconIni);
-  // Guessed a metre and 20 degrees wrong.
+  // The initial guess is wrong by a metre and 20 degrees.
   second->sessions().continueFrom({first->view().map, first->view().graph, {}}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
   testing::run(*second, second_log.observations());
   const auto view = second->view();

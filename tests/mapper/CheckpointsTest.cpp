@@ -9,7 +9,7 @@
 namespace omnimapper::mapper::checkpoints_test {
 namespace {
 
-// A run that localizes in the checkpoint of another that was killed writes none of its own.
+// A run that localizes in the checkpoint of a killed run writes no checkpoint itself.
 TEST(Checkpoints, oneThatAnotherRunWroteStays) {
   const testing::ScratchFolder folder;
   std::ofstream(folder / "checkpoint.omnimap") << "all that is left of a map";

@@ -101,7 +101,7 @@ TEST_F(Continue, ASessionThatMayBeAnywhereIsFoundInTheMap) {
   const double error = testing::trajectoryError(whole->view(), log);
   const auto before = map(cut(log, 0.5).first);
   start_.start = SessionOptions::Start::anywhere;
-  for (const double begin : {0.5, 0.6, 0.72, 0.85}) {  // share of the log at which the second lap begins
+  for (const double begin : {0.5, 0.6, 0.72, 0.85}) {  // share of the log at which the second session begins
     const auto both = goOn(*before, cut(log, begin).second);
     EXPECT_TRUE(both->view().map.sessions[1].joined) << begin;
     EXPECT_NEAR(testing::trajectoryError(both->view(), log), error, 0.03) << begin;

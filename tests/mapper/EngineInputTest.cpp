@@ -36,21 +36,21 @@ std::shared_ptr<Class> copyOf(const CObservation& observation) {
   return std::dynamic_pointer_cast<Class>(observation.duplicateGetSmartPtr());
 }
 
-// The first observation of a class from an index on.
+// The first observation of a class at or after an index.
 template <class Class>
 std::size_t indexOf(const std::vector<CObservation::Ptr>& log, std::size_t from) {
   while (!dynamic_cast<const Class*>(log.at(from).get())) ++from;
   return from;
 }
 
-// A clean log beside one with something bad inserted in its middle; both mapped.
+// A clean log and one with something bad inserted in its middle; both are mapped.
 class EngineInput : public ::testing::Test {
  protected:
   std::vector<CObservation::Ptr> log_ = SimulatedLog(halfALap()).observations();
   std::size_t odometry_ = indexOf<CObservationOdometry>(log_, log_.size() / 2);
   std::size_t scan_ = indexOf<CObservation2DRangeScan>(log_, log_.size() / 2);
 
-  /// Expects the same map, to the bit, as without the inserted observation; gives the counts.
+  /// Expects the same map, to the bit, as without the inserted observation; returns the counts.
   RunCounts countsWith(const CObservation::Ptr& bad, std::size_t place, const std::vector<std::string>& settings = {}) {
     auto spoiled = log_;
     spoiled.insert(spoiled.begin() + static_cast<std::ptrdiff_t>(place), bad);
@@ -110,7 +110,7 @@ TEST_F(EngineInput, WhatNobodyWantsIsCounted) {
   EXPECT_EQ(countsWith(comment, scan_ + 1).unwanted, 1U);
 }
 
-// One clock that jumps must not cost the rest of the log.
+// A clock jump of one sensor must not cost the rest of the log.
 TEST_F(EngineInput, AStampInAFarFutureSpoilsNothingAfterIt) {
   const auto bad = copyOf<CObservation2DRangeScan>(*log_[scan_]);
   bad->sensorLabel = "clock gone mad";
@@ -167,7 +167,7 @@ TEST_F(EngineInput, RangesThatAreNotFiniteCountAsInvalid) {
   EXPECT_EQ(graph.str(), expected_graph.str());
 }
 
-// Lasers that report late by up to 0.4 s, each scan by another delay, so that scans overtake each other.
+// Lasers that report up to 0.4 s late, with a different delay for each scan, so that scans overtake each other.
 TEST(EngineOrder, ArrivalWithinTheWindowChangesNoBit) {
   const SimulatedLog log(halfALap());
   const auto ordered = makeEngine(kLaserIni);
@@ -232,7 +232,7 @@ TEST(EngineConnection, OdometryThatFallsSilentDoesNotHoldUpTheMapForGood) {
   EXPECT_LT(base::secondsBetween(newest.stamp, log.back()->timestamp), 3) << "before the end of the log is known";
   engine->finish();
   EXPECT_EQ(map::denseTrajectory(engine->view().map).back().stamp, log.back()->timestamp);
-  EXPECT_LT(testing::trajectoryError(engine->view(), simulated), 0.1) << "scan matching tells what odometry did not";
+  EXPECT_LT(testing::trajectoryError(engine->view(), simulated), 0.1) << "scan matching measures the missing odometry";
 }
 
 TEST(EngineConnection, WithoutAnyMotionOneKeyFrameStandsAndTheRestIsCounted) {
@@ -264,7 +264,7 @@ TEST(EngineConnection, WhereOdometryIsMissingTheNullMotionBridgesIt) {
   const SimulatedLog simulated(halfALap());
   auto log = simulated.observations();
   const auto from = simulated.begin() + base::durationFromSeconds(5), to = from + base::durationFromSeconds(1);
-  // Motions of their own, so that those of the gap are missing and not made up for by the next reading.
+  // Separate motions, so that those of the gap are missing and not included in the next reading.
   std::vector<CObservation::Ptr> broken;
   mrpt::poses::CPose2D last;
   base::Stamp last_stamp;
@@ -294,7 +294,7 @@ TEST(EngineConnection, WhereOdometryIsMissingTheNullMotionBridgesIt) {
   EXPECT_LE(bridges, 9U) << "only across the gap";
   const auto with_laser = makeEngine(kLaserIni);
   testing::run(*with_laser, broken);
-  EXPECT_LT(testing::trajectoryError(with_laser->view(), simulated), 0.05) << "the laser tells what odometry did not";
+  EXPECT_LT(testing::trajectoryError(with_laser->view(), simulated), 0.05) << "the laser measures the missing odometry";
 }
 
 TEST(EngineQueue, HoldsNoMoreThanItsLimitWhateverTheWindow) {

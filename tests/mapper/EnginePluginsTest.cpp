@@ -7,8 +7,8 @@
 #include "Engine.h"
 #include "SteadyMotion.h"
 
-// What the engine promises to plugins, with plugins made for it: a robot that moves 1 m a second along x and a log of
-// one comment a second, each a key frame.
+// Tests the guarantees of the engine to plugins, with plugins made for this: a robot moves along x at 1 m/s, and the
+// log has one comment per second, each a key frame.
 namespace omnimapper::mapper::engine_plugins_test {
 namespace {
 
@@ -18,7 +18,7 @@ using mrpt::poses::CPose3D;
 using testing::at;
 using testing::Steady;
 
-// Does what a test tells it to.
+// A plugin scripted by each test.
 class Scripted : public MeasurementPlugin {
  public:
   bool wants(const CObservation& observation) const override {
@@ -94,9 +94,9 @@ class EnginePlugins : public ::testing::Test {
   std::unique_ptr<Engine> engine_;
 };
 
-graph::FactorRecord link(base::VariableId a, base::VariableId b, double way) {
+graph::FactorRecord link(base::VariableId a, base::VariableId b, double distance) {
   return betweenPoses(Motion::planar, a, b,
-                      {CPose3D(way, 0, 0, 0, 0, 0), 0.01 * Eigen::Matrix<double, 6, 6>::Identity()}, "scripted");
+                      {CPose3D(distance, 0, 0, 0, 0, 0), 0.01 * Eigen::Matrix<double, 6, 6>::Identity()}, "scripted");
 }
 
 TEST_F(EnginePlugins, FinalIdsReachThePluginAndItsLaterBatchesMayUseThem) {
@@ -164,7 +164,7 @@ TEST_F(EnginePlugins, AHypothesisBringsTheNextSolveForward) {
   EXPECT_EQ(solved, (std::vector<std::size_t>{10, 14, 24, 30}));
 }
 
-// So that landmarks are sought from where the base is, not from where the odometry takes it.
+// Landmarks are searched for from the measured pose of the base, not from that of the odometry.
 TEST_F(EnginePlugins, AMeasuredPoseMovesItsKeyFrameBeforeThePluginsThatFollow) {
   const auto measured = [](std::uint32_t index) { return CPose3D(index, 2, 0, 0, 0, 0); };
   plugin_->is_absolute = true;
@@ -227,7 +227,7 @@ TEST_F(EnginePlugins, AnInvalidBatchIsAnErrorThatLeavesTheGraphWhole) {
   EXPECT_EQ(view.graph.variables().size(), 5U + 4U) << "nothing of the bad batch";
 }
 
-TEST_F(EnginePlugins, AnExtractorThatFailsIsHeardOfAndEndsNothing) {
+TEST_F(EnginePlugins, AnExtractorThatFailsIsReportedAndTheRunGoesOn) {
   class Failing : public perception::Extractor {
    public:
     bool wants(const CObservation&) const override { return true; }

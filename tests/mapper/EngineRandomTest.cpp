@@ -8,7 +8,7 @@
 #include "Engine.h"
 #include "SteadyMotion.h"
 
-// The engine with a plugin that does everything a plugin may do, at random, on observations that come late at random.
+// Runs the engine with a plugin that does everything a plugin may do, at random, on observations with random delays.
 namespace omnimapper::mapper::engine_random_test {
 namespace {
 
@@ -19,7 +19,7 @@ using testing::at;
 using testing::Dice;
 using testing::Steady;
 
-// Landmarks are poses ahead of the key frame that saw them.
+// Landmarks are poses ahead of the key frame that measured them.
 class Random : public MeasurementPlugin {
  public:
   explicit Random(std::uint64_t seed) : dice_(seed) {}
@@ -53,12 +53,12 @@ class Random : public MeasurementPlugin {
  private:
   bool chance(double share) { return dice_.uniform(0, 1) < share; }
 
-  static graph::FactorRecord measurementOf(const map::KeyFrame& frame, base::VariableId landmark, double way) {
+  static graph::FactorRecord measurementOf(const map::KeyFrame& frame, base::VariableId landmark, double distance) {
     return betweenPoses(Motion::planar, frame.pose, landmark,
-                        {CPose3D(way, 0, 0, 0, 0, 0), 0.01 * Eigen::Matrix<double, 6, 6>::Identity()}, "random");
+                        {CPose3D(distance, 0, 0, 0, 0, 0), 0.01 * Eigen::Matrix<double, 6, 6>::Identity()}, "random");
   }
 
-  // Reads nothing but its arguments: jobs call it as well.
+  // Reads only its arguments, because jobs call it as well.
   static Batch randomBatch(const map::KeyFrame& frame, const State& state, Dice& dice) {
     Batch batch;
     const auto chance = [&](double share) { return dice.uniform(0, 1) < share; };
@@ -71,7 +71,7 @@ class Random : public MeasurementPlugin {
       if (record.tags.owner == "random") own.push_back(id);
     }
     if (chance(0.5)) {
-      // Gates ask in the engine's thread and in those of jobs.
+      // Gates call it in the engine's thread and in those of jobs.
       const auto covariance = state.covarianceBetween(state.map.key_frames.front().id, frame.id);
       EXPECT_TRUE(!covariance || covariance->allFinite());
     }
@@ -142,7 +142,7 @@ RandomRun run(std::uint64_t seed, int threads, int count) {
   RandomRun run{nullptr, random.get()};
   set.measurement.push_back({"random", std::move(random)});
   run.engine = std::make_unique<Engine>(settings, "random", SensorPoses(), std::move(set), threads);
-  // A comment every 0.2 s, each on its way for up to six windows; now and then two of one stamp.
+  // A comment every 0.2 s, each delayed by up to six windows; sometimes two with one stamp.
   Dice dice(seed + 1000);
   std::multimap<double, CObservation::Ptr> arrivals;
   for (int i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-// Whole maps of simulated logs against the truth. The bounds are about twice what was measured.
+// Compares whole maps of simulated logs with the truth. The bounds are about twice the measured errors.
 namespace omnimapper::mapper::engine_simulated_test {
 namespace {
 
@@ -32,7 +32,7 @@ std::size_t closures(const View& view, bool accepted) {
   }));
 }
 
-// What odometry alone makes of the log [m].
+// Error of odometry alone on the log [m].
 double odometryError(const SimulatedLog& log) {
   double sum = 0;
   std::size_t count = 0;
@@ -89,7 +89,7 @@ TEST(EngineSimulated, TwoLasersAtOnceMapAsWellAsOne) {
   EXPECT_LT(trajectoryError(engine->view(), log), 0.06);
   std::map<std::string, std::size_t> owners;
   for (const auto& [id, record] : engine->view().graph.factors()) ++owners[record.tags.owner];
-  EXPECT_EQ(owners["scan_odometry"] + 1, engine->view().map.key_frames.size()) << "one laser tells all links";
+  EXPECT_EQ(owners["scan_odometry"] + 1, engine->view().map.key_frames.size()) << "one laser measures all links";
   std::set<std::string> closed;
   for (const auto& decision : engine->view().decisions) {
     if (!decision.accepted) continue;
@@ -103,7 +103,7 @@ TEST(EngineSimulated, TwoLasersAtOnceMapAsWellAsOne) {
   EXPECT_TRUE(closed.count("laser.points") == 1 && closed.count("rear.points") == 1) << "both find loops";
 }
 
-// The trajectory has a line for each scan of the laser that came first, and none for key frames of the other one.
+// The trajectory has a line for each scan of the laser that came first, and none for key frames of only the other one.
 TEST(EngineSimulated, ASecondLaserAddsNoLinesToTheTrajectory) {
   auto options = ring(0.3);
   options.lasers.resize(2);
@@ -132,23 +132,23 @@ TEST(EngineSimulated, ALaserUpsideDownSeesTheSamePlace) {
   EXPECT_LT(trajectoryError(engine->view(), log), 0.06);
 }
 
-// The log says nothing of where the laser is; the INI does.
+// The pose of the laser is not in the log but in the INI.
 TEST(EngineSimulated, ASensorPoseOfTheIniReplacesThatOfTheLog) {
   auto options = ring(0.5);
-  const SimulatedLog told(options);
-  auto log = told.observations();
+  const SimulatedLog simulated(options);
+  auto log = simulated.observations();
   for (const auto& observation : log) {
     if (observation->sensorLabel == "laser") observation->setSensorPose(CPose3D());
   }
   const auto right = makeEngine(kLaserIni),
              repaired = makeEngine(kLaserIni + "[front]\nlabel = laser\n",
                                    {"mapper.sensors=front", "front.pose_x_m=0.2", "front.pose_z_m=0.3"});
-  testing::run(*right, told.observations());
+  testing::run(*right, simulated.observations());
   testing::run(*repaired, log);
   EXPECT_TRUE(testing::bitsOf(repaired->view()) == testing::bitsOf(right->view()));
 }
 
-TEST(EngineSimulated, WithoutOdometryTheLaserGivesTheWay) {
+TEST(EngineSimulated, WithoutOdometryTheLaserGivesTheMotion) {
   auto options = ring(0.5);
   options.speed = 0.5;
   const SimulatedLog log(options);

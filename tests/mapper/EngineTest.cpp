@@ -24,7 +24,7 @@ using testing::SimulatedLogOptions;
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
 
-// One lap of the box, mapped; odometry told to a plugin of its own beside it.
+// A map of one lap of the box; the odometry is also passed to a separate plugin.
 class Engine : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -145,8 +145,7 @@ TEST(EngineOptions, WithoutAPosePluginThereIsNoEngine) {
   } catch (const base::Error& error) {
     EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
   }
-  EXPECT_NO_THROW(makeEngine(kLaserIni, {"mapper.measurement_plugins="}))
-      << "what tells the motion makes the key frames";
+  EXPECT_NO_THROW(makeEngine(kLaserIni, {"mapper.measurement_plugins="})) << "the pose sources make the key frames";
 }
 
 TEST(EngineSensors, ScansOfOneStampShareOneKeyFrameAndOthersHaveTheirOwn) {
@@ -179,7 +178,7 @@ TEST(EngineSensors, ScansOfOneStampShareOneKeyFrameAndOthersHaveTheirOwn) {
   EXPECT_NEAR(static_cast<double>(both), static_cast<double>(alone), 1);
 }
 
-// The robot looks as a log that was perceived before: derived observations are there already.
+// A log that was perceived before already has the derived observations.
 TEST(EngineSensors, WhatALogBringsPerceivedIsNotPerceivedTwice) {
   SimulatedLogOptions options;
   options.place = SimulatedLogOptions::Place::box;
@@ -201,7 +200,7 @@ TEST(EngineSensors, WhatALogBringsPerceivedIsNotPerceivedTwice) {
   EXPECT_EQ(testing::bitsOf(again->view()), testing::bitsOf(raw->view()));
 }
 
-// An extractor of laser points that counts how often it was at work.
+// An extractor of laser points that counts its calls.
 class Counting : public perception::Extractor {
  public:
   Counting(std::unique_ptr<perception::Extractor> inner, std::atomic<int>& count)

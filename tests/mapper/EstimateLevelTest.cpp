@@ -1,4 +1,4 @@
-// Which way is up in maps that are made by hand.
+// Estimates which way is up in hand-made maps.
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -33,7 +33,7 @@ struct Flat : map::LandmarkPayload {
 
 class EstimateLevel : public ::testing::Test {
  protected:
-  // A base that stands level in a place that is turned by `map_from_place`, and looks around.
+  // A level base in a place that is turned by `map_from_place`; it looks around.
   void stand(const Quaterniond& map_from_place, double turn_deg = 45) {
     run_.motion = Motion::spatial;
     map_from_place_ = map_from_place;
@@ -57,10 +57,10 @@ class EstimateLevel : public ::testing::Test {
       addFlat({0, side, 0}, {0, -2 * side, 1}, 3);
     }
   }
-  // Still, over the time of the key frames; `up` in the base of the first.
+  // Measurements at rest over the time of the key frames; `up` is in the base of the first.
   void addImu(const Vector3d& up) {
     const auto first = run_.map.key_frames.front().stamp, last = run_.map.key_frames.back().stamp;
-    // The base turns from key frame to key frame about an axis that is up: what it feels stays the same.
+    // The base turns between key frames about an axis that is up, so that its measured gravity does not change.
     for (int i = 0; i * 0.02 < base::secondsBetween(first, last); ++i) {
       mrpt::obs::CObservationIMU imu;
       imu.sensorLabel = "imu";
@@ -122,7 +122,7 @@ TEST_F(EstimateLevel, WhereGravityAndSurfacesDisagreeGravityCountsAndItIsSaid) {
   EXPECT_NE(judged.warnings[0].find("do not agree"), std::string::npos) << judged.warnings[0];
 }
 
-TEST_F(EstimateLevel, ByWheelsWhereNothingElseTells) {
+TEST_F(EstimateLevel, ByWheelsWhereNothingElseMeasuresIt) {
   stand(Quaterniond::Identity());
   addWheels();
   const auto level = estimate().level;
@@ -132,7 +132,7 @@ TEST_F(EstimateLevel, ByWheelsWhereNothingElseTells) {
   EXPECT_NE(level.reason.find("'wheels'"), std::string::npos);
 }
 
-// A map of a robot stays as it is to the last bit, however surfaces lie about a degree off.
+// The map of a robot does not change in any bit if surfaces differ by about a degree.
 TEST_F(EstimateLevel, OfAPlanarMapIsZUnlessSurfacesClearlySayOtherwise) {
   stand(Quaterniond(AngleAxisd(0.8 * kDegree, Vector3d::UnitX())));
   run_.motion = Motion::planar;
@@ -141,7 +141,7 @@ TEST_F(EstimateLevel, OfAPlanarMapIsZUnlessSurfacesClearlySayOtherwise) {
   auto judged = estimate();
   EXPECT_EQ(judged.level.source, Level::Source::base);
   EXPECT_EQ(judged.level.up, Vector3d::UnitZ());
-  EXPECT_NE(judged.level.reason.find("surfaces would have up 0.8 deg from there"), std::string::npos)
+  EXPECT_NE(judged.level.reason.find("the up direction by surfaces differs by 0.8 deg"), std::string::npos)
       << judged.level.reason;
   EXPECT_TRUE(judged.warnings.empty());
 
@@ -152,7 +152,7 @@ TEST_F(EstimateLevel, OfAPlanarMapIsZUnlessSurfacesClearlySayOtherwise) {
   EXPECT_EQ(judged.level.source, Level::Source::planes);
   EXPECT_LT(degreesFromTruth(judged.level), 0.01);
   ASSERT_EQ(judged.warnings.size(), 1U);
-  EXPECT_NE(judged.warnings[0].find("the base is not level: by planes it leans by 8.0 deg"), std::string::npos)
+  EXPECT_NE(judged.warnings[0].find("the base is not level: by planes it is tilted by 8.0 deg"), std::string::npos)
       << judged.warnings[0];
 }
 

@@ -11,7 +11,7 @@
 #include "SteadyMotion.h"
 #include "front_end/FrontEnd.h"
 
-// Observations in any order in, bundles in order of time out: comments of a robot that moves 1 m a second.
+// Observations come in any order, and bundles leave in order of time: comments of a robot that moves at 1 m/s.
 namespace omnimapper::mapper::front_end_test {
 namespace {
 
@@ -21,7 +21,7 @@ using testing::at;
 
 constexpr int kPipelineDepth = 8;  // bundles that wait for their perception
 
-// Throws when it is to process one stamp, once.
+// Throws once, when it is to process a certain stamp.
 class Fragile : public testing::Steady {
  public:
   void processUntil(base::Stamp stamp) override {
@@ -57,7 +57,8 @@ class FrontEndOfComments : public ::testing::Test {
     comment->sensorLabel = "notes";
     front_end_->add(comment);
   }
-  /// Takes what is handed out now into `all`, by its time [ms]. Each gets its key frame, as the back end would have it.
+  /// Appends the bundles that are released now to `all`, by their time [ms]. Each gets its key frame, as in the back
+  /// end.
   void take(std::vector<long>& all) {
     while (auto bundle = front_end_->next()) {
       all.push_back(std::lround(1e3 * base::secondsBetween(at(0), bundle->stamp)));
@@ -87,7 +88,7 @@ TEST_F(FrontEndOfComments, ABundleIsHandedOutWhenEightYoungerOnesWaitBehindIt) {
   for (int i = 0; i < 12; ++i) {
     add(i);
     take(all);
-    // The newest still waits in its window.
+    // The newest observation still waits in its window.
     EXPECT_EQ(static_cast<int>(all.size()), std::max(0, i - kPipelineDepth)) << "after " << i;
   }
   front_end_->close();

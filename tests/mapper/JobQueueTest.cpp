@@ -10,7 +10,7 @@
 namespace omnimapper::mapper::job_queue_test {
 namespace {
 
-// A batch that tells how many variables the state had.
+// A batch that contains the number of variables of the state.
 Job counting(const std::string& name, int milliseconds = 0) {
   return {name, [milliseconds](const State& state) {
             std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));

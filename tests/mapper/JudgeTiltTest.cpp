@@ -6,7 +6,7 @@
 namespace omnimapper::mapper {
 namespace {
 
-// Of ten key frames the first `tilted` are left by a motion that pitches by `deg`; all turn by 90 deg.
+// Of ten key frames the first `tilted` are followed by a motion that pitches by `deg`; all turn by 90 deg.
 map::Map tenFrames(std::uint32_t tilted, double deg) {
   map::Map map;
   for (std::uint32_t i = 0; i < 10; ++i) {

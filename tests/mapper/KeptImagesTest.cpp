@@ -1,4 +1,4 @@
-// What key frames keep of images: a thinned cloud with colours, and of the images what an output asks for.
+// Tests what key frames keep of images: a thinned coloured cloud, and of the images only what an output needs.
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -13,7 +13,7 @@ using mrpt::obs::CObservation3DRangeScan;
 
 constexpr int kWidth = 64, kHeight = 48;
 
-// A wall 2 m ahead of a camera that is 1 m above the base, with a red left and a blue right half.
+// A wall 2 m ahead of a camera 1 m above the base; its left half is red, its right half blue.
 CObservation3DRangeScan::Ptr wall(double metres = 2) {
   auto scan = CObservation3DRangeScan::Create();
   scan->sensorLabel = "camera";
@@ -36,7 +36,7 @@ CObservation3DRangeScan::Ptr wall(double metres = 2) {
   return scan;
 }
 
-// Pixels 4 apart are 16 cm apart on it.
+// Every fourth pixel is sampled, which is 16 cm on the wall.
 TEST(DepthCloud, EveryFourthPixelIsAPointInTheBaseWithItsColour) {
   const auto cloud = depthCloud(*wall(), {0.05, 5});
   ASSERT_EQ(cloud.size(), kWidth / 4 * kHeight / 4);
@@ -45,7 +45,7 @@ TEST(DepthCloud, EveryFourthPixelIsAPointInTheBaseWithItsColour) {
     EXPECT_EQ(point.red, point.y > 0 ? 200 : 0) << "what is left in the picture has a positive y";
     EXPECT_EQ(point.blue, point.y > 0 ? 0 : 100);
   }
-  // Of the first, at (2, 2): 30 / 50 of 2 m to the left, 22 / 50 of 2 m up, from 1 m.
+  // The first sampled pixel is (2, 2): 30 / 50 of 2 m to the left, and 22 / 50 of 2 m up from 1 m.
   EXPECT_EQ(cloud.front().y, 1200);
   EXPECT_EQ(cloud.front().z, 1880);
 }
@@ -75,13 +75,12 @@ TEST(DepthCloud, WithoutAPictureItIsGrey) {
   for (const auto& point : depthCloud(*scan, {0.05, 5})) EXPECT_EQ(point.red + point.green + point.blue, 3 * 128);
 }
 
-// The camera of the picture stands 10 cm to the left of that of the depth: what is 2 m away it sees 2.5 pixels further
-// right.
+// The colour camera is 10 cm to the left of the depth camera: it sees points 2 m away 2.5 pixels further to the right.
 TEST(DepthCloud, APictureFromElsewhereIsLookedUpWhereItsCameraSeesThePoint) {
   auto scan = wall();
   scan->relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, 0.1, 0, -M_PI / 2, 0, -M_PI / 2);
   for (const auto& point : depthCloud(*scan, {0.05, 5})) {
-    if (point.y < -1100) continue;  // which it does not see
+    if (point.y < -1100) continue;  // not in the view of the colour camera
     EXPECT_EQ(point.red, point.y > 100 ? 200 : 0) << point.y;
   }
 }
@@ -121,7 +120,7 @@ TEST_F(KeptImages, APlaceThatWasSeenBeforeAddsNoPoints) {
   EXPECT_TRUE(map_.key_frames[3].cloud.empty());
 }
 
-// A closure has moved the only view of the wall by a metre: where it was is free again.
+// A closure has moved the only view of the wall by a metre, so its former place is free again.
 TEST_F(KeptImages, WhatASolveHasMovedCountsWhereItIsNow) {
   KeptObservations keeping(CloudOptions(), RawImages::none, map_);
   const auto cloud = depthCloud(*wall(), CloudOptions());

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-// A log that is only localized in a map, with the plugins of the project.
+// Localizes a log in a map, with the plugins of the project.
 namespace omnimapper::mapper::localize_test {
 namespace {
 
@@ -56,7 +56,7 @@ class Localize : public ::testing::Test {
   static inline std::unique_ptr<SimulatedLog> mapped_;
 };
 
-// Root mean square distance [m] of what was known when each key frame came from the truth.
+// Root mean square error [m] of the estimates that were known when each key frame came.
 double errorOf(const std::vector<LocalizationEstimate>& estimates, const SimulatedLog& log) {
   double sum = 0, count = 0;
   for (const auto& estimate : estimates) {
@@ -94,7 +94,7 @@ TEST_F(Localize, TheMapStaysAsItWasAndOnlyTheWindowIsFree) {
   std::size_t free = 0, kept = 0;
   for (const auto& [id, record] : view.graph.variables()) free += !record.fixed;
   for (const auto& frame : view.map.key_frames) kept += frame.id.session == 1 && !frame.observations.empty();
-  // Those within the horizon of late data, the one before them, and those that wait for their perception.
+  // The key frames within the horizon of late data, the one before them, and those that wait for their perception.
   std::size_t most = kFreeKeyFrames;
   const auto newest = view.map.key_frames.back().stamp;
   for (const auto& frame : view.map.key_frames) {
@@ -127,7 +127,7 @@ TEST_F(Localize, WhatComesTooLateForTheWindowIsRefusedAndCounted) {
   EXPECT_LT(errorOf(engine->view().localization, log), 0.1);
 }
 
-// Neither scans nor closures: the map and the log have the earth in common.
+// Without scans and closures, the map and the log share only the earth.
 TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   auto options = ring(1, 1);
   options.lasers.clear();
@@ -157,7 +157,7 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   EXPECT_LT(errorOf(estimates, log), 0.5);
 }
 
-// What nobody tied to the map lies anywhere: to be found in it says nothing.
+// A session that is not tied to the map may lie anywhere, so being located in it means nothing.
 TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
   SimulatedLogOptions elsewhere;
   elsewhere.place = SimulatedLogOptions::Place::box;

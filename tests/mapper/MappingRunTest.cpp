@@ -54,13 +54,13 @@ class MappingRun : public ::testing::Test {
   std::string path_ = folder_ / "box.rawlog";
 };
 
-TEST_F(MappingRun, ALogBecomesAMapAndItsFiguresAreTold) {
+TEST_F(MappingRun, ALogBecomesAMapAndItsMetricsAreReported) {
   const auto result = run();
   EXPECT_EQ(result.code, base::ExitCode::ok);
   EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
   EXPECT_GT(result.key_frames, 30U);
   EXPECT_EQ(result.factors, result.key_frames - 1 + result.closures) << "a link between neighbours, and the closures";
-  EXPECT_NEAR(result.way, log_.lapLength(), 0.5);
+  EXPECT_NEAR(result.travel, log_.lapLength(), 0.5);
   EXPECT_NEAR(result.log_seconds, base::secondsBetween(log_.begin(), log_.end()), 1.5);
   const std::string text = toText(result);
   EXPECT_NE(text.find(std::to_string(result.key_frames)), std::string::npos) << text;
@@ -92,7 +92,7 @@ TEST_F(MappingRun, ActionsAndFramesGiveTheMapThatObservationsGive) {
   const auto frames = run();
   EXPECT_EQ(frames.code, base::ExitCode::ok);
   EXPECT_NEAR(static_cast<double>(frames.key_frames), static_cast<double>(observations.key_frames), 1);
-  EXPECT_NEAR(frames.way, observations.way, 0.05);
+  EXPECT_NEAR(frames.travel, observations.travel, 0.05);
 }
 
 TEST_F(MappingRun, ACutLogGivesTheMapOfWhatWasReadable) {
@@ -101,7 +101,7 @@ TEST_F(MappingRun, ACutLogGivesTheMapOfWhatWasReadable) {
   EXPECT_EQ(result.code, base::ExitCode::damaged_input);
   EXPECT_FALSE(result.warnings.empty());
   EXPECT_GT(result.key_frames, 10U);
-  EXPECT_GT(result.way, 5);
+  EXPECT_GT(result.travel, 5);
 }
 
 TEST_F(MappingRun, StoppedItGivesTheMapSoFar) {
@@ -109,13 +109,13 @@ TEST_F(MappingRun, StoppedItGivesTheMapSoFar) {
   const auto result = run({}, [&] { return ++asked > 300; });
   EXPECT_EQ(result.code, base::ExitCode::interrupted);
   EXPECT_GT(result.key_frames, 5U);
-  EXPECT_LT(result.way, 0.8 * log_.lapLength());
+  EXPECT_LT(result.travel, 0.8 * log_.lapLength());
   EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
                           [](const auto& w) { return w.find("interrupted") != std::string::npos; }));
 }
 
 TEST_F(MappingRun, ThatAnOlderMapWasReplacedIsSaid) {
-  const std::string said = "in the place of the run that was there";
+  const std::string said = "replaced those of an earlier run";
   EXPECT_EQ(toText(run()).find(said), std::string::npos);
   EXPECT_NE(toText(run()).find(said), std::string::npos);
 }
@@ -149,17 +149,17 @@ TEST_F(MappingRun, MistakesOfTheIniAreErrorsBeforeAnythingIsRead) {
   EXPECT_EQ(errorOf({"triger.distance_m=1"}).code(), base::ExitCode::unknown_key);
 }
 
-TEST_F(MappingRun, WithoutAnyOdometryInTheLogTheUserIsTold) {
+TEST_F(MappingRun, WithoutAnyOdometryInTheLogTheUserIsWarned) {
   const std::string null_motion = "[no_motion]\nclass = NoMotionPlugin\n";
   ini_.erase(ini_.find(null_motion), null_motion.size());
   const auto result = run({"mapper.pose_plugins=odometry", "odometry.label=nobody"});
   EXPECT_EQ(result.key_frames, 1U);
-  const auto told = [&](const std::string& part) {
+  const auto isWarnedOf = [&](const std::string& part) {
     return std::any_of(result.warnings.begin(), result.warnings.end(),
                        [&](const auto& w) { return w.find(part) != std::string::npos; });
   };
-  EXPECT_TRUE(told("without a pose"));
-  EXPECT_TRUE(told("one key frame"));
+  EXPECT_TRUE(isWarnedOf("without a pose"));
+  EXPECT_TRUE(isWarnedOf("one key frame"));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ CObservationComment::Ptr comment(const std::string& text, double seconds, const 
   return made;
 }
 
-// A text that differs from the last new one.
+// New are texts that differ from the last new one.
 class OtherText : public perception::Novelty {
  public:
   bool isNew(const CObservation& raw) override {
@@ -38,7 +38,7 @@ class OtherText : public perception::Novelty {
   std::map<std::string, std::string> last_;
 };
 
-// Copies texts, numbered in the order in which it was asked; "bad" is an error, and what is empty is not wanted.
+// Copies texts with a running number; "bad" is an error, and empty texts are not wanted.
 class Copy : public perception::Extractor {
  public:
   bool wants(const CObservation& raw) const override {
@@ -62,7 +62,7 @@ class Copy : public perception::Extractor {
 
 struct Result {
   int calls = 0;                   // of the extractor
-  std::vector<std::string> texts;  // with their seconds, "-" where nothing was wanted, "error" where that
+  std::vector<std::string> texts;  // with their seconds; "-" if not wanted, "error" after an error
   std::size_t unchanged = 0;
 };
 

@@ -17,7 +17,7 @@ using base::ExitCode;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation3DRangeScan;
 
-/// A wall 2 m before a camera, with a picture of it.
+/// A wall 2 m in front of a camera, with a colour image of it.
 CObservation3DRangeScan::Ptr wallAt(double seconds) {
   auto scan = CObservation3DRangeScan::Create();
   scan->sensorLabel = "kinect";
@@ -77,7 +77,7 @@ class PerceptionRunTest : public ::testing::Test {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  // With that code, and all the words in its only warning.
+  // The result has that code, and its only warning has all the words.
   static void expectWarning(const PerceptionResult& result, ExitCode code, const std::vector<std::string>& words) {
     EXPECT_EQ(result.code, code);
     ASSERT_EQ(result.warnings.size(), 1U);

@@ -23,7 +23,7 @@ CObservationComment::Ptr comment(const std::string& text) {
   return made;
 }
 
-// Gives the text of a comment with a suffix, after a while that differs from one to the next. Throws on "bad".
+// Returns the text of a comment with a suffix, after a varying delay. Throws on "bad".
 class Suffix : public perception::Extractor {
  public:
   explicit Suffix(std::string suffix) : suffix_(std::move(suffix)) {}
@@ -43,7 +43,7 @@ class Suffix : public perception::Extractor {
 
 using Result = PerceivedParts;
 
-// Of what was derived; the observation itself comes first.
+// Texts of the derived observations, after the observation itself.
 std::vector<std::string> texts(const Result& result) {
   std::vector<std::string> all;
   for (std::size_t i = 1; i < result.parts.size(); ++i) {
@@ -127,7 +127,7 @@ TEST_P(Pool, WhatHasNotBegunAtTheEndIsLeftOutAndItsFutureSaysSo) {
   auto workers = std::make_unique<base::WorkerPool>(GetParam());
   const Perception perception({&one}, {}, *workers, {});
   for (int i = 0; i < 200; ++i) results.push_back(perception.submit(comment(std::to_string(i))));
-  workers.reset();  // before what its tasks use
+  workers.reset();  // before the objects that its tasks use
   bool left_out = false;
   for (auto& result : results) {
     try {

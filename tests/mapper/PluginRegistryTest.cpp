@@ -142,7 +142,7 @@ TEST_F(PluginRegistry, PrintedSectionsHoldEveryOptionAndReadBackAsTheDefaults) {
         sections.extractors = {section};
         break;
       case PluginKind::output:
-        continue;  // needs a folder; the tests of the outputs read their options
+        continue;  // needs a folder; the tests of the outputs read these options
     }
     EXPECT_NO_THROW(makePlugins(sections, config, {})) << ini;
   }

@@ -25,7 +25,7 @@ CObservation::Ptr observation(double seconds, const std::string& label = "a") {
   return made;
 }
 
-// Adds it as the engine does; whether it was taken.
+// Adds an observation as the engine does; returns whether it was accepted.
 bool give(ReleaseQueue& queue, const CObservation::Ptr& observation) {
   queue.arrived(observation->timestamp);
   return queue.add(observation);

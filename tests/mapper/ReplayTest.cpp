@@ -28,8 +28,8 @@ mrpt::obs::CObservation::Ptr depthImage(base::Stamp stamp, int columns) {
   return image;
 }
 
-/// A recording of a live run in which some of what was recorded could not be used: a motion that is no number, and
-/// depth images of another size than the camera's others, the last two right after the middle.
+/// A recording of a live run with some unusable observations: a motion that is not a number, and depth images of
+/// another size than the camera's others, the last two right after the middle.
 class Replay : public ::testing::Test {
  protected:
   Replay() {
@@ -55,7 +55,7 @@ class Replay : public ::testing::Test {
       for (std::size_t i = first; i < end; ++i) log.add(*all_[i]);
     });
   }
-  // Of the usable observations each was mapped as it came, but for some that were left out.
+  // Maps each usable observation as it came, except some that are left out.
   void writeJournal(const std::string& name, std::size_t lines = 1000) {
     std::ofstream file(folder_ / name + ".journal");
     file << "omnimapper journal 1\n";
@@ -100,7 +100,7 @@ TEST_F(Replay, aRecordingInSeveralFilesIsOne) {
   EXPECT_GT(whole.key_frames, 10u);
   EXPECT_EQ(split.key_frames, whole.key_frames);
   EXPECT_EQ(split.factors, whole.factors);
-  EXPECT_EQ(split.way, whole.way);
+  EXPECT_EQ(split.travel, whole.travel);
   EXPECT_EQ(split.source.observations(), whole.source.observations());
   EXPECT_EQ(split.source.unusableCount(), 3u);
   EXPECT_EQ(split.source.ending, source::SourceReport::Ending::complete);

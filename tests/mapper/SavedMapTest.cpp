@@ -19,7 +19,7 @@ std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What a plugin that is not there any more left.
+// The section of a plugin that does not exist any more.
 class Foreign : public map::LandmarkPayload {
  public:
   std::string_view kind() const override { return "foreign"; }
@@ -172,7 +172,7 @@ TEST_F(SavedMapFile, AFactorThatLeavesNoDigitsToTheOthersIsRefused) {
   };
   EXPECT_EQ(refusalOfDeviation(1e-6), "");
   const auto reason = refusalOfDeviation(1e-9);
-  EXPECT_NE(reason.find("no digits are left"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("precision of a double"), std::string::npos) << reason;
 }
 
 TEST_F(SavedMapFile, ANewSessionStartsWhereTheOptionsSay) {

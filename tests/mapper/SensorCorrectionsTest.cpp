@@ -1,4 +1,4 @@
-// A plugin that uses them is that of doc/add_a_landmark_type.md.
+// Uses the plugin of doc/add_a_landmark_type.md, which estimates corrections of sensor poses.
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/VariableKinds.h>
@@ -25,7 +25,7 @@ namespace testing = omnimapper::testing;
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
 
-// A pan-tilt head that swings, and a sensor on it that is mounted askew, of which nobody tells.
+// A pan-tilt head that swings, with a sensor that is mounted with an unknown rotation.
 SimulatedLogOptions panTilt() {
   auto options = drive();
   options.yaw_drift_per_m = 0;
@@ -65,7 +65,7 @@ TEST(SensorCorrections, OneForTheRunFindsHowTheSensorIsMounted) {
   for (int axis = 0; axis < 6; ++axis) {
     EXPECT_NEAR(found[0][axis], truth[axis], 3 * std::sqrt((*covariance)(axis, axis))) << "axis " << axis;
   }
-  EXPECT_LT(std::sqrt((*covariance)(5, 5)), 0.5 * kDegree) << "the pan is not told by the prior alone";
+  EXPECT_LT(std::sqrt((*covariance)(5, 5)), 0.5 * kDegree) << "the pan is not determined by the prior alone";
   EXPECT_LT(std::sqrt((*covariance)(4, 4)), 0.5 * kDegree) << "nor the tilt";
   EXPECT_LT(worstBeacon(engine->view(), log, options), 0.3);
 }

@@ -54,15 +54,15 @@ TEST(SensorPoses, AnApertureIsToldOrLeftAsTheScanHasIt) {
   scan->aperture = 1.5F;
   scan->sensorPose = CPose3D(0.3, 0, 0, 0, 0, 0);
   const auto with = [&](const std::string& lines) {
-    const auto told = fromIni("[sensor]\nlabel = laser\n" + lines).applied(scan);
-    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(told);
+    const auto applied_scan = fromIni("[sensor]\nlabel = laser\n" + lines).applied(scan);
+    return std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(applied_scan);
   };
   const auto half = static_cast<float>(180 * kDegree);
   EXPECT_FLOAT_EQ(with("pose_x_m = 0.2\naperture_deg = 180\n")->aperture, half);
   EXPECT_EQ(with("pose_x_m = 0.2\naperture_deg = 180\n")->sensorPose.x(), 0.2);
   EXPECT_FLOAT_EQ(with("pose_x_m = 0.2\n")->aperture, 1.5F);
   EXPECT_FLOAT_EQ(with("aperture_deg = 180\n")->aperture, half);
-  EXPECT_EQ(with("aperture_deg = 180\n")->sensorPose.x(), 0.3) << "its place is not told";
+  EXPECT_EQ(with("aperture_deg = 180\n")->sensorPose.x(), 0.3) << "its position is not given";
   EXPECT_EQ(scan->aperture, 1.5F);
 }
 
@@ -100,7 +100,7 @@ TEST(SensorPoses, ACalibrationIsOfACopyAndOfCamerasWithDepthsAlone) {
 }
 
 TEST(SensorPoses, AMovingSensorIsInterpolatedAndHeldBeyondTheEnds) {
-  // A tilting laser: from level to 90 deg nose down in two seconds, while it is lifted by 1 m.
+  // A tilting laser: it moves from level to 90 deg nose down in two seconds, and up by 1 m.
   const TrackFile file(
       "# stamp x y z qx qy qz qw\n"
       "1000000002.0 0 0 1 0 0.70710678118654752 0 0.70710678118654752\n"

@@ -54,13 +54,13 @@ TEST(SessionAlignment, ASessionIsJoinedByAFactorToTheFirstOneThatActs) {
   EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
   EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was joined at key frame 1:1");
   EXPECT_FALSE(world.joined(2));
-  world.graph.setWeight(id, 0);  // taken back
+  world.graph.setWeight(id, 0);  // revoked
   EXPECT_FALSE(world.joined(1));
   EXPECT_FALSE(world.map.sessions[1].joined_at);
   EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was never joined");
 }
 
-TEST(SessionAlignment, ManyTiesThatAreRefusedPutItInDoubt) {
+TEST(SessionAlignment, ManyTiesThatAreRefusedMakeItUncertain) {
   ThreeSessions world;
   const auto tie = [&](double weight) {
     const auto id = world.bind({0, 1}, {1, 1}, "loop_closure");
@@ -105,7 +105,7 @@ TEST(SessionAlignment, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
   EXPECT_TRUE(world.joined(1));
 }
 
-// Two points are at one height on the page, say.
+// A factor between two landmarks, for example that two points have the same height.
 class SameHeight : public graph::Factor {
  public:
   std::string_view kind() const override { return "same_height"; }

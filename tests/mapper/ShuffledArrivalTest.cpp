@@ -9,7 +9,7 @@
 
 #include "../plugin/GraphInvariants.h"
 
-// The same log with every observation on its way for a time of its own, up to several windows, odometry included.
+// Delays every observation of a log, including odometry, by a random time of up to several windows.
 namespace omnimapper::mapper::shuffled_arrival_test {
 namespace {
 
@@ -33,7 +33,7 @@ std::vector<CObservation::Ptr> shuffled(const std::vector<CObservation::Ptr>& lo
   return arrived;
 }
 
-// Every factor as what it measures and the stamps of what it binds; landmarks by their name.
+// Describes every factor by its measurement and the stamps of what it binds; landmarks by their name.
 std::multiset<std::string> factorsByStamp(const View& view) {
   std::map<base::VariableId, std::string> names;
   for (const auto& frame : view.map.key_frames) names[frame.pose] = base::formatUnix(frame.stamp, 7);
@@ -98,7 +98,7 @@ TEST(ShuffledArrival, WithKnownIdentitiesTheGraphIsThatOfTheOrderedRun) {
   }
 }
 
-// One log says little: how far a map is from the truth is mostly its noise. The mean over ten of them does not.
+// One log is not enough: the error of a single map is mostly noise. The mean over ten logs is meaningful.
 TEST(ShuffledArrival, WithLoopClosuresTheTrajectoryIsAsGoodAndNoOdometryIsUsedTwice) {
   constexpr int kLogs = testing::kIsSanitized ? 1 : 10;
   double ordered_sum = 0, shuffled_sum = 0;
@@ -127,7 +127,7 @@ TEST(ShuffledArrival, WithLoopClosuresTheTrajectoryIsAsGoodAndNoOdometryIsUsedTw
   EXPECT_LT(shuffled_sum / kSeeds, 1.05 * ordered_sum / kLogs);
 }
 
-// Scans that come after their time are none for laser odometry, which bridges them.
+// Laser odometry skips scans that come after their time, and bridges the gap.
 TEST(ShuffledArrival, LaserOdometryIsNearlyAsGoodAndFarBetterThanWheelsInOrder) {
   constexpr int kLogs = testing::kIsSanitized ? 1 : 10;
   double wheels_sum = 0, ordered_sum = 0, shuffled_sum = 0;

@@ -65,7 +65,8 @@ TEST(SimulatedLog, ScansOfAnUprightRoomAreWhereTheWallsAre) {
   for (const auto& observation : observations) {
     const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(observation.get());
     if (!scan) continue;
-    // At rest at the origin, 1.5 m from the wall on the right: the first beam looks there, the middle one along x.
+    // At rest at the origin, 1.5 m from the wall on the right, which the first beam hits; the middle beam points along
+    // x.
     EXPECT_NEAR(scan->getScanRange(0), 1.5, 1e-4);
     EXPECT_NEAR(scan->getScanRange(90), 4, 1e-4);
     break;

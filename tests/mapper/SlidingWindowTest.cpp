@@ -9,7 +9,7 @@
 
 #include "back_end/SlidingWindow.h"
 
-// A session in a map that is held: what its retired key frames told must neither get lost nor count twice.
+// A session in a map that is held: the information of its retired key frames must neither get lost nor count twice.
 namespace omnimapper::mapper::sliding_window_test {
 namespace {
 
@@ -17,7 +17,7 @@ using mrpt::poses::CPose3D;
 
 constexpr int kMapFrames = 4;
 
-// Key frames of a map on a line, then a session that drives past them and measures each of its poses from the nearest.
+// Key frames of a map on a line, and a session that passes them and measures each of its poses from the nearest.
 class Session {
  public:
   Session() {

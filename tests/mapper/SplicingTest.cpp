@@ -12,7 +12,7 @@
 #include "SteadyMotion.h"
 
 // Thesis 5.2.3.3: an observation that comes late gets its place in the trajectory, and nothing else changes. A robot
-// goes 1 m a second; a comment is an observation that earns a key frame.
+// moves at 1 m/s; a comment is an observation that becomes a key frame.
 namespace omnimapper::mapper::splicing_test {
 namespace {
 
@@ -90,7 +90,7 @@ TEST_F(Splicing, TheFactorAcrossTheStampIsReplacedByTwo) {
   EXPECT_EQ(splice.after, view.map.key_frames[3].id);
   EXPECT_EQ(listener_->measured.back(), splice.frame);
   EXPECT_NEAR(view.map.keyFrame(splice.frame).map_from_base.x(), 2.5, 1e-9);
-  // 1 to 3 was one factor of variance 0.02; it is two, of 0.015 and 0.005.
+  // The span from 1 s to 3 s had one factor of variance 0.02; it now has two, of 0.015 and 0.005.
   const auto variance = [&](std::size_t i) {
     for (const auto id : view.graph.factorsOf(view.map.key_frames[i].pose)) {
       const auto& record = view.graph.factor(id);
@@ -167,8 +167,8 @@ TEST_F(Splicing, ManyLateOnesInAnyOrderGiveTheSameChain) {
   EXPECT_NEAR(engine.view().graph.chi2(), 0, 1e-12);
 }
 
-// After an hour at rest the key frame before a late scan is older than the horizon; what odometry told of that hour is
-// still known, and no guess takes its place.
+// After an hour at rest the key frame before a late scan is older than the horizon. The odometry of that hour is still
+// known, and no guess replaces it.
 TEST(SplicingAfterARest, OdometryOfTheWholeStretchIsKept) {
   const std::string ini = R"(
 [mapper]

@@ -23,7 +23,7 @@ TriggerOptions halfMetreOr30Degrees() {
   return options;
 }
 
-// A timeline as the engine asks it.
+// A timeline with the interface that the engine uses.
 Trigger::MotionBetween asked(const matching::PoseTimeline& timeline) {
   return [&timeline](base::Stamp begin, base::Stamp end) { return timeline.between(begin, end); };
 }
@@ -47,7 +47,7 @@ std::vector<double> firings(Trigger& trigger, double step, int count, const Trig
 TEST(Trigger, FiresAtTheFirstObservationThatReachesTheDistance) {
   const auto timeline = even(10, CPose3D(0.2, 0, 0, 0, 0, 0));
   Trigger trigger(halfMetreOr30Degrees());
-  // 0.2 m a second: 0.5 m are full after 2.5 s, and the next observation after that is at 3 s.
+  // At 0.2 m/s, 0.5 m are reached after 2.5 s, and the next observation is at 3 s.
   EXPECT_EQ(firings(trigger, 1, 10, asked(timeline)), (std::vector<double>{0, 3, 6, 9}));
 }
 
@@ -57,7 +57,7 @@ TEST(Trigger, FiresAtTheAngle) {
   EXPECT_EQ(firings(trigger, 1, 10, asked(timeline)), (std::vector<double>{0, 3, 6, 9}));
 }
 
-TEST(Trigger, CountsTheDistanceFromTheLastKeyFrameNotTheWay) {
+TEST(Trigger, CountsTheDistanceFromTheLastKeyFrameNotTheDistanceTravelled) {
   matching::PoseTimeline timeline;  // to and fro by 0.3 m
   for (int i = 0; i < 10; ++i) {
     timeline.insert(at(i), at(i + 1),
@@ -99,13 +99,14 @@ TEST(Trigger, EachLabelHasItsOwnState) {
 }
 
 TEST(Trigger, WhereNoOdometryTellsTheMotionTimeFiresUntilItIsBack) {
-  matching::PoseTimeline timeline;  // nothing between 2 s and 6 s
+  matching::PoseTimeline timeline;  // no motion between 2 s and 6 s
   timeline.insert(at(0), at(2), matching::identityMotion());
   timeline.insert(at(6), at(20), matching::identityMotion());
   Trigger trigger(halfMetreOr30Degrees());
   const auto fired = firings(trigger, 0.5, 30, asked(timeline));
-  // From 2.5 s on a part since the key frame at 0 s is uncovered, and the second is long over; then each second.
-  // The key frame at 6.5 s follows the last uncovered step (5.5 s to 6 s); from there on the robot is known to rest.
+  // From 2.5 s on a part of the span since the key frame at 0 s is uncovered, and more than a second has passed; after
+  // that there is a key frame every second. The key frame at 6.5 s follows the last uncovered step (5.5 s to 6 s); from
+  // then on the robot is known to rest.
   EXPECT_EQ(fired, (std::vector<double>{0, 2.5, 3.5, 4.5, 5.5, 6.5}));
 }
 

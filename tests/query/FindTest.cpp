@@ -37,7 +37,7 @@ TEST(Find, WhatIsOnlyNearIsFoundWhereNothingFits) {
   EXPECT_EQ(found.places.front().match.name, "Kitchen");
 }
 
-TEST(Find, WhereNothingIsNearTheClosestNamesAreTold) {
+TEST(Find, WhereNothingIsNearTheClosestNamesAreSuggested) {
   const Found found = find(kPlaces.places, "215");
   EXPECT_TRUE(found.places.empty());
   ASSERT_EQ(found.closest.size(), 2U) << "what is far-fetched is not named";

@@ -8,8 +8,8 @@
 namespace omnimapper::query::goal_test {
 namespace {
 
-// Two rooms of 4 x 4 m in cells of 0.1 m, between them a wall 0.2 m wide from x = 4 to 4.2 that ends where the door is,
-// at y = 3 to 4. Around them is a wall of one cell.
+// Two rooms of 4 x 4 m in cells of 0.1 m, with a wall 0.2 m wide between them, from x = 4 to 4.2, and a door in it at y
+// = 3 to 4. A wall of one cell surrounds them.
 class TwoRooms : public ::testing::Test {
  protected:
   explicit TwoRooms(int door_cells = 10) {
@@ -45,7 +45,7 @@ TEST_F(TwoRooms, ASignWithANormalIsSeenFromStraightBefore) {
   EXPECT_TRUE(found->is_connected);
 }
 
-// On the wall between the rooms, to whose other side the start is nearer.
+// On the wall between the rooms; the start is nearer to its other side.
 TEST_F(TwoRooms, ASignOnAThinWallIsLookedAtFromItsFreeSide) {
   map::Place sign = signAt(4.2, 1.5, "214");
   sign.normal = Eigen::Vector3d(1, 0, 0);
@@ -55,7 +55,7 @@ TEST_F(TwoRooms, ASignOnAThinWallIsLookedAtFromItsFreeSide) {
   EXPECT_NEAR(std::abs(found->yaw), M_PI, 1e-9);
   EXPECT_TRUE(found->is_connected);
   sign.normal.reset();
-  sign.seen_from = Eigen::Vector3d(std::sqrt(0.75), 0.5, 0);  // aslant, as somebody saw it who came by
+  sign.seen_from = Eigen::Vector3d(std::sqrt(0.75), 0.5, 0);  // an oblique direction
   found = goal(sign, {3, 1.5});
   ASSERT_TRUE(found);
   EXPECT_GT(found->x, 4.6);
@@ -76,7 +76,7 @@ TEST_F(TwoRooms, ATableIsApproachedAtItsNearestEdge) {
 TEST_F(TwoRooms, AnotherDistanceIsTakenWhereOneMetreIsNotFree) {
   map::Place sign = signAt(2, 0, "213");
   sign.normal = Eigen::Vector3d(0, 1, 0);
-  for (int column = 0; column < 84; ++column)  // nothing is known but of x = 1.5 to 2.5, y = 0 to 1.1
+  for (int column = 0; column < 84; ++column)  // only x = 1.5 to 2.5, y = 0 to 1.1 is known
     for (int row = 0; row < 42; ++row)
       if (row >= 12 || column < 16 || column >= 26) grid_.cells[grid_.indexOf({column, row})] = GridCell::unknown;
   const auto found = goal(sign, {2, 0.5});
@@ -109,7 +109,7 @@ TEST_F(ClosedRooms, WhatIsNotConnectedIsSaidToBeSo) {
   EXPECT_TRUE(goal(sign, {5, 1})->is_connected);
 }
 
-// A wall that can be seen from both rooms: the side that can be reached is taken though the other one is as near.
+// A wall that can be seen from both rooms: the reachable side is chosen although the other one is as near.
 TEST_F(ClosedRooms, OfTwoSidesThatOfTheStartIsTaken) {
   const map::Place wall = wallFrom(4.1, 0, 4.1, 4);
   const auto left = goal(wall, {1, 2}), right = goal(wall, {7, 2});

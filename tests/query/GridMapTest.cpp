@@ -42,23 +42,23 @@ TEST_F(GridMapFiles, WhatOthersWriteDifferentlyIsRead) {
 }
 
 TEST_F(GridMapFiles, EachDefectIsNamedWithFileAndRemedy) {
-  EXPECT_NE(refusal().find("grid.yaml: is not there"), std::string::npos);
+  EXPECT_NE(refusal().find("grid.yaml: is missing"), std::string::npos);
   const auto says = [&](const std::string& yaml, const std::string& pgm, const std::string& words) {
     const std::string said = refusal(yaml, pgm);
     EXPECT_NE(said.find(words), std::string::npos) << said;
     EXPECT_NE(said.find("GridOutput"), std::string::npos) << said;
   };
   says("", pgm_, "lacks the key \"resolution\"");
-  says("image: grid.pgm\nresolution: nan\norigin: [0, 0, 0]\n", pgm_, "\"resolution\" is no number");
-  says("image: grid.pgm\nresolution: 0\norigin: [0, 0, 0]\n", pgm_, "\"resolution\" is no number");
-  says("image: grid.pgm\nresolution: 0.5\norigin: [0, 0, 1]\n", pgm_, "turned");
-  says("image: grid.pgm\nresolution: 0.5\norigin: 7\n", pgm_, "\"origin\" is no list");
+  says("image: grid.pgm\nresolution: nan\norigin: [0, 0, 0]\n", pgm_, "\"resolution\" is not a number");
+  says("image: grid.pgm\nresolution: 0\norigin: [0, 0, 0]\n", pgm_, "\"resolution\" is not a number");
+  says("image: grid.pgm\nresolution: 0.5\norigin: [0, 0, 1]\n", pgm_, "rotated");
+  says("image: grid.pgm\nresolution: 0.5\norigin: 7\n", pgm_, "\"origin\" is not a list");
   says("image: grid.pgm\nresolution: 0.5\norigin: [\n", pgm_, "\"origin\" is no");
   says(std::string(1 << 17, ':'), pgm_, "longer");
   says(yaml_ + "free_thresh: 0.7\noccupied_thresh: 0.6\n", pgm_, "\"free_thresh\" is above");
-  says(yaml_ + "mode: scale\n", pgm_, "only grids of mode trinary");
-  says(yaml_, "P2\n2 1\n255\n0 0", "no binary PGM");
-  says(yaml_, "", "no binary PGM");
+  says(yaml_ + "mode: scale\n", pgm_, "only mode trinary");
+  says(yaml_, "P2\n2 1\n255\n0 0", "not a binary PGM");
+  says(yaml_, "", "not a binary PGM");
   says(yaml_, "P5", "no header");
   says(yaml_, "P5\n2 -1\n255\n..", "no header");
   says(yaml_, "P5\n0 0\n255\n", "no header");

@@ -35,7 +35,7 @@ inline map::Place wallFrom(double x, double y, double to_x, double to_y) {
   return wall;
 }
 
-/// With ids in their order.
+/// Places with ids in this order.
 inline map::Places placesOf(std::vector<map::Place> places) {
   map::Places all;
   for (auto& place : places) {
@@ -50,8 +50,8 @@ inline void putFile(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// grid.yaml and grid.pgm of rows of letters, the first at the top: '#' occupied, '.' free, else unknown. The lower
-/// left corner is at the origin.
+/// Writes grid.yaml and grid.pgm from rows of characters, the first one at the top: '#' occupied, '.' free, else
+/// unknown. The lower left corner is at the origin.
 inline void putGrid(const std::string& folder, const std::vector<std::string>& rows, const std::string& resolution) {
   std::string pgm =
       "P5\n# made by hand\n" + std::to_string(rows.front().size()) + " " + std::to_string(rows.size()) + "\n255\n";
@@ -63,7 +63,7 @@ inline void putGrid(const std::string& folder, const std::vector<std::string>& r
                                      "free_thresh: 0.196\nmode: trinary\n");
 }
 
-/// What an Error says; empty if nothing is thrown.
+/// The message of an Error; empty if nothing is thrown.
 inline std::string refusalOf(const std::function<void()>& act, base::ExitCode code) {
   try {
     act();

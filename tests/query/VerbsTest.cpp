@@ -52,7 +52,7 @@ TEST_F(HandMadeFolder, FindSaysWhatIsExactAndWhatIsNear) {
   EXPECT_EQ(json::parse(near.json)["matches"][0]["match"], "near");
   const Answer none = ask("find", {{"777"}, {}});
   EXPECT_EQ(none.code, base::ExitCode::nothing_found);
-  EXPECT_TRUE(says(none.text, "nothing is called '777', nor nearly so; omnimapper-query MAP list")) << none.text;
+  EXPECT_TRUE(says(none.text, "nothing is called '777' or similarly; omnimapper-query MAP list")) << none.text;
   EXPECT_EQ(json::parse(none.json)["matches"], json::array());
 }
 
@@ -93,7 +93,7 @@ TEST_F(HandMadeFolder, ListCountsKindsAndOrdersByNumber) {
 
 TEST_F(HandMadeFolder, OfSeveralThatFitTheNearestToTheStartIsTheGoal) {
   const Answer answer = ask("goal", {{"women"}, {{"from", {3.5, 2}}}});
-  EXPECT_TRUE(says(answer.text, "of 2 that fit the one nearest to the start 3.50 2.00")) << answer.text;
+  EXPECT_TRUE(says(answer.text, "of 2 matches the one nearest to the start 3.50 2.00")) << answer.text;
   const auto goal = json::parse(answer.json)["goal"];
   EXPECT_NEAR(goal["x_m"].get<double>(), 3, 1e-9);
   EXPECT_NEAR(goal["y_m"].get<double>(), 2.9, 1e-9);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// fsync of a file or folder; what has no sync (some file systems' folders) counts as synced.
+// Syncs a file or folder; folders that some file systems cannot sync count as synced.
 bool syncPath(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY);
   if (fd < 0) return false;
@@ -30,7 +30,7 @@ bool syncPath(const std::string& path) {
   return synced;
 }
 
-// Why nothing can be written into a folder; empty if it can.
+// The reason why nothing can be written into a folder; empty if it is writable.
 std::string whyUnwritable(const std::string& folder) {
   std::error_code none;
   if (!fs::exists(folder, none)) return "there is no such folder";
@@ -53,7 +53,7 @@ std::string folderOf(const fs::path& target) {
 
 [[noreturn]] void failForFolder(const std::string& path, const std::string& which, const std::string& reason) {
   throw Error(ExitCode::unwritable_output, path + ": cannot write into " + which + " folder (" + reason +
-                                               "); choose another or mend its permissions.");
+                                               "); choose another or change its permissions.");
 }
 
 [[noreturn]] void failWrite(const std::string& path, const std::string& temporary, const std::string& reason) {
@@ -65,8 +65,8 @@ std::string folderOf(const fs::path& target) {
                                        ". Free some room or choose another folder.");
 }
 
-// What is written first, before it takes the place of `target`: "map.tmp123.omnimap" of the process 123. The extension
-// stays last: several writers choose their format by it.
+// Prefix of the file that is written before it replaces `target`: "map.tmp123.omnimap" for process 123. The extension
+// stays last, because several writers choose their format by it.
 std::string temporaryPrefix(const fs::path& target) {
   return target.stem().string() + ".tmp";
 }
@@ -74,8 +74,8 @@ fs::path temporaryOf(const fs::path& target) {
   return target.parent_path() / (temporaryPrefix(target) + std::to_string(::getpid()) + target.extension().string());
 }
 
-// Makes the file, empty and ours: whatever else has its name, a link to somewhere else too, is removed and not written
-// through. Its time is 1970, until something is written.
+// Creates the temporary file empty. Anything else with its name, such as a link, is removed and not written through.
+// Its time is 1970 until something is written.
 void reserve(const std::string& temporary) {
   constexpr int kTries = 3;
   for (int i = 0; i < kTries; ++i) {
@@ -97,7 +97,7 @@ bool isUnwritten(const std::string& temporary) {
   return ::stat(temporary.c_str(), &status) != 0 || (status.st_size == 0 && status.st_mtim.tv_sec == 0);
 }
 
-// Removes what processes left behind that were killed while they wrote `target`.
+// Removes temporary files of processes that were killed while they wrote `target`.
 void removeLeftovers(const fs::path& target) {
   const std::string prefix = temporaryPrefix(target), end = target.extension().string();
   const fs::path folder = folderOf(target);
@@ -121,7 +121,7 @@ void removeLeftovers(const fs::path& target) {
 void makeWritableFolder(const std::string& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw Error(ExitCode::unwritable_output, folder + ": is a file, where a folder is to be; choose another name.");
+    throw Error(ExitCode::unwritable_output, folder + ": is a file, but a folder is needed; choose another name.");
   fs::create_directories(folder, error);
   if (error) failForFolder(folder, "this", error.message());
   if (const auto reason = whyUnwritable(folder); !reason.empty()) failForFolder(folder, "this", reason);
@@ -190,10 +190,10 @@ void refuseToReplaceKeptInput(const std::string& output) {
 
 void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs) {
   for (const auto& input : inputs) {
-    std::error_code none;  // what cannot be found is not the same
+    std::error_code none;  // a path that does not exist is not the same file
     if (std::filesystem::equivalent(input, output, none)) {
       throw Error(ExitCode::command_line,
-                  output + ": would be read and replaced; give the output a name of its own (" + input + " is read)");
+                  output + ": is an input and would be replaced; give the output another name (" + input + " is read)");
     }
   }
 }

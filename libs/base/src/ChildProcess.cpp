@@ -17,10 +17,10 @@ namespace omnimapper::base {
 
 namespace {
 
-// Exit codes of the child. Sanitizers end with 1 what crashes, and the shell has 126 and above.
+// Exit codes of the child. Sanitizers use 1 for crashes, and the shell uses 126 and above.
 constexpr int kFinished = 0, kOutOfMemory = 101, kThrew = 102;
 
-// Of address space, by this process.
+// Bytes of address space that this process uses.
 rlim_t held() {
   std::ifstream statm("/proc/self/statm");
   rlim_t pages = 0;
@@ -33,7 +33,7 @@ bool mayHave(rlim_t bytes) {
   return ::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY || memory.rlim_cur >= bytes;
 }
 
-// In the child, once.
+// Limits the memory of the child and silences it.
 void limit(std::uint64_t bytes) {
   const rlim_t most = held() + bytes;
   const rlimit memory{most, most}, no_core{0, 0};
@@ -104,7 +104,7 @@ ChildOutcome tryInChild(const std::function<void()>& work, std::uint64_t bytes) 
   ChildOutcome end;
   while (!child.isOver()) child.hear(end.message, -1);
   const int status = child.status();
-  // The machine ends with SIGKILL what takes the last of its memory.
+  // The kernel kills a process with SIGKILL if the machine runs out of memory.
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) throw std::bad_alloc();
   if (!WIFEXITED(status)) return end;
   switch (WEXITSTATUS(status)) {

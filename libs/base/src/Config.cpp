@@ -31,20 +31,20 @@ std::string withoutComment(const std::string& text) {
   return trimmed(text);
 }
 
-// Where sections and keys stand, by section and key in lower case; a section's own key is "".
+// The places of sections and keys, by section and key in lower case; the entry of a section itself has the key "".
 using Places = std::map<std::pair<std::string, std::string>, std::string>;
 
 std::pair<std::string, std::string> placeKey(const std::string& section, const std::string& key) {
-  return {lowerCase(section), lowerCase(key)};  // MRPT's reader tells no case apart
+  return {lowerCase(section), lowerCase(key)};  // MRPT's reader ignores case
 }
 
-// The INI reduced to "[section]" and "key = value", each still on its line. MRPT's reader keeps the last of two equal
-// keys in silence and takes a line without '=' for nothing: both are refused here, with their line.
+// The INI reduced to "[section]" and "key = value", each on its original line. MRPT's reader silently keeps the last of
+// two equal keys and ignores a line without '=': both are refused here, with their line.
 std::string checkedText(const std::string& text, const std::string& file, Places& places) {
   const bool is_compressed = text.compare(0, 2, "\x1f\x8b") == 0 || text.compare(0, 3, "BZh") == 0;
   if (is_compressed || text.find('\0') != std::string::npos)
     throw Error(ExitCode::unknown_key,
-                file + ": is no text, and so no INI file; a log is named by -r, as in -i INI -r LOG");
+                file + ": is not a text file, and so no INI file; a log is given with -r, as in -i INI -r LOG");
   const bool has_byte_order_mark = text.compare(0, 3, "\xEF\xBB\xBF") == 0;
   std::istringstream in(has_byte_order_mark ? text.substr(3) : text);
   std::ostringstream out;
@@ -61,8 +61,8 @@ std::string checkedText(const std::string& text, const std::string& file, Places
       if (body.back() != ']')
         throw Error(ExitCode::unknown_key, at + "a section is written [name], found '" + body + "'");
       section = trimmed(body.substr(1, body.size() - 2));
-      if (!seen_sections.insert(lowerCase(section)).second) {  // MRPT's reader tells no case apart
-        throw Error(ExitCode::unknown_key, at + "section [" + section + "] stands twice; join the two");
+      if (!seen_sections.insert(lowerCase(section)).second) {  // MRPT's reader ignores case
+        throw Error(ExitCode::unknown_key, at + "section [" + section + "] occurs twice; join the two");
       }
       seen_keys.clear();
       places[placeKey(section, "")] = place;
@@ -75,8 +75,8 @@ std::string checkedText(const std::string& text, const std::string& file, Places
       throw Error(ExitCode::unknown_key, at + "expected 'key = value' inside a [section], found '" + body + "'");
     }
     if (!seen_keys.insert(lowerCase(key)).second) {
-      throw Error(ExitCode::unknown_key, at + "key '" + key + "' stands twice in [" + section +
-                                             "], upper and lower case being one; remove one");
+      throw Error(ExitCode::unknown_key, at + "key '" + key + "' occurs twice in [" + section +
+                                             "] (upper and lower case are the same); remove one");
     }
     places[placeKey(section, key)] = place;
     out << key << " = " << trimmed(body.substr(equals + 1)) << "\n";
@@ -108,16 +108,16 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
 }  // namespace
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
-  // Nobody mistypes a name of a megabyte, and comparing two of them would take hours.
+  // Very long names are skipped: comparing two of a megabyte would take hours.
   constexpr std::size_t kLongest = 200;
   if (name.size() > kLongest) return "";
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, name.size() / 2) + 1;
   for (const auto& candidate : candidates) {
-    constexpr std::size_t kLongEnough = 3;  // to be the beginning of a name that was cut short
+    constexpr std::size_t kLongEnough = 3;  // letters for a name to count as a shortened one
     const bool is_beginning =
         name.size() >= kLongEnough && lowerCase(candidate).compare(0, name.size(), lowerCase(name)) == 0;
-    // So many letters are missing at least.
+    // The edit distance is at least the difference in length.
     if (!is_beginning && candidate.size() >= name.size() + best_distance) continue;
     const std::size_t distance = is_beginning ? 1 : editDistance(lowerCase(name), lowerCase(candidate));
     if (distance < best_distance) {
@@ -189,14 +189,14 @@ void Config::set(const std::string& assignment) {
   from_later_files_.erase(placeKey(section, key));
 }
 
-// MRPT's reader, which tells no case apart, would give the value to the key as it was spelt first.
+// MRPT's reader ignores case and would assign the value to the key as it was first spelled.
 void Config::refuseOtherSpelling(const std::string& section, const std::string& key, const std::string& place) const {
   std::vector<std::string> keys;
   if (has(section)) ini_.getAllKeys(section, keys);
   for (const auto& known : keys) {
     if (known == key || lowerCase(known) != lowerCase(key)) continue;
     throw Error(ExitCode::unknown_key, place + ": [" + section + "] has no key '" + key + "'; did you mean '" + known +
-                                           "'? Upper and lower case count");
+                                           "'? Upper and lower case matter");
   }
 }
 
@@ -239,7 +239,7 @@ void Config::refuseUnreadSections() const {
   for (const auto& section : unreadSections()) {
     if (ini_.keyExists(section, "class")) continue;
     throw Error(ExitCode::unknown_key,
-                placeOf(section) + ": nobody reads section [" + section + "]" + suggestion(section, known));
+                placeOf(section) + ": section [" + section + "] is not known" + suggestion(section, known));
   }
 }
 

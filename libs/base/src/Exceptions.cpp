@@ -9,7 +9,7 @@ std::string sentenceOf(const std::exception& error) {
   if (found != std::string::npos) {
     begin = text.find_first_not_of(' ', found + label.size());
   } else if (text.compare(0, banner.size(), banner) == 0) {
-    begin = banner.size();  // it passes on what another library threw
+    begin = banner.size();  // it wraps an exception of another library
   }
   return begin == std::string::npos ? text : text.substr(begin, text.find('\n', begin) - begin);
 }

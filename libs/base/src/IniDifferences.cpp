@@ -8,19 +8,19 @@ namespace {
 
 using mrpt::config::CConfigFileMemory;
 
-// [live] and sections of drivers.
+// Whether the section is [live] or a section of a driver.
 bool isOfSensors(const CConfigFileMemory& ini, const std::string& section) {
   return section == "live" || ini.keyExists(section, "driver");
 }
 
-// Nothing but a class: that the other INI has no such section makes no difference.
+// Whether the section has settings. If it has only a class, its absence in the other INI makes no difference.
 bool hasSettings(const CConfigFileMemory& ini, const std::string& section, const CConfigFileMemory& other) {
   std::vector<std::string> keys;
   ini.getAllKeys(section, keys);
   return keys.size() > 1 || (keys.size() == 1 && (keys.front() != "class" || other.keyExists(section, "class")));
 }
 
-// 0.5 is 0.50.
+// Whether two values are equal, as numbers if they are numbers: 0.5 equals 0.50.
 bool areEqual(const std::string& a, const std::string& b) {
   double of_a = 0, of_b = 0;
   const bool are_numbers = !option_text::parse(a, Range(), of_a) && !option_text::parse(b, Range(), of_b);
@@ -31,7 +31,7 @@ std::string valueOf(const CConfigFileMemory& ini, const std::string& section, co
   return ini.keyExists(section, key) ? ini.read_string(section, key, "") : "not set";
 }
 
-// Of the keys of `listed`, or of those alone that `now` lacks.
+// Adds the differences in the keys of `listed`, or only in those that `now` lacks.
 void addDifferences(const CConfigFileMemory& listed, const CConfigFileMemory& now, const CConfigFileMemory& before,
                     bool are_missing_now, std::vector<std::string>& all) {
   std::vector<std::string> sections, keys;

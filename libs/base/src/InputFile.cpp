@@ -33,7 +33,8 @@ std::string readInput(const std::string& path, const std::string& kind) {
   char part[1 << 16];
   while (in.read(part, sizeof part) || in.gcount() > 0) content.append(part, static_cast<std::size_t>(in.gcount()));
   if (in.bad())
-    throw Error(ExitCode::damaged_input, path + ": this " + kind + " cannot be read to its end; is the disk whole?");
+    throw Error(ExitCode::damaged_input,
+                path + ": this " + kind + " cannot be read to its end; does the disk have errors?");
   return content;
 }
 

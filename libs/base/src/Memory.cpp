@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>  // defines __GLIBC__, if it is that
+#include <cstdlib>  // defines __GLIBC__ if it is glibc's
 #include <fstream>
 #include <string>
 #if defined(__GLIBC__)
@@ -17,13 +17,13 @@ namespace omnimapper::base {
 void keepFreedMemory() {
 #if defined(__GLIBC__)
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that it takes
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that is accepted
 #endif
 }
 
 namespace {
 
-// One for each core that this process may use, unless its user says otherwise.
+// Number of OpenBLAS's threads: one for each core that this process may use, unless the user sets it.
 rlim_t threadsOfOpenBlas() {
   const char* said = std::getenv("OPENBLAS_NUM_THREADS");
   if (const int threads = said ? std::atoi(said) : 0; threads > 0) return static_cast<rlim_t>(threads);
@@ -36,7 +36,7 @@ rlim_t threadsOfOpenBlas() {
 
 void requireAddressSpace() {
   constexpr rlim_t kThread = rlim_t{48} << 20,
-                   kRest = rlim_t{64} << 20;  // bytes, for a thread of OpenBLAS and beside them
+                   kRest = rlim_t{64} << 20;  // [bytes] for each thread of OpenBLAS, and for everything else
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
   std::ifstream statm("/proc/self/statm");
@@ -49,7 +49,7 @@ void requireAddressSpace() {
                   " MiB of address space (ulimit -v) is too low: on this machine the program "
                   "needs " +
                   std::to_string(needed >> 20) +
-                  " MiB to start; with fewer threads of OpenBLAS less (OPENBLAS_NUM_THREADS=1)");
+                  " MiB to start; fewer threads of OpenBLAS need less (OPENBLAS_NUM_THREADS=1)");
 }
 
 }  // namespace omnimapper::base

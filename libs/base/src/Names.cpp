@@ -15,7 +15,8 @@ struct Character {
   bool is_valid = false;
 };
 
-// The first of a text that is not empty; what is no UTF-8, or longer than need be, is one invalid byte.
+// The first character of a text that is not empty. Bytes that are not UTF-8, or an overlong encoding, are returned as
+// one invalid byte.
 Character firstOf(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -68,7 +69,7 @@ std::string sensorName(std::string_view label) {
   constexpr std::size_t kLongest = 200, kBeginning = 120;
   std::string name = printable(label);
   if (name.size() <= kLongest) return name;
-  // FNV-1a: the same on every machine.
+  // FNV-1a, which gives the same hash on every machine.
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const char c : label) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
   std::size_t end = kBeginning;

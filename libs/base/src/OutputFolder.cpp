@@ -25,24 +25,24 @@ namespace fs = std::filesystem;
 namespace {
 
 const char kHidden[] = ".omnimapper", kStaged[] = "staged", kLock[] = "lock";
-// Room on the disk that is kept free for the note of the commit and the names of the files in their places.
+// Disk space that is reserved for the record of the commit and for the names of the moved files.
 const char kReserve[] = "reserve";
 constexpr off_t kReservedBytes = 64 * 1024;
-// The files of the run, and those of a run that takes its place but has not been moved there whole.
+// Lists of the files of the run, and of those of a new run that have not all been moved to their places.
 const char kFiles[] = "files", kCommit[] = "commit";
 const char kMap[] = "map.omnimap";
-// Begins a line of the note about a name that somebody else's file has.
+// Begins a line of the record with the name of a file that no run wrote.
 const char kForeign[] = "~ ";
 const char kFirstLine[] = "files of a run of OmniMapper, 1";
 
-using FileList = std::map<std::string, std::uint64_t>;  // sizes, by the path in the folder
+using FileList = std::map<std::string, std::uint64_t>;  // file size by path in the folder
 
 [[noreturn]] void fail(const std::string& folder, const std::string& reason,
                        ExitCode code = ExitCode::unwritable_output) {
   throw Error(code, folder + ": " + reason);
 }
 
-// A line a file: size, path. Empty if there is no such list, or it is none of ours.
+// Reads a list with a line for each file: size, path. Empty if there is no list or it has another format.
 FileList readList(const fs::path& path) {
   FileList files;
   std::ifstream in(path);
@@ -68,7 +68,7 @@ FileList stagedFiles(const std::string& staging) {
   return files;
 }
 
-// Whether nobody has changed a file since the list was written in which it stands.
+// Whether a file is unchanged since its list was written.
 bool isAsWritten(const fs::path& file, std::uint64_t size, const fs::path& list) {
   struct stat status {
   }, of_list{};
@@ -77,23 +77,23 @@ bool isAsWritten(const fs::path& file, std::uint64_t size, const fs::path& list)
   return S_ISREG(status.st_mode) && static_cast<std::uint64_t>(status.st_size) == size && time(status) <= time(of_list);
 }
 
-// Folders that hold nothing any more, from the one of `file` up to `top`.
+// Removes empty folders, from `folder` up to `top`.
 void removeEmptyFolders(fs::path folder, const fs::path& top) {
   std::error_code error;
   for (; folder != top && fs::remove(folder, error); folder = folder.parent_path()) continue;
 }
 
-// Whether a folder on the way from `top` to a file in it is a link, by which the file would lie elsewhere.
+// Whether a folder between `top` and the file is a link, so that the file would lie elsewhere.
 bool isBehindLink(const fs::path& top, const fs::path& name) {
   fs::path at = top;
   const fs::path folders = name.parent_path();
   return std::any_of(folders.begin(), folders.end(), [&](const fs::path& part) { return fs::is_symlink(at /= part); });
 }
 
-// What keeps a file of a run from its place; empty if nothing does. A place that is not there yet is made.
+// Why a file of a run cannot be moved to its place; empty if it can. Folders that do not exist yet are no obstacle.
 std::string whyNotAt(const fs::path& top, const fs::path& name) {
   if (name.string().find('\n') != std::string::npos) return "no file of a run may have a line break in its name";
-  if (fs::is_directory(top / name)) return "is a folder, where a file of this run is to be; move it away";
+  if (fs::is_directory(top / name)) return "is a folder, but this run writes a file of that name; move it away";
   struct stat here {
   }, there{};
   if (::stat(top.c_str(), &here) != 0) return std::strerror(errno);
@@ -102,14 +102,14 @@ std::string whyNotAt(const fs::path& top, const fs::path& name) {
     at /= part;
     if (::lstat(at.c_str(), &there) != 0) break;
     if (!S_ISDIR(there.st_mode))
-      return at.string() + " is in the way: a folder of this run is to be there; move it away";
+      return at.string() + " is not a folder, but this run needs a folder of that name; move it away";
     if (here.st_dev != there.st_dev) return at.string() + " is on another file system; choose another folder with -o";
-    if (::access(at.c_str(), W_OK | X_OK) != 0) return at.string() + " may not be written; mend its permissions";
+    if (::access(at.c_str(), W_OK | X_OK) != 0) return at.string() + " is not writable; change its permissions";
   }
   return "";
 }
 
-// Names after which the note of a commit has a tilde: what somebody else put there.
+// The names that the record of a commit marks with a tilde: files that no run wrote.
 std::set<std::string> readForeign(const fs::path& note) {
   std::set<std::string> names;
   std::ifstream in(note);
@@ -118,14 +118,15 @@ std::set<std::string> readForeign(const fs::path& note) {
   return names;
 }
 
-// What somebody else put where a file of a run is to be gets another name: that with a tilde, as editors have it.
+// Renames a file that no run wrote and that is in the place of a new one: a tilde is appended, as editors do for
+// backups.
 void setAside(const fs::path& file) {
   fs::path other = file.string() + "~";
   for (int n = 2; fs::exists(fs::symlink_status(other)); ++n) other = file.string() + "~" + std::to_string(n);
   fs::rename(file, other);
 }
 
-// Does what a commit has noted and not done. Can be broken off and done again at any point.
+// Finishes a recorded commit. It can be interrupted and repeated at any point.
 void finishCommit(const fs::path& folder) {
   const fs::path hidden = folder / kHidden, staged = hidden / kStaged;
   if (!fs::exists(hidden / kCommit)) return;
@@ -146,7 +147,8 @@ void finishCommit(const fs::path& folder) {
   fs::rename(hidden / kCommit, hidden / kFiles);
 }
 
-// The lock of a folder, or -1 with errno. A lock file that its owner has removed meanwhile counts for nothing.
+// Locks a folder. Returns the descriptor, or -1 with errno. A lock file that its owner has removed in the meantime is
+// not valid.
 int takeLock(const fs::path& hidden) {
   const std::string path = hidden / kLock;
   for (;;) {
@@ -177,7 +179,7 @@ OutputFolder::~OutputFolder() {
     fs::remove(hidden / kReserve, ignored);
     if (!fs::exists(hidden / kFiles, ignored)) fs::remove_all(hidden, ignored);
   }
-  if (is_new_) fs::remove(folder_, ignored);  // which fails while anything is in it
+  if (is_new_) fs::remove(folder_, ignored);  // fails if it is not empty
   ::close(lock_);
 }
 
@@ -185,7 +187,7 @@ void OutputFolder::open() {
   lock();
   const std::string reserve = hidden_ + "/" + kReserve;
   const int file = ::open(reserve.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
-  // A file system that reserves nothing, and a limit of the user's own, are no full disk.
+  // File systems that cannot reserve space, and limits set by the user, do not count as a full disk.
   const int error = file < 0 ? errno : ::posix_fallocate(file, 0, kReservedBytes);
   if (file >= 0) ::close(file);
   if (error == ENOSPC || error == EDQUOT)
@@ -203,13 +205,13 @@ void OutputFolder::lock() {
   makeWritableFolder(hidden_);
   lock_ = takeLock(hidden_);
   if (lock_ < 0 && errno == EWOULDBLOCK)
-    fail(folder_, "another run writes into this folder now; wait for its end, or choose another with -o");
+    fail(folder_, "another run is writing into this folder; wait for its end, or choose another folder with -o");
   if (lock_ < 0) fail(folder_, std::string("cannot be locked (") + std::strerror(errno) + ")");
   try {
     finishCommit(folder_);
     fs::remove_all(staging_);
   } catch (const fs::filesystem_error& error) {
-    fail(folder_, std::string("what a run that was killed left there cannot be put in order (") + error.what() + ")");
+    fail(folder_, std::string("the unfinished outputs of a killed run cannot be completed (") + error.what() + ")");
   }
   makeWritableFolder(staging_);
 }
@@ -234,33 +236,33 @@ void OutputFolder::commit() {
       refuseToReplaceKeptInput(target);
     }
     const FileList before = readList(fs::path(hidden_) / kFiles);
-    // The outputs beside a map without a list are taken for a run's.
+    // Files beside a map without a list are taken for outputs of a run.
     const bool is_unlisted_run = before.empty() && fs::exists(fs::path(folder_) / kMap);
     std::vector<std::string> foreign;
     for (const auto& [name, size] : files) {
       const bool is_there = fs::exists(fs::symlink_status(fs::path(folder_) / name));
       if (is_there && !is_unlisted_run && before.count(name) == 0) foreign.push_back(name);
     }
-    // What the run read stays, too.
+    // Files that the run read are kept, too.
     for (const auto& [name, size] : before) {
       const fs::path file = fs::path(folder_) / name;
       if ((kept_.count(name) > 0 || isKeptInput(file)) && fs::is_regular_file(file))
         files.try_emplace(name, fs::file_size(file));
     }
-    // This is the step: before it the old files count, after it the new ones.
+    // This is the decisive step: before it the old files are valid, after it the new ones.
     writeFile(hidden_ + "/" + kCommit, [&](std::ostream& out) {
       out << kFirstLine << "\n";
       for (const auto& [name, size] : files) out << size << " " << name << "\n";
       for (const auto& name : foreign) out << kForeign << name << "\n";
     });
   } catch (const fs::filesystem_error& error) {
-    fail(folder_, std::string("the outputs cannot be put there (") + error.what() + ")");
+    fail(folder_, std::string("the outputs cannot be moved there (") + error.what() + ")");
   }
   try {
     finishCommit(folder_);
   } catch (const fs::filesystem_error& error) {
-    fail(folder_, std::string("the new outputs count, but some are not in their places yet (") + error.what() +
-                      "); mend that, and the next run or reader moves them");
+    fail(folder_, std::string("the new outputs are valid, but some are not in their places yet (") + error.what() +
+                      "); once this is solved, the next run or reader moves them");
   }
 }
 
@@ -272,7 +274,7 @@ void OutputFolder::commitInto(const std::string& name) {
     for (const auto& entry : fs::directory_iterator(staging_))
       fs::rename(entry.path(), fs::path(inner.staging()) / entry.path().filename());
   } catch (const fs::filesystem_error& error) {
-    fail(inner.folder(), std::string("the outputs cannot be put there (") + error.what() + ")");
+    fail(inner.folder(), std::string("the outputs cannot be moved there (") + error.what() + ")");
   }
   inner.commit();
 }
@@ -322,12 +324,12 @@ std::string OutputFolder::asTheUserSees(std::string message) const {
 std::string committedPath(const std::string& path) {
   const fs::path file(path), folder = file.has_parent_path() ? file.parent_path() : ".", hidden = folder / kHidden;
   std::error_code error;
-  // What somebody else has noted is not done in this user's name.
+  // A commit that another user recorded is not finished on behalf of this user.
   struct stat note {};
   if (::lstat((hidden / kCommit).c_str(), &note) != 0 || note.st_uid != ::geteuid() || fs::is_symlink(hidden, error) ||
       fs::is_symlink(hidden / kStaged, error))
     return path;
-  // Whoever holds the lock is about to do it.
+  // The process that holds the lock is about to finish the commit.
   for (int tries = 0; tries < 1000 && fs::exists(hidden / kCommit, error); ++tries) {
     const int lock = takeLock(hidden);
     if (lock < 0 && errno != EWOULDBLOCK) {

@@ -12,8 +12,8 @@ constexpr std::int64_t kTicksPerSecond = 10'000'000;
 // MRPT counts from 1601 (see its Clock): 116444736 * 10^9 ticks before 1970.
 constexpr std::int64_t kUnixEpochTicks = 116'444'736 * std::int64_t{1'000'000'000};
 
-// A damaged file may say any stamp. What is beyond seven thousand years counts as that, so that no difference
-// overflows.
+// A damaged file may contain any stamp. Stamps beyond seven thousand years are limited to that, so that differences do
+// not overflow.
 constexpr std::int64_t kFarthest = INT64_MAX / 4;
 
 std::int64_t ticksOf(Stamp stamp) {
@@ -28,12 +28,12 @@ Stamp fromTicks(std::int64_t ticks) {
 }  // namespace
 
 bool isValid(Stamp stamp) {
-  // Those that count as the farthest have no time between them.
+  // Limited stamps are not valid, because their differences mean nothing.
   return stamp != Stamp() && ticksSinceUnixEpoch(stamp) > 0 && ticksOf(stamp) < kFarthest;
 }
 
 Stamp stampFromUnix(double seconds) {
-  // Whole seconds apart from the fraction, so that the product stays exact.
+  // Whole seconds and the fraction are converted separately, so that the product stays exact.
   const double whole = std::floor(seconds);
   return fromTicks(static_cast<std::int64_t>(whole) * kTicksPerSecond +
                    std::llround((seconds - whole) * static_cast<double>(kTicksPerSecond)));
@@ -78,7 +78,7 @@ Stamp parseUnix(const std::string& text) {
   std::int64_t ticks = 0;
   for (const char digit : whole) ticks = ticks * 10 + (digit - '0');
   for (std::size_t i = 0; i < 7; ++i) ticks = ticks * 10 + (i < fraction.size() ? fraction[i] - '0' : 0);
-  if (fraction.size() > 7 && fraction[7] >= '5') ++ticks;  // beyond the tick: rounded
+  if (fraction.size() > 7 && fraction[7] >= '5') ++ticks;  // rounded to the tick
   return fromTicks(begin == 1 ? -ticks : ticks);
 }
 

@@ -33,7 +33,7 @@ void registerOutputs() {
   registerClass(CLASS_ID(TrajectoryOutputFactory));
 }
 
-// The build links this file last: the ids of the classes are made before.
+// This file is linked last, so that the class ids exist before it runs.
 const base::AtLoad kRegister(registerOutputs);
 
 }  // namespace omnimapper::exports

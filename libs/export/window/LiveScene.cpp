@@ -27,16 +27,16 @@ bool isSet(const char* variable) {
   return value && *value;
 }
 
-/// What is nearer or farther than this is not drawn, and this far apart things must be that are drawn over one another
-/// (closures over the trajectory over landmarks over the grid); all as parts of the camera's distance. Depths have 16
-/// bits, which are spread from the nearest on; Mesa's software renderer still hid lines behind the grid where the
-/// nearest was 1/30, not at 1/20.
+/// Clipping distances, and the height step between objects drawn over one another (closures over the trajectory over
+/// landmarks over the grid), all as shares of the camera's distance. Depths have 16 bits, distributed from the nearest
+/// distance on; Mesa's software renderer still hid lines behind the grid with a nearest distance of 1/30, but not with
+/// 1/20.
 constexpr double kNearest = 1.0 / 16, kFarthest = 10, kDepthStep = 12 / kNearest / (1 << 16);
 
-constexpr double kAxesInView = 30;  ///< of the length of the newest pose's axes is the camera's distance at least
+constexpr double kAxesInView = 30;  ///< smallest distance of the camera in lengths of the newest pose's axes
 
 ScanGridOptions gridOptions(const LiveWindowOptions& options) {
-  constexpr double kMostCells = 4e6;  // what a window can show; a larger map gets coarser cells
+  constexpr double kMostCells = 4e6;  // enough for a window; a larger map gets coarser cells
   return {options.grid_resolution, options.max_range, 0, kMostCells};
 }
 
@@ -57,7 +57,7 @@ std::unique_ptr<mrpt::gui::CDisplayWindow3D> openWindow(const std::string& title
   return window;
 }
 
-/// The window, and what is in it. Points hang on their key frames, so that a solve moves frames, not points.
+/// The window and its content. Points are attached to their key frames, so that a solve moves frames, not points.
 class MrptScene : public LiveScene {
  public:
   MrptScene(const LiveWindowOptions& options, const std::string& title)
@@ -76,17 +76,17 @@ class MrptScene : public LiveScene {
 
   void show(const mapper::View& view) override {
     if (view.map.key_frames.empty()) return;
-    const Sight sight = sightOf(view.map);
+    const CameraPlacement placement = placementOf(view.map);
     {
       mrpt::opengl::COpenGLScene::Ptr scene;
       mrpt::gui::CDisplayWindow3DLocker lock(*window_, scene);
       placePoints(view.map);
       const auto ground = groundOf(view.map);
-      if (options_.grid) placeGrid(view.map, ground->getPlaneZcoord() - kDepthStep * sight.distance);
-      scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * sight.distance),
-                                                     static_cast<float>(kFarthest * sight.distance));
+      if (options_.grid) placeGrid(view.map, ground->getPlaneZcoord() - kDepthStep * placement.distance);
+      scene->getViewport()->setViewportClipDistances(static_cast<float>(kNearest * placement.distance),
+                                                     static_cast<float>(kFarthest * placement.distance));
       const auto lifted = [&](int steps) {
-        return mrpt::poses::CPose3D(0, 0, steps * kDepthStep * sight.distance, 0, 0, 0);
+        return mrpt::poses::CPose3D(0, 0, steps * kDepthStep * placement.distance, 0, 0, 0);
       };
       trajectory_->setPose(lifted(1));
       refused_->setPose(lifted(2));
@@ -98,7 +98,7 @@ class MrptScene : public LiveScene {
       replace(*refused_, closureLines(closures, false));
       replace(*landmarks_, landmarkObjects(shapesOf(view), false));
       pose_->setPose(map::newestPose(view.map));
-      pose_->setScale(static_cast<float>(std::min(1.0, sight.distance / kAxesInView)));
+      pose_->setScale(static_cast<float>(std::min(1.0, placement.distance / kAxesInView)));
       const auto count =
           std::count_if(closures.begin(), closures.end(), [](const Closure& c) { return c.decision->accepted; });
       mrpt::opengl::TFontParams font;
@@ -108,7 +108,7 @@ class MrptScene : public LiveScene {
                                   " closures accepted, " + std::to_string(closures.size() - count) + " refused",
                               0, font);
     }
-    if (options_.follow) lookFrom(sight);
+    if (options_.follow) lookFrom(placement);
     window_->forceRepaint();
   }
 
@@ -178,12 +178,12 @@ class MrptScene : public LiveScene {
     return cloud;
   }
 
-  /// From where all key frames are seen, and what cameras saw from them.
-  struct Sight {
+  /// A camera placement that shows all key frames, and the points that cameras measured there.
+  struct CameraPlacement {
     mrpt::math::TPoint3D target;
-    double distance;  // [m] of the camera from it
+    double distance;  // [m] of the camera from the target
   };
-  static Sight sightOf(const map::Map& map) {
+  static CameraPlacement placementOf(const map::Map& map) {
     mrpt::math::TPoint3D low = map.key_frames.front().map_from_base.translation(), high = low;
     for (const map::KeyFrame& frame : map.key_frames) {
       const auto p = frame.map_from_base.translation();
@@ -191,7 +191,7 @@ class MrptScene : public LiveScene {
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     if (!hasDepthClouds(map)) return {0.5 * (low + high), 12 + 1.6 * (high - low).norm()};
-    constexpr std::size_t kEvery = 50;  // points of a key frame
+    constexpr std::size_t kEvery = 50;  // of the points of a key frame
     std::vector<double> xs, ys, zs;
     for (const map::KeyFrame& frame : map.key_frames) {
       for (std::size_t i = 0; i < frame.cloud.size(); i += kEvery) {
@@ -206,7 +206,7 @@ class MrptScene : public LiveScene {
     widen(zs, low.z, high.z);
     return {0.5 * (low + high), 1 + 1.6 * (high - low).norm()};
   }
-  /// So that all but the outermost of them lie between.
+  /// Widens [low, high] to contain all values but the outermost.
   static void widen(std::vector<double>& values, double& low, double& high) {
     if (values.empty()) return;
     std::sort(values.begin(), values.end());
@@ -215,10 +215,10 @@ class MrptScene : public LiveScene {
     high = std::max(high, values[values.size() - 1 - cut]);
   }
 
-  void lookFrom(const Sight& sight) {
-    window_->setCameraPointingToPoint(static_cast<float>(sight.target.x), static_cast<float>(sight.target.y),
-                                      static_cast<float>(sight.target.z));
-    window_->setCameraZoom(static_cast<float>(sight.distance));
+  void lookFrom(const CameraPlacement& placement) {
+    window_->setCameraPointingToPoint(static_cast<float>(placement.target.x), static_cast<float>(placement.target.y),
+                                      static_cast<float>(placement.target.z));
+    window_->setCameraZoom(static_cast<float>(placement.distance));
   }
 
   LiveWindowOptions options_;

@@ -47,7 +47,8 @@ void Engine::process(FrameBundle& bundle) {
   state_.times.addKeyFrameSince(begin);
 }
 
-// What no late observation will ask for: neither one that comes within the horizon, nor one that waits.
+// Drops the data that no late observation can need any more: neither one that still waits, nor one that comes within
+// the horizon.
 void Engine::forget() {
   PoseChain& chain = back_end_.chain();
   const base::Stamp horizon = *chain.newest() - base::durationFromSeconds(settings_.engine.horizon);
@@ -59,7 +60,7 @@ void Engine::forget() {
 
 void Engine::finish() {
   const auto timer = state_.times.measure(Stage::engine);
-  // What one plugin throws must not cost the map of what the others did.
+  // If one plugin throws, the map of the others is still finished; the exception is rethrown at the end.
   std::exception_ptr failed;
   const auto tried = [&failed](const auto& work) {
     try {
@@ -128,7 +129,7 @@ std::vector<base::Error> Engine::writeOutputs() {
     } catch (const std::bad_alloc&) {
       failures.emplace_back(
           base::ExitCode::out_of_memory,
-          "[" + section + "] ran out of memory; give the program more, or take this output off the list");
+          "[" + section + "] ran out of memory; give the program more memory, or leave out this output");
     }
   }
   return failures;

@@ -21,51 +21,51 @@
 
 namespace omnimapper::mapper {
 
-/// The mapper (thesis 5.2.3, 5.3.2): observations in, a map out. One thread calls it and is the only writer; workers
-/// run extractors, preparations and jobs. What comes out depends on the observations, their order of arrival and the
-/// options, never on the workers, unless a schedule of another kind is given.
+/// The mapper (thesis 5.2.3, 5.3.2): takes observations and builds a map. It is called from one thread, which alone
+/// writes the map and the graph; workers run extractors, preparations and jobs. The result depends on the observations,
+/// their order of arrival and the options, but not on the workers, unless a schedule of another kind is given.
 class Engine {
  public:
-  /// Throws Error(unknown_plugin) if no pose plugin or no measurement plugin is given.
-  /// `title` names the session.
+  /// `title` names the session. Throws Error(unknown_plugin) if no pose plugin is given.
   Engine(const EngineSettings& settings, const std::string& title, SensorPoses sensor_poses, PluginSet plugins,
          int threads, std::unique_ptr<Schedule> schedule = std::make_unique<Schedule>());
 
-  /// To be called before the first observation if the run continues a saved map or localizes in it.
+  /// Must be called before the first observation if the run continues a saved map or localizes in it.
   SessionManager& sessions() { return sessions_; }
-  /// Takes one observation, in order of arrival, and works on whatever that releases. What cannot be used is counted.
+  /// Takes one observation, in order of arrival, and processes every bundle that it releases. Unusable ones are
+  /// counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
-  /// Works on whatever the schedule takes by now.
+  /// Processes the bundles that the schedule releases by now.
   void poll();
-  /// Whether observations had better wait for the workers.
+  /// Whether new observations should wait until the workers have caught up.
   bool isBusy() const { return front_end_.isFull(); }
-  /// The end of the log: everything still queued is worked off, jobs in order, the graph is solved to the end, and the
-  /// map is judged.
+  /// Called at the end of the log: processes everything that is still queued, applies the jobs in order, solves the
+  /// graph with the final options and judges the map.
   void finish();
-  /// What is to be said for or against the map as far as it has grown; finish() judges the whole one.
+  /// Collects the evidence for and against the map as it is now; finish() does this for the whole map.
   void judge();
-  /// Calls every output plugin's finish(), and gives the errors of those that could not write theirs.
+  /// Calls finish() of every output plugin and returns the errors of those that could not write their output.
   std::vector<base::Error> writeOutputs();
-  /// Whether somebody may still look at an output.
+  /// Whether a window still shows the map to the user.
   bool isLookedAt() const;
 
-  /// Asked while a solve runs; true ends it with the best so far (Ctrl-C).
+  /// `stop` is called while a solve runs; if it returns true, the solve ends with its best values so far (Ctrl-C).
   void setStop(std::function<bool()> stop) { back_end_.setStop(std::move(stop)); }
-  /// A sentence for the user: shown by the report and the summary.
+  /// Adds a warning, a sentence for the user that the report and the summary show.
   void warn(const std::string& sentence) { state_.warnings.push_back(sentence); }
-  /// For the summary: observations that the source did not hand out because nothing can be made of them.
+  /// Sets the number of observations that the source discarded as unusable; the summary shows it.
   void setLeftOut(std::size_t observations) { state_.counts.left_out = observations; }
-  /// For the summary: how a live run is.
+  /// Sets the metrics of a live run that the summary shows.
   void setLive(LiveMetrics metrics) { state_.live = std::move(metrics); }
   /// Measures time spent outside the engine, such as reading the log.
   StageTimes::Timer measure(Stage stage) { return state_.times.measure(stage); }
 
-  /// Sections of the measurement plugins that no observation came to, though they work on some.
+  /// Sections of the measurement plugins that use observations but received none.
   std::vector<std::string> idlePlugins() const;
-  /// Pose sources that measure, and measurement plugins that give absolute poses, if the log had nothing for any of
-  /// them; none if one had, or there are no such plugins at all.
+  /// Sections of the pose sources that measure and of the measurement plugins that give absolute poses, if none of them
+  /// received an observation; empty if one did, or if the INI names no such plugins.
   std::vector<std::string> idleSources() const;
-  /// What extractors could not take; finish() warns of it.
+  /// The errors of the extractors; finish() warns of them.
   const ExtractionErrors& extractionErrors() const { return state_.extraction_errors; }
 
   View view() const { return state_.view(); }
@@ -81,7 +81,7 @@ class Engine {
   BackEnd back_end_;
   FrontEnd front_end_;
   SessionManager sessions_;
-  // Last, so that it ends first: its tasks use what stands above.
+  // Declared last so that it is destroyed first: its tasks use the members above.
   base::WorkerPool pool_;
 };
 

@@ -20,7 +20,7 @@ void ExtractionErrors::add(const ExtractionErrors& later) {
 
 std::string ExtractionErrors::sentence() const {
   if (count_ == 0) return "";
-  return std::to_string(count_) + " times an extractor could make nothing of an observation; the first is of " +
+  return std::to_string(count_) + "  times an extractor could not process an observation; the first is of " +
          first_of_ + ": " + first_->what();
 }
 

@@ -9,19 +9,19 @@
 
 namespace omnimapper::mapper {
 
-/// How often extractors could not take an observation, and why the first time. One bad scan ends no run.
+/// Counts the errors of extractors and keeps the first. A run goes on after such an error.
 class ExtractionErrors {
  public:
   void add(const base::Error& error, const mrpt::obs::CObservation& raw);
-  /// Adds what came later.
+  /// Adds the errors of `later`, which occurred after those counted here.
   void add(const ExtractionErrors& later);
 
   std::size_t count() const { return count_; }
-  /// Of an extractor, as it was thrown.
+  /// The first error as the extractor threw it.
   const std::optional<base::Error>& first() const { return first_; }
-  /// A warning that names label and stamp of the first. Empty if there was none.
+  /// A warning that names the label and stamp of the first failed observation. Empty if there was no error.
   std::string sentence() const;
-  /// missing_images if the first lacks them, else damaged_input; ok if there was none.
+  /// missing_images if the first error is of that code, else damaged_input; ok if there was no error.
   base::ExitCode code() const;
 
  private:

@@ -13,25 +13,26 @@
 
 namespace omnimapper::mapper {
 
-/// An observation with what each measurement plugin prepared of it, by the plugins' order; null where that is nothing.
+/// An observation and the result of prepare() of each measurement plugin, in the order of the plugins; null where a
+/// plugin does not want the observation.
 struct Perceived {
   mrpt::obs::CObservation::ConstPtr observation;
   std::vector<std::unique_ptr<const Prepared>> prepared;
 };
 
-/// All that the pool made of one observation.
+/// The results of perception for one observation.
 struct PerceivedParts {
-  std::vector<Perceived> parts;        ///< the observation itself, then what the extractors made of it, in their order
-  std::vector<map::CloudPoint> cloud;  ///< of a depth image, in the base
-  ExtractionErrors errors;             ///< of extractors that could not take it
+  std::vector<Perceived> parts;  ///< the observation itself, then those that the extractors derived, in their order
+  std::vector<map::CloudPoint> cloud;  ///< points of a depth image in the base frame
+  ExtractionErrors errors;             ///< errors of extractors that could not process it
 };
 
-/// What the front end hands to the back end: the observations of one stamp that the trigger let through. Without any,
-/// the stamp becomes a dependent frame of the key frame before it.
+/// Passed from the front end to the back end: the observations of one stamp that triggered a key frame. If there are
+/// none, the stamp becomes a dependent frame of the key frame before it.
 struct FrameBundle {
   base::Stamp stamp;
-  bool reference = false;  ///< one observation of that stamp, triggered or not, is of the reference sensor
-  std::vector<std::future<PerceivedParts>> observations;  ///< what the workers make of each
+  bool reference = false;  ///< an observation of that stamp, triggered or not, is of the reference sensor
+  std::vector<std::future<PerceivedParts>> observations;  ///< results of perception, one for each observation
 };
 
 }  // namespace omnimapper::mapper

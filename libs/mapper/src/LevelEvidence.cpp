@@ -10,7 +10,7 @@
 namespace omnimapper::mapper {
 
 void LevelEvidence::add(const mrpt::obs::CObservation& observation) {
-  constexpr std::size_t kMost = 16;  // no robot has more; labels of a damaged log may be any number
+  constexpr std::size_t kMost = 16;  // more than any robot has; a damaged log may have any number of labels
   if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation)) {
     const auto known = imus_.find(imu->sensorLabel);
     if (known != imus_.end() || imus_.size() < kMost) imus_[imu->sensorLabel].add(*imu);

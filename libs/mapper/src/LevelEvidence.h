@@ -8,14 +8,15 @@
 
 namespace omnimapper::mapper {
 
-/// What the stream of observations tells of which way is up, key frames or not.
+/// Collects from all observations, not only those of key frames, the evidence for which way is up.
 class LevelEvidence {
  public:
-  /// Takes an observation with its final sensor pose.
+  /// Adds an observation, which must have its final sensor pose.
   void add(const mrpt::obs::CObservation& observation);
-  /// Of each inertial sensor, by label.
+  /// The steady spans of each inertial sensor, by label.
   const std::map<std::string, matching::SteadySpans>& imus() const { return imus_; }
-  /// What makes it a robot on wheels: wheel odometry, or a laser that scans a level plane; empty if nothing does.
+  /// Why the robot is assumed to run on wheels: the name of its wheel odometry or of a laser that scans a level plane;
+  /// empty if it has neither.
   const std::string& levelBase() const { return level_base_; }
 
  private:

@@ -4,7 +4,7 @@
 
 namespace omnimapper::mapper {
 
-/// Whether two observations of one moment tell the same thing: label and class are the same.
+/// Whether two observations with the same stamp are of the same sensor: their labels and classes are equal.
 inline bool isOfOneSensor(const mrpt::obs::CObservation& a, const mrpt::obs::CObservation& b) {
   return a.sensorLabel == b.sensorLabel && a.GetRuntimeClass() == b.GetRuntimeClass();
 }

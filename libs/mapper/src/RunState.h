@@ -10,11 +10,11 @@
 
 namespace omnimapper::mapper {
 
-/// What front end, back end and sessions share; plugins see it as a View.
+/// The data that front end, back end and session manager share; plugins see it through a View.
 struct RunState : ViewedRun {
   ExtractionErrors extraction_errors;
   LevelEvidence level_evidence;
-  std::set<std::string> fed;  ///< sections of pose and measurement plugins that an observation came to
+  std::set<std::string> fed;  ///< sections of pose and measurement plugins that received an observation
 };
 
 }  // namespace omnimapper::mapper

@@ -6,12 +6,13 @@
 
 namespace omnimapper::mapper {
 
-/// When the engine takes up what its workers make. This one is that of a log: it counts bundles and key frames, so that
-/// the speed of the workers does not show in the map. That of a live run takes what is done.
+/// Decides when the engine uses the results of its workers. This class serves logs: it counts bundles and key frames,
+/// so that the speed of the workers does not change the map. The schedule of a live run uses results as soon as they
+/// are done.
 class Schedule {
  public:
-  /// Bundles that wait for their perception. The number of threads plays no part in it: what is known of the odometry
-  /// when a bundle is worked on must not depend on them.
+  /// Number of bundles that wait for their perception. It does not depend on the number of threads, because it
+  /// determines how much odometry is known when a bundle is processed.
   static constexpr std::size_t kPipelineDepth = 8;
 
   Schedule() = default;
@@ -19,17 +20,18 @@ class Schedule {
   Schedule(const Schedule&) = delete;
   Schedule& operator=(const Schedule&) = delete;
 
-  /// Whether the oldest of `waiting` bundles is to be worked on now. Who is told yes does so.
+  /// Whether the oldest of `waiting` bundles is to be processed now. After a result of true the caller must process it.
   bool takesBundle(const FrameBundle& oldest, std::size_t waiting) {
     return has_ended_ || takesBundleBeforeEnd(oldest, waiting);
   }
-  /// Whether the batch of the oldest job is to be applied now; `is_due` by the key frames since, `is_done` by its
-  /// worker. Who is told yes does so.
+  /// Whether the batch of the oldest job is to be applied now. `is_due`: enough key frames have been added since;
+  /// `is_done`: its worker has finished. After a result of true the caller must apply it.
   bool takesJob(bool is_due, bool is_done) { return has_ended_ ? is_due : takesJobBeforeEnd(is_due, is_done); }
-  /// No more observations come: from now on all bundles are worked on, and jobs are waited for as on a log.
+  /// Called when no more observations will come: from then on all bundles are processed, and jobs are waited for as on
+  /// a log.
   void end() { has_ended_ = true; }
 
-  /// A bundle of that stamp is in the map.
+  /// Called when the bundle of that stamp has become part of the map.
   virtual void mapped(base::Stamp /*stamp*/) {}
 
  private:

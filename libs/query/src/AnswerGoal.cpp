@@ -18,7 +18,7 @@ namespace {
 using base::fixed;
 using Eigen::Vector2d;
 
-constexpr double kFarthest = 20;  // [m] of radius and distance
+constexpr double kFarthest = 20;  // [m] largest radius and distance
 
 std::string pointText(const Vector2d& point) {
   return fixed(point.x(), 2) + " " + fixed(point.y(), 2);
@@ -40,11 +40,11 @@ Vector2d startOf(const MapToAsk& map, const Request& request) {
   }
   if (!map.places.last_pose)
     throw base::Error(base::ExitCode::command_line,
-                      map.file + ": the map has no last pose to start from; say where with --from X Y");
+                      map.file + ": the map has no last pose to start from; give a start with --from X Y");
   return {map.places.last_pose->x, map.places.last_pose->y};
 }
 
-/// What may be meant, the nearest to the start first: of names that are only near, the nearest name.
+/// The landmarks that fit, the nearest to the start first; if there are only near matches, those with the nearest name.
 std::vector<NearPlace> targetsOf(const Found& found, const Vector2d& start) {
   std::vector<NearPlace> targets;
   for (const auto& each : found.places) {
@@ -61,7 +61,7 @@ std::string whichText(const std::vector<NearPlace>& targets, std::size_t chosen,
   const std::string title = titleOf(*targets[chosen].place);
   if (targets.size() == 1) return "goal before " + title + "\n";
   return "goal before " + title + " (" + toString(targets[chosen].place->id) + "), of " +
-         std::to_string(targets.size()) + " that fit the one nearest to the start " + pointText(start) +
+         std::to_string(targets.size()) + " matches the one nearest to the start " + pointText(start) +
          (chosen == 0 ? "\n" : " with free space before it\n");
 }
 
@@ -70,7 +70,7 @@ std::string goalText(const Goal& goal, const GoalOptions& options, const RoomToM
                      " rad (" + fixed(goal.yaw * 180 / M_PI, 1) + " deg)\n  " + fixed(goal.distance, 2) +
                      " m before its edge at " + pointText(goal.edge);
   if (std::abs(goal.distance - options.distance) > 1e-6)
-    text += ", for " + base::brief(options.distance) + " m before it is not free";
+    text += ", because " + base::brief(options.distance) + " m before it is not free";
   text += "\n  free for a robot of " + base::brief(options.radius) + " m radius, ";
   text += goal.is_connected     ? "and reached from the start through free cells"
           : room.isStartKnown() ? "but free cells do not connect it to the start"
@@ -110,8 +110,7 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   };
   if (found.places.empty()) return nothing(nothingCalled(text, found));
   const auto targets = targetsOf(found, start);
-  if (targets.empty())
-    return nothing("'" + shownName(text) + "' is no longer where it was: nobody knows where to go\n");
+  if (targets.empty()) return nothing("'" + shownName(text) + "' has moved away: its present place is not known\n");
   const GridMap grid = readGrid(map.folder);
   const RoomToMove room(grid, options.radius, start);
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -129,11 +128,12 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   };
   if (std::none_of(targets.begin(), targets.end(), isInGrid))
     return nothing(titleOf(*targets.front().place) +
-                   " lies outside the occupancy grid, so nobody knows what is free before it: map a log in which the "
+                   " lies outside the occupancy grid, so the free space before it is not known: map a log in which the "
                    "laser saw that part of the building\n");
   return nothing("no pose " + base::brief(options.distance / 2) + " to " + base::brief(2 * options.distance) +
                  " m before " + titleOf(*targets.front().place) + " is free for a robot of " +
-                 base::brief(options.radius) + " m radius, with it in sight; try another --distance or --radius\n");
+                 base::brief(options.radius) +
+                 " m radius and has a line of sight to it; try another --distance or --radius\n");
 }
 
 }  // namespace omnimapper::query

@@ -18,7 +18,7 @@ namespace omnimapper::query {
 
 namespace {
 
-constexpr std::size_t kMostLines = 40;  // of places in an answer's text; its JSON has all
+constexpr std::size_t kMostLines = 40;  // largest number of places in the text of an answer; its JSON has all
 
 using Lines = std::vector<std::vector<std::string>>;
 
@@ -41,7 +41,7 @@ double coordinateOf(const std::string& word) {
   if (word.empty() || read.ec != std::errc() || read.ptr != end || !std::isfinite(number))
     throw base::Error(
         base::ExitCode::command_line,
-        "'" + shownName(word) + "' is no coordinate: give x and y of the map in metres, as in near 3.5 -2");
+        "'" + shownName(word) + "' is not a coordinate: give x and y of the map in metres, as in near 3.5 -2");
   expectInReach(number);
   return number;
 }
@@ -86,9 +86,10 @@ std::string textOf(const Request& request) {
 }
 
 void expectInReach(double coordinate) {
-  constexpr double kFarthest = 1e7;  // [m] beyond it a double has no micrometres, and no map has anything
+  constexpr double kFarthest = 1e7;  // [m] beyond it a double cannot resolve micrometres, and no map has anything
   if (std::abs(coordinate) > kFarthest)
-    throw base::Error(base::ExitCode::command_line, base::brief(coordinate) + " m is no coordinate of a map: none is " +
+    throw base::Error(base::ExitCode::command_line, base::brief(coordinate) +
+                                                        " m is not a coordinate of a map: none is " +
                                                         "farther than 10000 km from the origin");
 }
 
@@ -142,7 +143,7 @@ Answer answerNear(const MapToAsk& map, const Request& request) {
 Answer answerList(const MapToAsk& map, const Request& request) {
   if (request.words.empty()) return listKinds(map);
   const std::string asked = textOf(request);
-  // A kind is a place that nothing but its kind is known of: what is called so is found as places are.
+  // Kinds are found in the same way as places: each is represented by a place that has only its kind.
   std::vector<map::Place> kinds;
   for (const auto& [kind, count] : countsOf(map)) {
     map::Place place;

@@ -2,7 +2,7 @@
 
 #include <omnimapper/query/Verbs.h>
 
-// What the verbs answer; the table of them is in Verbs.cpp.
+// The functions that answer the verbs; the table of verbs is in Verbs.cpp.
 namespace omnimapper::query {
 
 Answer answerFind(const MapToAsk& map, const Request& request);
@@ -10,12 +10,11 @@ Answer answerNear(const MapToAsk& map, const Request& request);
 Answer answerGoal(const MapToAsk& map, const Request& request);
 Answer answerList(const MapToAsk& map, const Request& request);
 
-/// The words of a request with blanks between them.
+/// The words of a request, separated by blanks.
 std::string textOf(const Request& request);
-/// Throws Error(command_line) for a coordinate [m] that no map has.
+/// Throws Error(command_line) if no map can have this coordinate [m].
 void expectInReach(double coordinate);
-/// The numbers of an option, or the other ones where it was not given. Throws Error(command_line) for what is not
-/// finite.
+/// The numbers of an option, or `otherwise` if it was not given. Throws Error(command_line) if one is not finite.
 std::vector<double> numbersOf(const Request& request, const std::string& option, const std::vector<double>& otherwise);
 
 }  // namespace omnimapper::query

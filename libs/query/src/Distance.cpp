@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Walk = std::vector<Vector2d>;
 
-// Even-odd rule.
+// By the even-odd rule.
 bool isInside(const Walk& walk, const Vector2d& point) {
   bool inside = false;
   for (std::size_t i = 0, j = walk.size() - 1; i < walk.size(); j = i++) {
@@ -30,7 +30,7 @@ Vector2d nearestOnLine(const Vector2d& from, const Vector2d& to, const Vector2d&
   return from + std::clamp((point - from).dot(along) / length, 0.0, 1.0) * along;
 }
 
-// An island in a hole lies in an outline more than in holes.
+// A point on an island in a hole lies in more outlines than holes.
 bool isInside(const map::Extent& extent, const Vector2d& point) {
   const auto count = [&](const std::vector<Walk>& walks) {
     return std::count_if(walks.begin(), walks.end(), [&](const Walk& walk) { return isInside(walk, point); });
@@ -52,14 +52,14 @@ std::optional<Vector2d> nearestPoint(const map::Extent& extent, const Vector2d& 
   if (isInside(extent, point)) return point;
   std::optional<Vector2d> nearest;
   double least = std::numeric_limits<double>::infinity();
-  const auto see = [&](const Vector2d& candidate) {
+  const auto consider = [&](const Vector2d& candidate) {
     const double distance = (candidate - point).norm();
     if (!(distance < least)) return;
     least = distance;
     nearest = candidate;
   };
-  for (const auto& each : extent.points) see(each);
-  forEachLine(extent, [&](const Vector2d& from, const Vector2d& to) { see(nearestOnLine(from, to, point)); });
+  for (const auto& each : extent.points) consider(each);
+  forEachLine(extent, [&](const Vector2d& from, const Vector2d& to) { consider(nearestOnLine(from, to, point)); });
   return nearest;
 }
 
@@ -67,10 +67,10 @@ std::vector<Vector2d> rimOf(const map::Extent& extent, double step) {
   constexpr double kMost = 1000;
   double length = 0;
   forEachLine(extent, [&](const Vector2d& from, const Vector2d& to) { length += (to - from).norm(); });
-  const double apart = std::max(step, length / kMost);
+  const double spacing = std::max(step, length / kMost);
   std::vector<Vector2d> rim = extent.points;
   forEachLine(extent, [&](const Vector2d& from, const Vector2d& to) {
-    const double parts = std::max(1.0, std::ceil((to - from).norm() / apart));
+    const double parts = std::max(1.0, std::ceil((to - from).norm() / spacing));
     for (double i = 0; i <= parts; ++i) rim.emplace_back(from + i / parts * (to - from));
   });
   return rim;

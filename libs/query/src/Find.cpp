@@ -16,31 +16,31 @@ namespace omnimapper::query {
 
 namespace {
 
-constexpr std::size_t kLongestText = 200;  // characters
-constexpr std::size_t kMostNames = 3;      // that are named where nothing fits
-constexpr double kFarFetched = 0.75;       // names that cost more are not suggested, ...
+constexpr std::size_t kLongestText = 200;  // largest number of characters
+constexpr std::size_t kMostNames = 3;      // number of suggested names if nothing fits
+constexpr double kFarFetched = 0.75;       // names with a larger cost are not suggested, ...
 constexpr long kNextDoors = 10;            // ... unless they are numbers that differ by at most this
 
 [[noreturn]] void refuseText(const std::string& reason) {
   throw base::Error(base::ExitCode::command_line, reason);
 }
 
-// Says what is wrong without repeating a text that would fill the screen.
+// Refuses a text without repeating one that would fill the screen.
 void expectText(const std::string& text) {
   if (text.find_first_not_of(" \t") == std::string::npos)
-    refuseText("the text to find is empty: say what stands on a sign, or a kind such as wall");
+    refuseText("the text to find is empty: give the text of a sign, or a kind such as wall");
   if (text.size() > 4 * kLongestText || charactersOf(text).size() > kLongestText)
     refuseText("the text to find has " + std::to_string(text.size()) + " bytes: at most " +
                std::to_string(kLongestText) + " characters are compared. Give a few words of it.");
   if (const std::string shown = base::printable(text); shown != text)
-    refuseText("the text to find has control characters or is no UTF-8: '" + shown + "'. Give it without them.");
+    refuseText("the text to find has control characters or is not UTF-8: '" + shown + "'. Give it without them.");
 }
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-// The names of measures end in their unit; what says yes or no, or when something was, names nothing either.
+// The names of measures end in their unit. Properties that are yes or no, or a time, are no names either.
 bool isMeasure(const std::pair<std::string, std::string>& property) {
   static const std::array<std::string, 9> ends{"_m",  "_m2",   "_m3",           "_deg",      "_s",
                                                "_kg", "_seen", "_measurements", "_sightings"};
@@ -75,7 +75,7 @@ bool isBefore(const FoundPlace& a, const FoundPlace& b) {
   return a.place->id < b.place->id;
 }
 
-// None of what is no number of at most nine digits.
+// The number that the text is; none if it is not a number of at most nine digits.
 std::optional<long> wholeNumber(const std::string& text) {
   constexpr std::size_t kMostDigits = 9;
   long number = 0;
@@ -85,7 +85,7 @@ std::optional<long> wholeNumber(const std::string& text) {
   return number;
 }
 
-// The first few names of the sorted places; where a number is asked for, the numbers beside it come first.
+// The first few names of the sorted places; if a number is searched for, the closest numbers come first.
 std::vector<std::string> closestNames(const std::string& text, std::vector<FoundPlace> sorted) {
   const auto asked = wholeNumber(text);
   const auto off = [&](const FoundPlace& place) {

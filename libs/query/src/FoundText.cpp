@@ -29,8 +29,8 @@ std::vector<std::string> distinctNames(const Found& found) {
 }  // namespace
 
 std::string nothingCalled(const std::string& text, const Found& found) {
-  const std::string nothing = "nothing is called '" + shownName(text) + "', nor nearly so";
-  if (found.closest.empty()) return nothing + "; omnimapper-query MAP list says what there is\n";
+  const std::string nothing = "nothing is called '" + shownName(text) + "' or similarly";
+  if (found.closest.empty()) return nothing + "; omnimapper-query MAP list shows what there is\n";
   return nothing + "; closest: " + listed(found.closest) + "\n";
 }
 

@@ -9,13 +9,13 @@
 
 namespace omnimapper::query {
 
-/// "nothing is called 'xyz', nor nearly so; closest: 213, 214": a whole line.
+/// "nothing is called 'xyz' or similarly; closest: '213', '214'", with a line feed.
 std::string nothingCalled(const std::string& text, const Found& found);
-/// Says whether what was found is called so or only nearly so, and of how many it is: a whole line.
+/// A line that says whether the name fits or is only near, and how many landmarks were found.
 std::string foundLine(const std::string& text, const Found& found);
-/// The places with how they match.
+/// The places that were found and how well they match.
 Json matchesJson(const Found& found);
-/// Labels with commas between them.
+/// The labels of the places, separated by commas.
 std::string namesText(const std::vector<map::Place>& places);
 
 }  // namespace omnimapper::query

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-/// A pose that may do, and what speaks against it.
+/// A possible pose and its cost.
 struct Candidate {
   Vector2d at, edge;
   double cost = 0;
@@ -25,20 +25,21 @@ Vector2d turned(const Vector2d& direction, double angle) {
   return {c * direction.x() - s * direction.y(), s * direction.x() + c * direction.y()};
 }
 
-// Unit, or none of a direction that is steep.
+// The horizontal part of a direction as a unit vector; none if the direction is steep.
 std::optional<Vector2d> levelPart(const std::optional<Eigen::Vector3d>& direction) {
   constexpr double kLevel = 0.5;
   if (!direction || direction->head<2>().norm() < kLevel) return std::nullopt;
   return direction->head<2>().normalized();
 }
 
-/// From which side a target is to be looked at.
+/// The side from which a target is approached.
 struct Side {
   Vector2d direction;  // unit, from the target
-  double most_turn;    // [rad] that the pose may stand off that
+  double most_turn;    // [rad] largest deviation of the pose from this direction
 };
 
-// To its free side. What is only a point, as a sign is without a normal, was hung where it was seen from.
+// The free side of a target. A target that is only a point, such as a sign without a normal, is approached from where
+// it was seen.
 Side sideOf(const map::Place& target, const Vector2d& edge, const Vector2d& start) {
   constexpr double kOffFreeSide = 60 * kDegree, kAllAround = 180 * kDegree;
   if (const auto normal = levelPart(target.normal)) return {*normal, kOffFreeSide};
@@ -51,7 +52,7 @@ Side sideOf(const map::Place& target, const Vector2d& edge, const Vector2d& star
 
 std::vector<Candidate> candidatesBefore(const map::Place& target, const Vector2d& start, double wanted) {
   constexpr double kRimStep = 0.25, kTurnStep = 15 * kDegree;
-  constexpr double kOfDistance = 2, kOfTurn = 0.5;  // [m] further along the rim that weigh as much as 1 m, 1 rad
+  constexpr double kOfDistance = 2, kOfTurn = 0.5;  // cost [m along the rim] of 1 m of distance and of 1 rad of turn
   constexpr std::array<double, 9> kFactors{1, 0.9, 1.1, 0.8, 1.25, 0.65, 1.5, 0.5, 2};
   std::vector<Vector2d> rim = rimOf(target.extent, kRimStep);
   if (const auto nearest = nearestPoint(target.extent, start)) rim.insert(rim.begin(), *nearest);
@@ -76,14 +77,15 @@ std::vector<Candidate> candidatesBefore(const map::Place& target, const Vector2d
   return candidates;
 }
 
-// Of all its edges the one that it faces is the nearest, or nearly so, and it does not stand in the target.
+// Whether the candidate does not stand in the target, and the edge that it faces is the nearest one or nearly so.
 bool standsBefore(const map::Place& target, const Candidate& candidate) {
   constexpr double kNearly = 0.8;
   const auto nearest = nearestPoint(target.extent, candidate.at);
   return nearest && (*nearest - candidate.at).norm() >= kNearly * (candidate.edge - candidate.at).norm();
 }
 
-// The wall that a sign hangs on is occupied, and neither is where it is to the centimetre.
+// The wall that a sign hangs on is occupied in the grid, and neither is placed to the centimetre: this length [m]
+// before the target is not checked.
 double toleranceOf(const map::Place& target, const GridMap& grid) {
   constexpr double kLeast = 0.2, kMost = 0.5, kSigmas = 2;
   const double of_sigma = target.sigma ? kSigmas * *target.sigma : 0;

@@ -40,7 +40,7 @@ std::optional<double> numberIn(const std::string& text) {
   return number;
 }
 
-/// The keys of a map_server file with their values; what else YAML may say is not understood.
+/// The keys and values of a map_server file; other elements of YAML are not supported.
 class GridYaml {
  public:
   explicit GridYaml(const std::string& file) : file_(file) {
@@ -74,7 +74,7 @@ class GridYaml {
   std::vector<double> numbers(const std::string& key) const {
     constexpr double kFar = 1e7;
     const std::string list = text(key);
-    if (list.front() != '[' || list.back() != ']') refuseGrid(file_, "\"" + key + "\" is no list of numbers.");
+    if (list.front() != '[' || list.back() != ']') refuseGrid(file_, "\"" + key + "\" is not a list of numbers.");
     std::vector<double> result;
     for (std::size_t begin = 1; begin < list.size();) {
       const std::size_t end = std::min(list.find(',', begin), list.size() - 1);
@@ -92,7 +92,7 @@ class GridYaml {
   }
   double checked(const std::string& key, std::optional<double> value, double least, double most) const {
     if (!value || *value < least || *value > most)
-      refuseGrid(file_, "\"" + key + "\" is no number that a grid can have.");
+      refuseGrid(file_, "\"" + key + "\" is not a number that a grid can have.");
     return *value;
   }
 
@@ -100,7 +100,7 @@ class GridYaml {
   std::map<std::string, std::string> values_;
 };
 
-// The next number of the header, beyond blanks and comments; below zero if there is none.
+// The next number of the header after blanks and comments; negative if there is none.
 std::int64_t headerNumber(std::istream& in) {
   constexpr std::int64_t kLargest = 1'000'000'000;
   const auto isBlank = [](int c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
@@ -117,31 +117,33 @@ std::int64_t headerNumber(std::istream& in) {
 
 struct Pgm {
   int columns = 0, rows = 0, white = 255;
-  std::string pixels;  // from the top
+  std::string pixels;  // rows from the top
 };
 
 Pgm readPgm(const std::string& file) {
   std::ifstream in = base::openInput(file, "occupancy grid");
   char magic[2] = {};
   in.read(magic, 2);
-  if (!in || magic[0] != 'P' || magic[1] != '5') refuseGrid(file, "is no binary PGM: it does not begin with \"P5\".");
+  if (!in || magic[0] != 'P' || magic[1] != '5')
+    refuseGrid(file, "is not a binary PGM: it does not begin with \"P5\".");
   const std::int64_t columns = headerNumber(in), rows = headerNumber(in), white = headerNumber(in);
   if (columns <= 0 || rows <= 0 || white <= 0 || white > 255)
-    refuseGrid(file, "has no header of an 8-bit PGM: width, height and the value of white are to follow \"P5\".");
+    refuseGrid(file, "has no header of an 8-bit PGM: width, height and the value of white must follow \"P5\".");
   if (columns > kMostCells / rows)
-    refuseGrid(file, "claims " + std::to_string(columns) + " x " + std::to_string(rows) + " cells, more than " +
-                         std::to_string(kMostCells) + ".");
+    refuseGrid(file, "has a header of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                         " cells, more than " + std::to_string(kMostCells) + ".");
   const auto start = in.tellg();
   in.seekg(0, std::ios::end);
   const std::int64_t left = in.tellg() - start;
   if (!in || left < columns * rows)
-    refuseGrid(file, "is truncated: its header claims " + std::to_string(columns) + " x " + std::to_string(rows) +
+    refuseGrid(file, "is truncated: its header gives " + std::to_string(columns) + " x " + std::to_string(rows) +
                          " cells, but only " + std::to_string(std::max<std::int64_t>(left, 0)) + " bytes follow.");
   in.seekg(start);
   Pgm pgm{static_cast<int>(columns), static_cast<int>(rows), static_cast<int>(white), {}};
   pgm.pixels.resize(static_cast<std::size_t>(columns * rows));
   in.read(pgm.pixels.data(), static_cast<std::streamsize>(pgm.pixels.size()));
-  if (!in) throw base::Error(base::ExitCode::damaged_input, file + ": cannot be read to its end; is the disk whole?");
+  if (!in)
+    throw base::Error(base::ExitCode::damaged_input, file + ": cannot be read to its end; does the disk have errors?");
   return pgm;
 }
 
@@ -162,7 +164,7 @@ GridMap readGrid(const std::string& folder) {
   std::error_code none;
   if (!fs::exists(file, none))
     refuseGrid(file,
-               "is not there, and without the map's occupancy grid nobody knows what is free. A grid needs a log with "
+               "is missing, and without the map's occupancy grid the free space is not known. A grid needs a log with "
                "a laser.");
   const GridYaml yaml(file);
   constexpr double kSmallest = 1e-3, kLargest = 10;
@@ -170,13 +172,13 @@ GridMap readGrid(const std::string& folder) {
   grid.resolution = yaml.number("resolution", kSmallest, kLargest);
   const auto origin = yaml.numbers("origin");
   if (origin.size() != 3 || origin[2] != 0)
-    refuseGrid(file, "\"origin\" is not x, y and a yaw of 0: grids that are turned are not read.");
+    refuseGrid(file, "\"origin\" is not x, y and a yaw of 0: rotated grids are not supported.");
   grid.lower_left = {origin[0], origin[1]};
   const double free = yaml.number("free_thresh", 0, 1, 0.196), occupied = yaml.number("occupied_thresh", 0, 1, 0.65);
   if (free > occupied)
     refuseGrid(file, "\"free_thresh\" is above \"occupied_thresh\": cells between them would be free and occupied.");
   if (const std::string mode = yaml.text("mode", "trinary"); mode != "trinary")
-    refuseGrid(file, "\"mode\" is " + base::printable(mode.substr(0, 40)) + ": only grids of mode trinary are read.");
+    refuseGrid(file, "\"mode\" is " + base::printable(mode.substr(0, 40)) + ": only mode trinary is supported.");
   const bool negate = yaml.number("negate", 0, 1, 0) != 0;
   const Pgm pgm = readPgm((fs::path(folder) / yaml.text("image")).string());
   GridCell cell_of[256];

@@ -7,7 +7,7 @@ namespace omnimapper::query {
 
 namespace {
 
-// How many bytes the character has that begins there; 1 for what is none.
+// Number of bytes of the character that begins there; 1 for a byte that is not valid UTF-8.
 std::size_t lengthAt(const std::string& text, std::size_t at) {
   const auto lead = static_cast<unsigned char>(text[at]);
   const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;
@@ -16,7 +16,7 @@ std::size_t lengthAt(const std::string& text, std::size_t at) {
   return length;
 }
 
-// Of the Latin, Greek and Cyrillic alphabets.
+// The lower case of a Latin, Greek or Cyrillic letter.
 char32_t small(char32_t c) {
   const bool is_times = c == 0xd7;
   if ((c >= U'A' && c <= U'Z') || (c >= 0xc0 && c <= 0xde && !is_times)) return c + 0x20;
@@ -30,7 +30,7 @@ bool isBlank(char32_t c) {
   return !is_letter || c == 0xa0;
 }
 
-// Letters and digits that are read for each other, in small letters.
+// One representative of the lower-case letters and digits that are confused with each other.
 char32_t lookOf(char32_t c) {
   switch (c) {
     case U'o':

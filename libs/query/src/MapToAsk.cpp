@@ -23,7 +23,7 @@ std::string mapFileAt(const std::string& path) {
   const fs::path map = fs::path(path) / "map.omnimap", checkpoint = fs::path(path) / "checkpoint.omnimap";
   if (!fs::exists(map, none) && fs::exists(checkpoint, none))
     refuseMap(checkpoint,
-              "is the checkpoint of a live run that did not end, which answers no queries. Make a map of it: "
+              "is the checkpoint of a live run that did not end, and has no data for queries. Make a map of it: "
               "omnimapper-graphslam --replay " +
                   path);
   if (!fs::exists(map, none))
@@ -45,7 +45,7 @@ MapToAsk openMap(const std::string& path) {
   if (!section)
     refuseMap(opened.file, "has no section \"" + std::string(map::kPlacesSection) +
                                "\", which queries need: an earlier OmniMapper wrote it, or it is a checkpoint. Map its "
-                               "log again, or go on from it with omnimapper-graphslam --continue.");
+                               "log again, or continue it with omnimapper-graphslam --continue.");
   try {
     opened.places = map::placesFromSection(*section);
   } catch (const base::Error& error) {

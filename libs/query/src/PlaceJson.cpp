@@ -72,7 +72,7 @@ Json answerTo(const std::string& verb, const MapToAsk& map) {
 }
 
 std::string textOf(const Json& document) {
-  // Names from a map may be no UTF-8: those bytes are replaced.
+  // Names from a map may not be valid UTF-8: invalid bytes are replaced.
   return document.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

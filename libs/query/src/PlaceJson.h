@@ -10,13 +10,13 @@ namespace omnimapper::query {
 
 using Json = nlohmann::ordered_json;
 
-/// All that is known of a place. Lengths [m], angles [rad], times ISO 8601 in UTC; null where something is not known.
+/// All data of a place. Lengths [m], angles [rad], times ISO 8601 in UTC; null if not known.
 Json jsonOf(const map::Place& place);
 
-/// A document that begins with the verb and the map, ready for what was asked and the answer.
+/// A document that begins with the verb and the map, to which the query and the answer are added.
 Json answerTo(const std::string& verb, const MapToAsk& map);
 
-/// The document as text: ASCII, one line feed at the end.
+/// The document as ASCII text with one line feed at the end.
 std::string textOf(const Json& document);
 
 }  // namespace omnimapper::query

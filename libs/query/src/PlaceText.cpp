@@ -91,7 +91,7 @@ std::string alignedTable(const std::vector<std::vector<std::string>>& lines) {
 }
 
 std::vector<std::string> placeHeads() {
-  return {"what", "id", "x y z [m]", "extent", "sigma [m]", "seen", "last seen (UTC)", "state"};
+  return {"name", "id", "x y z [m]", "extent", "sigma [m]", "seen", "last seen (UTC)", "state"};
 }
 
 std::vector<std::string> cellsOf(const map::Place& place) {

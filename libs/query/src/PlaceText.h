@@ -7,19 +7,19 @@
 
 namespace omnimapper::query {
 
-/// A name from a map for a terminal: printable, and of a long one the beginning.
+/// A name from a map for a terminal: printable, and shortened if it is long.
 std::string shownName(const std::string& name);
 /// `sign "213"`, `wall`.
 std::string titleOf(const map::Place& place);
 
-/// Lines of cells, each column as wide as its widest cell; the first line has the heads. A column without any text in
-/// it but its head is left out.
+/// A table of lines of cells; the first line has the headings. Each column is as wide as its widest cell, and columns
+/// with only a heading are left out.
 std::string alignedTable(const std::vector<std::vector<std::string>>& lines);
 
-/// The heads of cellsOf().
+/// The headings of cellsOf().
 std::vector<std::string> placeHeads();
-/// What is known of a place, short: what, id, position, extent, how sure, who saw it how often, when last, whether
-/// moved.
+/// A short description of a place: name, id, position, extent, standard deviation, number of measurements by sensor,
+/// time of the last one, and whether it has moved.
 std::vector<std::string> cellsOf(const map::Place& place);
 
 /// "2026-11-28 13:05:09", UTC; empty for no stamp.

@@ -13,7 +13,8 @@ using Eigen::Vector2i;
 
 constexpr int kMostCellsOfRadius = 10000;
 
-// In each row the cells to the nearest one that is not free, 0 for those themselves; beyond the grid nothing is free.
+// For each cell the distance along its row to the nearest cell that is not free, 0 for those themselves; outside the
+// grid nothing is free.
 std::vector<std::uint16_t> cellsToBlocked(const GridMap& grid) {
   constexpr int kFarthest = std::numeric_limits<std::uint16_t>::max();
   std::vector<std::uint16_t> result(grid.cells.size());
@@ -34,8 +35,8 @@ std::vector<std::uint16_t> cellsToBlocked(const GridMap& grid) {
   return result;
 }
 
-// Half widths of a disc in the rows from its middle up, half a cell larger than the robot: a cell that is not free is
-// not free up to its edge.
+// Half widths of a disc in the rows from its centre up. It is half a cell larger than the robot, because cells that are
+// not free are blocked up to their edges.
 std::vector<int> discOf(double radius_in_cells) {
   const double radius = std::min<double>(radius_in_cells + 0.5, kMostCellsOfRadius);
   std::vector<int> half_widths;

@@ -8,9 +8,9 @@ namespace omnimapper::query {
 
 namespace {
 
-constexpr std::size_t kLongest = 200;   // characters that are compared
-constexpr std::size_t kMostWords = 32;  // that the words of a text are sought among
-constexpr double kPartOfName = 0.05;    // what it costs that a name has more words
+constexpr std::size_t kLongest = 200;   // largest number of characters that are compared
+constexpr std::size_t kMostWords = 32;  // largest number of words of a name that are compared
+constexpr double kPartOfName = 0.05;    // cost of a name with more words
 constexpr std::size_t kShortestAbbreviation = 3;
 
 std::u32string beginningOf(const std::string& text) {
@@ -22,8 +22,8 @@ double relativeCost(const std::u32string& a, const std::u32string& b) {
   return longer > 0 ? editCost(a, b) / longer : 0;
 }
 
-// "conf" for "conference", "ktchn" for "kitchen": the characters of the text in their order are characters of the name,
-// the first of which they share. Of a number nothing may be left out.
+// "conf" for "conference", "ktchn" for "kitchen": the characters of the text appear in this order in the name, and both
+// have the same first character. A number must not be shortened.
 double abbreviationCost(const std::u32string& text, const std::u32string& name) {
   constexpr double kFar = 1, kLeast = 0.15, kOfMissing = 0.3, kLeastShare = 0.4;
   const bool has_digit = std::any_of(text.begin(), text.end(), isDigit);
@@ -37,7 +37,7 @@ double wordCost(const std::u32string& text, const std::u32string& name) {
   return std::min(relativeCost(text, name), abbreviationCost(text, name));
 }
 
-// Each word of the text by that of the name which is nearest, the longer words count more.
+// Each word of the text is compared with the nearest word of the name; longer words have more weight.
 double costOfWords(const std::vector<std::u32string>& text, const std::vector<std::u32string>& name) {
   double sum = 0, length = 0;
   for (const auto& word : text) {
@@ -60,7 +60,8 @@ bool hasDigit(const std::u32string& word) {
   return std::any_of(word.begin(), word.end(), isDigit);
 }
 
-// What is easily taken for a digit is one, but for a letter at the end, which tells doors of one number apart.
+// Replaces letters that are easily confused with digits, except for a letter at the end, which distinguishes doors with
+// the same number.
 std::u32string asNumber(std::u32string word) {
   for (std::size_t i = 0; i < word.size(); ++i) {
     const bool is_last = i + 1 == word.size() && i > 0;
@@ -91,7 +92,7 @@ std::u32string joined(const std::vector<std::u32string>& words) {
   return all;
 }
 
-// Another number is another door: each number of the text, and each letter that stands alone, must be one of the name.
+// Another number is another door: each number and each single letter of the text must occur in the name.
 bool hasNumbersOf(const std::vector<std::u32string>& text, const std::vector<std::u32string>& name) {
   return std::all_of(text.begin(), text.end(), [&](const std::u32string& word) {
     if (!hasDigit(word) && word.size() > 1) return true;
@@ -100,7 +101,7 @@ bool hasNumbersOf(const std::vector<std::u32string>& text, const std::vector<std
   });
 }
 
-// Below, at or above zero as the texts of digits are as numbers.
+// Compares texts of digits by their numbers; returns a value below, at or above zero.
 int compareNumbers(std::u32string_view a, std::u32string_view b) {
   while (a.size() > 1 && a.front() == U'0') a.remove_prefix(1);
   while (b.size() > 1 && b.front() == U'0') b.remove_prefix(1);
@@ -134,7 +135,7 @@ TextMatch AskedText::compare(const std::string& name) const {
   if (other == folded_) return {MatchGrade::same_letters, 0, name};
   const auto words = wordsOf(other);
   const bool has_number = std::any_of(words_.begin(), words_.end(), hasDigit);
-  // Blanks between digits part numbers: "1 12" is not "11 2".
+  // Blanks between digits separate numbers: "1 12" is not "11 2".
   if (!has_number && joined(words_) == joined(words)) return {MatchGrade::same_letters, 0, name};
   if (isPart(words_, words)) return {MatchGrade::part, 0, name};
   double cost = relativeCost(folded_, other);

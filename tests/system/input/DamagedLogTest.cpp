@@ -108,7 +108,7 @@ TEST_F(DamagedLog, AClassNobodyRegisteredEndsTheMapThereAndIsNamed) {
   std::string foreign = bytes_.text;
   foreign.replace(name + prefix.size(), 4, "Tele");  // the length of the name stays
   expectMapOfWhatWasReadable(foreign, object, ExitCode::unregistered_class,
-                             {"CObservationTele", "nobody registered", "load the library"});
+                             {"CObservationTele", "not registered", "load the library"});
 }
 
 TEST_F(DamagedLog, OneDamagedLogOfTwoIsToldAndBothAreMapped) {

@@ -232,7 +232,7 @@ TEST_F(Hostile, AnInputIsNotReplacedByAnOutputOfItsName) {
   const auto bytes = rawlogs::bytesOf(ring()).text;
   fs::create_directories(folder_);
   const std::string log = writeFile(folder_ + "/trajectory.tum", bytes);
-  EXPECT_TRUE(endedWith(ExitCode::command_line, map({log}, folder_), {"trajectory.tum", "would be read and replaced"}));
+  EXPECT_TRUE(endedWith(ExitCode::command_line, map({log}, folder_), {"trajectory.tum", "is an input and would be replaced"}));
   EXPECT_EQ(readFile(log), bytes);
 }
 

@@ -53,7 +53,7 @@ TEST_F(OutputFolder, IsMadeWithItsParents) {
 
 TEST_F(OutputFolder, ThatCannotBeMadeOrWrittenIsRefusedByName) {
   const std::string file = writeFile(scratch_ / "file", "a file");
-  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, file), {file, "is a file, where a folder"}));
+  EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, file), {file, "is a file, but a folder"}));
   for (const std::string& folder : {file + "/below", std::string("/proc/self")}) {
     EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, folder), {folder, "permissions"}));
   }

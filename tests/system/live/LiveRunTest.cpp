@@ -56,12 +56,12 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
   EXPECT_EQ(readFile(again + "/map.omnimap"), readFile(run.out() + "/map.omnimap"));
 
   EXPECT_TRUE(endedWith(ExitCode::unwritable_output, graphslam({"--replay", run.out(), "-o", run.out()}),
-                        {"it is of the live run that is replayed"}));
+                        {"that run is the live run that is replayed"}));
 
   const auto other = runProgram(run.command({"--replay", run.recorded(".journal"), "-o", run.folder / "other", "--set",
                                              "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, other,
-                        {"this run does something else than the live run did",
+                        {"this run departs from the live run",
                          "[trigger] angle_deg (5, was 25), [trigger] distance_m (0.2, was 0.6)"}));
 
   // A recording may come from anybody, who must not have libraries loaded.
@@ -169,7 +169,7 @@ TEST(LiveRun, checksOrRecordsWithoutMapping) {
   EXPECT_TRUE(endedWith(ExitCode::ok, map({rawlogs.front()}, run.folder / "map")));
   const auto ended = check.wait();
   EXPECT_TRUE(endedWith(ExitCode::ok, ended));
-  EXPECT_NE(ended.out.find("Nothing is wrong with it"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("Nothing is wrong with this log"), std::string::npos) << ended.out;
   EXPECT_NE(ended.err.find("a key that its driver CHokuyoURG does not read: poze_z (did you mean pose_z?)"),
             std::string::npos)
       << ended.err;

@@ -83,7 +83,7 @@ TEST_F(CommandLine, MistakesAreAnsweredWithWhatWasMeant) {
       << "with the folder that it has in a checkout, an INI that came with the program is found, too";
   EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"--ouput", out}), {"did you mean --output?"}));
   EXPECT_TRUE(
-      endedWith(ExitCode::command_line, graphslam({"nowhere"}), {"'nowhere' stands without an option; --help"}));
+      endedWith(ExitCode::command_line, graphslam({"nowhere"}), {"'nowhere' is given without an option; --help"}));
   std::ofstream(log) << "a log";
   EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({log}), {"did you mean -r " + log + "?"}));
   EXPECT_TRUE(

@@ -84,7 +84,7 @@ TEST_F(Perceive, WhatCannotBeIsSaid) {
                         {"--set perception.extractors: [perception] extractors"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, perceive(scratch_ / "none.rawlog", derived_), {"none.rawlog"}));
   EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, perceive(raw_, derived_, {"--set", "source.labels=odometry"}),
-                        {"no observation that an extractor"}));
+                        {"no observation from which an extractor"}));
   EXPECT_FALSE(fs::exists(derived_));
   const std::string whole = readFile(raw_);
   writeFile(scratch_ / "cut.rawlog", whole.substr(0, whole.size() / 2));

@@ -125,7 +125,7 @@ TEST_F(Query, OfSignsThatAreAlikeTheNearestToTheStartIsTheGoal) {
     if (!sign.has("Storage")) continue;
     const Vector3d before = inMap(sign.position + sign.normal);
     const auto ended = ask({"goal", "storage", "--from", std::to_string(before.x()), std::to_string(before.y())});
-    EXPECT_NE(ended.out.find("of 2 that fit the one nearest to the start"), std::string::npos) << toString(ended);
+    EXPECT_NE(ended.out.find("of 2 matches the one nearest to the start"), std::string::npos) << toString(ended);
     const auto goal =
         answer({"goal", "storage", "--from", std::to_string(before.x()), std::to_string(before.y())})["goal"];
     EXPECT_LT((Vector3d(goal["x_m"], goal["y_m"], 0) - Vector3d(before.x(), before.y(), 0)).norm(), 1);
@@ -175,7 +175,7 @@ TEST_F(Query, WrongWordsGetTheNearestRightOnes) {
   }
   const auto none = ask({"777"});
   EXPECT_EQ(none.code, kNothingFound);
-  EXPECT_NE(none.err.find("nothing is called '777', nor nearly so; omnimapper-query MAP list says what there is"),
+  EXPECT_NE(none.err.find("nothing is called '777' or similarly; omnimapper-query MAP list shows what there is"),
             std::string::npos);
 }
 
@@ -186,17 +186,17 @@ TEST_F(Query, WhatCannotBeAskedIsAnErrorThatSaysWhy) {
     EXPECT_EQ(ended.err.find('\x1b'), std::string::npos);
     EXPECT_LT(ended.err.size(), 600U) << ended.err;
   };
-  refuses({}, ExitCode::command_line, "after MAP say what to find: TEXT");
+  refuses({}, ExitCode::command_line, "after MAP give what to find: TEXT");
   refuses({""}, ExitCode::command_line, "empty");
   refuses({"a\x1b[31m"}, ExitCode::command_line, "\\x1b");
   refuses({"\xff\xfe"}, ExitCode::command_line, "UTF-8");
   refuses({std::string(100'000, 'a')}, ExitCode::command_line, "100000 bytes");
-  refuses({"near", "nan", "0"}, ExitCode::command_line, "'nan' is no coordinate");
-  refuses({"near", "1", "inf"}, ExitCode::command_line, "'inf' is no coordinate");
+  refuses({"near", "nan", "0"}, ExitCode::command_line, "'nan' is not a coordinate");
+  refuses({"near", "1", "inf"}, ExitCode::command_line, "'inf' is not a coordinate");
   refuses({"near", "1"}, ExitCode::command_line, "");
   refuses({"goal", "118", "--from", "nan", "0"}, ExitCode::command_line, "nan");
   refuses({"goal", "118", "--radius", "-1"}, ExitCode::command_line, "-1");
-  refuses({"118", "list"}, ExitCode::command_line, "stands before the verb");
+  refuses({"118", "list"}, ExitCode::command_line, "is given before the verb");
 }
 
 TEST_F(Query, DamagedFilesAreErrorsThatNameThem) {
@@ -215,7 +215,7 @@ TEST_F(Query, DamagedFilesAreErrorsThatNameThem) {
   refuses(damaged, "section \"places\": its checksum");
   writeFile(folder + "/map.omnimap", bytes);
   EXPECT_EQ(ask({"118"}, folder).code, 0) << "without a grid";
-  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ask({"goal", "118"}, folder), {"grid.yaml: is not there"}));
+  EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ask({"goal", "118"}, folder), {"grid.yaml: is missing"}));
   fs::copy_file(map() + "/grid.yaml", folder + "/grid.yaml");
   writeFile(folder + "/grid.pgm", readFile(map() + "/grid.pgm").substr(0, 1000));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ask({"goal", "118"}, folder), {"grid.pgm: is truncated"}));

@@ -6,8 +6,9 @@
 
 namespace omnimapper::exports {
 
-/// A grid as flat stripes of a 3D scene, at `z` [m], free light and walls dark; what is unknown is not drawn.
-/// Stripes, for MRPT draws textured planes over all else of a scene, whatever is in front.
+/// The grid as flat stripes in a 3D scene at height `z` [m]: free space light, walls dark, unknown cells not drawn.
+/// Stripes are used because MRPT draws textured planes over everything else in a scene, even over objects in front of
+/// them.
 mrpt::opengl::CSetOfTriangles::Ptr gridFloor(const ScanGrid& grid, double z);
 
 }  // namespace omnimapper::exports

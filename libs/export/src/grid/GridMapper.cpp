@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStepsPerCell = 4;
 constexpr double kTiltTolerance = 10 * geometry::kPi / 180;
-constexpr double kMostSteps = 1e15;  // further away a double knows no cells
+constexpr double kMostSteps = 1e15;  // beyond that a double cannot resolve cells
 
 Cell cellOf(std::int32_t log_odds) {
   return log_odds > grid::kOccupiedAbove ? Cell::occupied : log_odds < grid::kFreeBelow ? Cell::free : Cell::unknown;
@@ -33,7 +33,7 @@ void GridMapper::Extent::add(const Extent& other) {
 }
 
 double GridMapper::Extent::cells(double resolution, double margin) const {
-  // Of a side: what it reaches, with a cell at each end that it may only touch.
+  // Number of cells along a side: its length, plus a cell at each end that may be touched only partly.
   const auto along = [&](double length) { return (length + 2 * margin) / resolution + 2; };
   return min_x > max_x ? 0 : along(max_x - min_x) * along(max_y - min_y);
 }
@@ -126,7 +126,7 @@ void GridMapper::takeOut(const std::vector<Placement>& placements) {
 
 bool GridMapper::update(const map::Map& map) {
   ++updates_;
-  std::vector<std::pair<Entry*, std::vector<Placement>>> moved;  // with where it was
+  std::vector<std::pair<Entry*, std::vector<Placement>>> moved;  // with the former placements
   for (const map::KeyFrame& frame : map.key_frames) {
     Entry& entry = entries_[frame.id];
     entry.seen = updates_;
@@ -172,7 +172,7 @@ std::optional<ScanGrid> GridMapper::scanGrid() const {
   result.cells.assign(static_cast<std::size_t>(result.columns) * result.rows, Cell::unknown);
   constexpr int kSide = grid::OccupancyGrid::kTileSide;
   for (const auto& [index, tile] : grid_.tiles()) {
-    // Where the tile is in the result; at its edges a part of it.
+    // Position of the tile in the result; at the border only a part of the tile lies within.
     const std::int64_t x = index.x * kSide - left, y = index.y * kSide - low;
     const auto begin_x = static_cast<int>(std::max<std::int64_t>(0, -x));
     const auto end_x = static_cast<int>(std::min<std::int64_t>(kSide, result.columns - x));

@@ -36,14 +36,14 @@ void GridOutput::finish(const mapper::View& view) {
   const auto grid =
       buildScanGrid(view.map, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
   if (!grid) return;
-  constexpr double kCoarsest = 1;  // [m] above it no wall is told from another
+  constexpr double kCoarsest = 1;  // [m] in coarser cells walls cannot be distinguished
   if (grid->resolution > std::max(kCoarsest, options_.resolution)) {
     throw base::Error(base::ExitCode::out_of_memory,
                       path_ + ".pgm: not written: the map is " + base::brief(grid->maxX() - grid->min_x) + " m by " +
-                          base::brief(grid->maxY() - grid->min_y) + " m, for which " +
-                          std::to_string(options_.max_megacells) + " million cells would be of " +
+                          base::brief(grid->maxY() - grid->min_y) + " m; with " +
+                          std::to_string(options_.max_megacells) + " million cells a cell would be as wide as " +
                           base::brief(grid->resolution) +
-                          " m. Does the trajectory leap? If not, raise [grid] max_megacells.");
+                          " m. Does the trajectory jump? If not, raise [grid] max_megacells.");
   }
   writeBytes(path_ + ".pgm", encodePgm(*grid));
   writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));

@@ -16,8 +16,8 @@ struct GridOptions {
   static const base::OptionTable<GridOptions>& table();
 };
 
-/// Writes the occupancy grid of the 2D scans: grid.pgm and grid.yaml as ROS map_server reads them, and grid.png to look
-/// at. A map without scans gives no grid and no file.
+/// Writes the occupancy grid of the 2D scans: grid.pgm and grid.yaml for ROS map_server, and grid.png for viewing. A
+/// map without scans has no grid, and no file is written.
 class GridOutput : public mapper::OutputPlugin {
  public:
   GridOutput(const GridOptions& options, const mapper::PluginContext& context);

@@ -10,7 +10,7 @@ namespace omnimapper::exports {
 namespace {
 
 constexpr draw::Rgb kUnknown{226, 231, 237}, kFree{255, 255, 255}, kWall{24, 33, 47};
-/// Shades from unknown to free, and from there to wall, for pixels that hold several cells.
+/// Number of shades from unknown to free, and from there to wall, for pixels that cover several cells.
 constexpr int kShades = 8;
 
 constexpr std::uint8_t shade(int free, int wall) {
@@ -30,7 +30,8 @@ std::vector<draw::Rgb> palette() {
   return colours;
 }
 
-/// The shade of a square of cells. A wall one cell wide through it is enough for black; single cells are grey.
+/// The shade of a square of cells. A wall through it that is one cell wide makes it black; single occupied cells make
+/// it grey.
 std::uint8_t shadeOf(const ScanGrid& grid, int column, int row, int block) {
   const int end_column = std::min(column + block, grid.columns), end_row = std::min(row + block, grid.rows);
   int free = 0, walls = 0;
@@ -44,7 +45,7 @@ std::uint8_t shadeOf(const ScanGrid& grid, int column, int row, int block) {
   return shade((kShades * free + block * block - 1) / (block * block), std::min(kShades, kShades * walls / block));
 }
 
-/// `block` cells to a pixel, then each pixel `zoom` times as large.
+/// Draws `block` cells per pixel, and each pixel `zoom` times as large.
 GridPicture draw(const ScanGrid& grid, int block, int zoom) {
   GridPicture picture;
   picture.metres_per_pixel = grid.resolution * block / zoom;
@@ -56,7 +57,8 @@ GridPicture draw(const ScanGrid& grid, int block, int zoom) {
   image.height = rows * zoom;
   image.palette = palette();
   image.pixels.resize(static_cast<std::size_t>(image.width) * image.height);
-  constexpr std::uint8_t kShadeOfCell[] = {shade(0, 0), shade(kShades, 0), shade(kShades, kShades)};  // as Cell counts
+  constexpr std::uint8_t kShadeOfCell[] = {shade(0, 0), shade(kShades, 0),
+                                           shade(kShades, kShades)};  // in the order of Cell
   for (int row = 0; row < rows; ++row) {
     auto line = image.pixels.begin() + static_cast<std::ptrdiff_t>(rows - 1 - row) * zoom * image.width;
     for (int column = 0; column < columns; ++column) {
@@ -69,8 +71,8 @@ GridPicture draw(const ScanGrid& grid, int block, int zoom) {
   return picture;
 }
 
-/// First and last index that are left when `share` of the sum of `counts` is cut off at each end. An end is cut only
-/// where that leaves out more than a tenth as much again as is left.
+/// First and last index that remain when `share` of the sum of `counts` is cut off at each end. An end is only cut if
+/// that shortens the range by more than a tenth of what remains.
 std::pair<int, int> trimmed(const std::vector<double>& counts, double share) {
   const double most = share * std::accumulate(counts.begin(), counts.end(), 0.0);
   int lowest = 0, highest = static_cast<int>(counts.size()) - 1;

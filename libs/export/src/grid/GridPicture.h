@@ -10,7 +10,7 @@
 
 namespace omnimapper::exports {
 
-/// A grid as a picture, +y up, in the colours of the project: free light, walls dark.
+/// A grid as a picture, +y up, in the colours of the project: free space light, walls dark.
 struct GridPicture {
   draw::PaletteImage image;
   double metres_per_pixel = 0;
@@ -23,17 +23,17 @@ struct GridPicture {
   double minY() const { return max_y - image.height * metres_per_pixel; }
 };
 
-/// One pixel for each cell.
+/// Draws the grid with one pixel for each cell.
 GridPicture drawGrid(const ScanGrid& grid);
-/// Scaled by whole numbers so that the longer side comes near `side` pixels. Where several cells fall on one pixel, it
-/// is as light as many of them are known, and black if a wall one cell wide goes through, so that walls stay closed,
-/// thin and smooth.
+/// Draws the grid scaled by a whole number so that the longer side is close to `side` pixels. A pixel that covers
+/// several cells is the lighter the more of them are known, and black if a wall one cell wide passes through it, so
+/// that walls stay closed, thin and smooth.
 GridPicture drawGridToSize(const ScanGrid& grid, int side);
 
-/// The part of a grid that holds what is known and the given places [m]. To each of the four sides the outermost 0.5 %
-/// of what is known are left out where they reach out by more than a tenth of the rest: a few beams through windows do
-/// not make a picture of a building small. Around it lies a margin, unknown where the grid ends, wide enough at the
-/// lower side that the scale bar covers nothing.
+/// The part of a grid that contains the known cells and the given places [m]. At each side the outermost 0.5 % of the
+/// known cells are cut off if that shortens the picture by more than a tenth of the rest, so that a few beams through
+/// windows do not make a building small in the picture. A margin surrounds this part, unknown outside the grid, and
+/// wide enough at the lower side for the scale bar.
 ScanGrid focused(const ScanGrid& grid, const std::vector<mrpt::math::TPoint3D>& places);
 
 }  // namespace omnimapper::exports

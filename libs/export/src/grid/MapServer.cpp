@@ -5,7 +5,7 @@
 namespace omnimapper::exports {
 
 std::string encodePgm(const ScanGrid& grid) {
-  constexpr unsigned char kLevels[] = {205, 254, 0};  // as Cell counts: unknown, free, occupied
+  constexpr unsigned char kLevels[] = {205, 254, 0};  // in the order of Cell: unknown, free, occupied
   std::string out = "P5\n" + std::to_string(grid.columns) + " " + std::to_string(grid.rows) + "\n255\n";
   out.reserve(out.size() + grid.cells.size());
   for (int row = grid.rows - 1; row >= 0; --row) {
@@ -20,8 +20,8 @@ std::string encodeMapServerYaml(const ScanGrid& grid, const std::string& image, 
   std::string out;
   if (grid.resolution > asked_resolution) {
     out += "# Warning: cells of " + base::brief(asked_resolution) +
-           " m were asked for; the map is so large that they are " + base::brief(grid.resolution) +
-           " m here. Raise max_megacells to change that.\n";
+           " m were requested, but the map is so large that they are " + base::brief(grid.resolution) +
+           " m. Raise max_megacells to change that.\n";
   }
   out += "image: " + image + "\n";
   out += "resolution: " + base::brief(grid.resolution, 9) + "\n";

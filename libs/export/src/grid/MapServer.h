@@ -6,10 +6,10 @@
 
 namespace omnimapper::exports {
 
-/// A grid in the form of ROS map_server: an 8-bit PGM, row 0 at the top (largest y), 254 free, 0 occupied, 205 unknown,
-/// and the YAML that says where it lies.
+/// A grid for ROS map_server: an 8-bit PGM, row 0 at the top (largest y), 254 free, 0 occupied, 205 unknown.
 std::string encodePgm(const ScanGrid& grid);
-/// `asked_resolution` [m]: a comment says so where the grid had to be made coarser.
+/// The YAML with the place of the grid. If the cells had to be made coarser than `asked_resolution` [m], a comment says
+/// so.
 std::string encodeMapServerYaml(const ScanGrid& grid, const std::string& image, double asked_resolution);
 
 }  // namespace omnimapper::exports

@@ -13,7 +13,8 @@ namespace {
 
 constexpr draw::Rgb kInk{24, 33, 47};
 
-/// A character as strokes in a box 4 wide and 6 high, y down. Lengths are 1, 2 or 5 times a power of ten.
+/// Strokes of a character in a box 4 wide and 6 high, y down. It has the digits of lengths that are 1, 2 or 5 times a
+/// power of ten.
 std::vector<std::vector<draw::PixelPoint>> strokesOf(char character) {
   switch (character) {
     case '0':
@@ -44,7 +45,7 @@ void drawScaleBar(draw::Image& image, const GridPicture& grid) {
   const double length = scaleBarLength(image.width * grid.metres_per_pixel);
   const double size = std::max(image.width, image.height) / 60.0, pen = std::max(1.5, size / 8);
   const double left = size, right = left + length / grid.metres_per_pixel, y = image.height - size;
-  // A light ground, so that it is read over walls too.
+  // A light background, so that the text can be read over walls, too.
   const double middle = y - 0.4 * size, end = right + 5.5 * size;
   drawLine(image, {left, middle}, {end, middle}, {{255, 255, 255}, 2 * size, 0.85});
   drawPath(image, {{left, y - 0.5 * size}, {left, y}, {right, y}, {right, y - 0.5 * size}}, {kInk, pen});

@@ -8,12 +8,12 @@
 
 namespace omnimapper::exports {
 
-/// How an occupancy grid is made of the scans of a map.
+/// Options for building an occupancy grid from the scans of a map.
 struct ScanGridOptions {
   double resolution = 0.05;  ///< [m] side of a cell
-  double max_range = 30.0;   ///< [m] of a beam: beyond it nothing is entered
-  double margin = 0.5;       ///< [m] of unknown cells around what was seen
-  double max_cells = 40e6;   ///< margin included; a larger extent gets coarser cells
+  double max_range = 30.0;   ///< [m] beams are entered up to this length
+  double margin = 0.5;       ///< [m] width of unknown cells around the observed area
+  double max_cells = 40e6;   ///< limit including the margin; a larger extent gets coarser cells
 };
 
 enum class Cell : std::uint8_t { unknown, free, occupied };
@@ -30,8 +30,8 @@ struct ScanGrid {
   double maxY() const { return min_y + rows * resolution; }
 };
 
-/// The grid of all 2D scans of the key frames, free space traced; none if no scan has a valid beam. Scans that look
-/// more than 10 deg out of the horizontal are left out. The resolution is doubled until the grid has at most max_cells.
+/// The grid of all 2D scans of the key frames, with free space traced along the beams; none if no scan has a valid
+/// beam. Scans tilted by more than 10 deg are left out. The resolution is doubled until the grid has at most max_cells.
 std::optional<ScanGrid> buildScanGrid(const map::Map& map, const ScanGridOptions& options);
 
 }  // namespace omnimapper::exports

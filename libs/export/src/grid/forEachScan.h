@@ -7,7 +7,7 @@
 
 namespace omnimapper::exports {
 
-/// Calls `use(scan)` for each 2D scan of a key frame, with a pointer that shares it.
+/// Calls `use(scan)` for each 2D scan of a key frame; `scan` is a shared pointer.
 template <class Use>
 void forEachScan(const map::KeyFrame& frame, const Use& use) {
   for (const auto& observation : frame.observations) {

@@ -22,14 +22,14 @@ map::Extent extentOf(const map::LandmarkShape& shape, const Vector3d& position) 
   map::Extent extent{
       std::move(plan.points), std::move(plan.lines), std::move(plan.areas), fromAbove(holes).areas, 0, 0};
   if (extent.points.empty() && extent.lines.empty() && extent.outlines.empty())
-    extent.points.emplace_back(position.head<2>());  // too small to be seen from above
+    extent.points.emplace_back(position.head<2>());  // too small to have an outline from above
   const Eigen::AlignedBox3d box = boxOf(shape);
   extent.bottom = box.min().z();
   extent.top = box.max().z();
   return extent;
 }
 
-// The middle of its surfaces, if it has none of its lines, else of its points.
+// The centre of its surfaces, else of its lines, else of its points.
 Vector3d middleOf(const map::LandmarkShape& shape) {
   Vector3d sum = Vector3d::Zero();
   double weight = 0;
@@ -40,7 +40,7 @@ Vector3d middleOf(const map::LandmarkShape& shape) {
   for (const auto& surface : shape.surfaces) {
     const auto& corners = surface.vertices;
     const Vector3d normal = geometry::areaVector(surface).normalized();
-    // Triangles with the first corner; where the outline turns inwards their areas are negative.
+    // Triangles that share the first corner; where the outline is concave their areas are negative.
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const double twice = (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]).dot(normal);
       add((corners[0] + corners[i - 1] + corners[i]) / 3, twice / 2);
@@ -62,7 +62,7 @@ Vector3d positionOf(const map::LandmarkShape& shape) {
   return shape.points[static_cast<std::size_t>(std::max_element(stamps.begin(), stamps.end()) - stamps.begin())];
 }
 
-// How the distance of a point from the plane or line that a variable is changes with its tangent.
+// Derivative of the distance between `point` and a plane or line variable with respect to the variable's tangent.
 Eigen::RowVectorXd distanceJacobian(const graph::Variable& kind, const Eigen::VectorXd& value, const Vector3d& point) {
   constexpr double kStep = 1e-6;
   const auto distance = [&](double step, int axis) {
@@ -110,10 +110,11 @@ void addSigma(const map::Landmark& landmark, const mapper::State& state, map::Pl
 
 using FramesByPose = std::unordered_map<base::VariableId, const map::KeyFrame*>;
 
-// None where it was seen from all around: then the directions to where the base was largely cancel each other.
+// Mean horizontal direction from the landmark to the poses that measured it. None if it was seen from all around,
+// because the directions then largely cancel.
 std::optional<Vector3d> seenFrom(const map::Landmark& landmark, const mapper::State& state, const FramesByPose& frames,
                                  const Vector3d& position) {
-  constexpr double kOneSided = 0.5;  // of the mean of unit directions
+  constexpr double kOneSided = 0.5;  // smallest length of the mean of unit directions
   Vector3d sum = Vector3d::Zero();
   double count = 0;
   for (const auto factor : state.factorsOf(landmark.id)) {
@@ -136,7 +137,7 @@ bool allHaveVariables(const map::Landmark& landmark, const graph::Graph& graph) 
                      [&](const auto variable) { return graph.contains(variable); });
 }
 
-constexpr char kOfSensors[] = "seen_by_";  // map::seenByKey(), which Place::seen_by has
+constexpr char kOfSensors[] = "seen_by_";  // prefix of map::seenByKey(); these counts go into Place::seen_by
 
 map::Place placeOf(const ShapedLandmark& shaped, const mapper::State& state, const FramesByPose& frames) {
   const map::Landmark& landmark = *shaped.landmark;

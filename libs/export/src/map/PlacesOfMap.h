@@ -5,8 +5,8 @@
 
 namespace omnimapper::exports {
 
-/// What a map answers when it is asked by name: the landmarks that outputs show and that are somewhere, and where the
-/// base is at the end of the newest session that is joined to the map.
+/// The places that a map is queried by: the landmarks that outputs show and that have a position, and the last pose of
+/// the newest session that is joined to the map.
 map::Places placesOf(const mapper::State& state);
 
 }  // namespace omnimapper::exports

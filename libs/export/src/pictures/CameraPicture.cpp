@@ -31,10 +31,10 @@ namespace {
 using mrpt::obs::CObservation3DRangeScan;
 using Walk = std::vector<draw::PixelPoint>;
 
-constexpr double kNearestDrawn = 0.01;  // [m] nothing nearer is drawn
+constexpr double kNearestDrawn = 0.01;  // [m] nearer points are not drawn
 constexpr draw::Rgb kBlack{0, 0, 0};
 
-/// Where points of the sensor's frame (x forward, y left, z up) [m] are in the picture.
+/// Projects points in the sensor frame (x forward, y left, z up) [m] into the picture.
 class Projection {
  public:
   explicit Projection(const mrpt::img::TCamera& camera)
@@ -84,7 +84,7 @@ draw::Image colourPicture(const mrpt::img::CImage& colours) {
   return picture;
 }
 
-// In inverse depth, for as much of the picture to be seen near as far.
+// Grey values are proportional to inverse depth, so that near and far parts are equally visible.
 draw::Image depthPicture(const CObservation3DRangeScan& scan) {
   draw::Image picture(static_cast<int>(scan.rangeImage.cols()), static_cast<int>(scan.rangeImage.rows()), kBlack);
   int nearest = 65535;
@@ -126,7 +126,7 @@ void drawPlanes(draw::Image& picture, const Projection& project, const obs::CObs
     fillAreas(picture, walks, {indexRgb(i), 0, 0.4});
     for (const auto& walk : walks) drawClosed(picture, walk, {indexRgb(i), 2});
   }
-  // Over all the areas, so that none hides an arrow.
+  // Arrows are drawn after all areas, so that no area hides one.
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
     const auto& plane = found.planes[i];
     const double length = std::clamp(0.3 * std::sqrt(geometry::area(plane.outline)), 0.05, 0.5);  // [m]
@@ -173,13 +173,13 @@ void drawCloud(draw::Image& picture, const Projection& project, const mrpt::maps
   drawPoints(picture, project, points, {colour, 2});
 }
 
-/// How a cloud is drawn, and its name in the legend.
+/// Colour of a cloud and its name in the legend.
 struct CloudStyle {
   draw::Rgb colour;
   std::string name;
 };
 
-// Edges by their kind, as thesis figure 4 has them; other clouds by their number.
+// Edges are coloured by kind as in thesis figure 4, other clouds by their index.
 CloudStyle styleOfCloud(const std::string& label, std::size_t index) {
   static const std::map<perception::EdgeKind, draw::Rgb> kinds{{perception::kBoundary, {40, 80, 255}},
                                                                {perception::kOccluding, {0, 220, 0}},
@@ -202,18 +202,18 @@ draw::Image drawCameraPicture(const CObservation3DRangeScan& scan,
   const Projection project(scan.cameraParams);
   std::size_t clouds = 0;
   std::vector<LegendRow> legend;
-  const auto tell = [&](std::size_t count, draw::Rgb colour, const std::string& text) {
+  const auto addRow = [&](std::size_t count, draw::Rgb colour, const std::string& text) {
     if (count > 0) legend.push_back({colour, text});
   };
   for (const auto& observation : derived) {
     if (const auto* planes = dynamic_cast<const obs::CObservationPlanes*>(observation.get())) {
       drawPlanes(picture, project, *planes);
       const std::size_t n = planes->planes.size();
-      tell(n, indexRgb(0), std::to_string(n) + " planes, a colour each: outline, holes, normal");
+      addRow(n, indexRgb(0), std::to_string(n) + " planes, a colour each: outline, holes, normal");
     } else if (const auto* objects = dynamic_cast<const obs::CObservationObjects*>(observation.get())) {
       drawObjects(picture, project, *objects);
       const std::size_t n = objects->objects.size();
-      tell(n, indexRgb(0), std::to_string(n) + " objects, a colour each: points, box");
+      addRow(n, indexRgb(0), std::to_string(n) + " objects, a colour each: points, box");
     } else if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get())) {
       drawMarkers(picture, scan.cameraParams, geometry::fromMrpt(scan.sensorPose), *markers, legend);
     } else if (const auto* signs = dynamic_cast<const obs::CObservationDoorSigns*>(observation.get())) {
@@ -222,7 +222,7 @@ draw::Image drawCameraPicture(const CObservation3DRangeScan& scan,
       if (!cloud->pointcloud) continue;
       const CloudStyle style = styleOfCloud(cloud->sensorLabel, clouds++);
       drawCloud(picture, project, *cloud->pointcloud, style.colour);
-      tell(cloud->pointcloud->size(), style.colour, style.name);
+      addRow(cloud->pointcloud->size(), style.colour, style.name);
     }
   }
   drawLegend(picture, legend);

@@ -7,7 +7,7 @@
 
 namespace omnimapper::exports {
 
-/// The colour in which RawLogViewer draws the thing with that index: obs::indexColour().
+/// The colour in which RawLogViewer draws the item with that index: obs::indexColour().
 inline draw::Rgb indexRgb(std::size_t index) {
   const auto colour = obs::indexColour(index);
   return {colour.R, colour.G, colour.B};

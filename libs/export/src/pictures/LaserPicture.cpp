@@ -14,7 +14,7 @@ namespace omnimapper::exports {
 
 namespace {
 
-constexpr int kSide = 800;  // of the picture [px]
+constexpr int kSide = 800;  // [px] width and height of the picture
 constexpr int kMostSquares = 100;
 constexpr draw::Rgb kGround{255, 255, 255}, kSquares{225, 225, 225}, kPoints{130, 130, 130}, kSensor{0, 0, 0};
 
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector2d> pointsOf(const mrpt::obs::CObservation2DRangeScan& 
   return points;
 }
 
-/// The square of the plane that is in the picture.
+/// The square part of the plane that the picture shows.
 class View {
  public:
   explicit View(const std::vector<Eigen::Vector2d>& points) {
@@ -49,7 +49,7 @@ class View {
   double scale_;  // [px / m]
 };
 
-// Of 1 m, or of 10, 100 and so on in a wide view, so that there are at most kMostSquares in a row.
+// Draws squares of 1 m, or of 10, 100 and so on in a wide view, so that there are at most kMostSquares in a row.
 // Returns their side [m].
 double drawSquares(draw::Image& picture, const View& view) {
   const Eigen::Vector2d low = view.lowest(), high = view.highest();

@@ -7,18 +7,18 @@
 
 namespace omnimapper::exports {
 
-/// What a colour of a picture means.
+/// A colour of a picture and its meaning.
 struct LegendRow {
   draw::Rgb colour;
   std::string text;
 };
 
-/// Adds what the colours mean below the picture, which grows by that, in as many columns as are asked for and have
-/// room. Letters are `scale` times 6 by 13 px. A picture that is too small for it stays as it is.
+/// Adds a legend below the picture, which becomes higher, in up to `columns` columns as far as there is room. Letters
+/// are `scale` times 6 by 13 px. A picture that is too small for the legend is not changed.
 void drawLegend(draw::Image& picture, const std::vector<LegendRow>& rows, int columns = 1, int scale = 1);
 
-/// Writes a word on a light ground, its upper left corner there [px], or as near as the picture has room for it; a
-/// picture smaller than the word keeps what it shows.
+/// Writes a text on a light background with its upper left corner at (left, top) [px], or as close to it as the picture
+/// has room; a picture smaller than the text is not changed.
 void drawLabel(draw::Image& picture, int left, int top, const std::string& text);
 
 }  // namespace omnimapper::exports

@@ -19,7 +19,7 @@ draw::Rgb colourOf(int number) {
   return indexRgb(static_cast<std::size_t>(std::max(0, number)));
 }
 
-// In the sensor's frame, x forward, y left, z up [m]; MRPT's pitch is down.
+// The measured point in the sensor frame, x forward, y left, z up [m]; MRPT's pitch is positive downwards.
 Eigen::Vector3d pointInSensor(const mrpt::obs::CObservationBearingRange::TMeasurement& measured) {
   const double level = measured.range * std::cos(measured.pitch);
   return {level * std::cos(measured.yaw), level * std::sin(measured.yaw), -measured.range * std::sin(measured.pitch)};
@@ -33,7 +33,7 @@ void drawMarkers(draw::Image& picture, const mrpt::img::TCamera& camera, const g
   std::size_t drawn = 0;
   for (const auto& measured : found.sensedData) {
     const auto pixel = perception::pixelOf(camera, camera_from_finder * pointInSensor(measured));
-    // Far outside nothing of it is seen, and its place may be no pixel at all.
+    // A point far outside the picture is skipped: its pixel may not even be representable.
     if (!pixel || !(pixel->cwiseAbs().maxCoeff() < 2 * std::max(picture.width, picture.height))) continue;
     ++drawn;
     const draw::PixelPoint place{pixel->x() + 0.5, pixel->y() + 0.5};

@@ -11,9 +11,8 @@
 
 namespace omnimapper::exports {
 
-/// Draws a dot where the camera of the picture sees each marker, and its number beside it; colours are those of the
-/// numbers. `base_from_camera` has x forward, y left, z up. Draws none, and
-/// says none, for a camera without calibration. Adds what they mean to `legend`.
+/// Draws a dot where the camera sees each marker, with its number beside it and in the colour of that number, and adds
+/// a row to `legend`. `base_from_camera` has x forward, y left, z up. Draws nothing for a camera without calibration.
 void drawMarkers(draw::Image& picture, const mrpt::img::TCamera& camera, const geometry::Se3& base_from_camera,
                  const mrpt::obs::CObservationBearingRange& found, std::vector<LegendRow>& legend);
 

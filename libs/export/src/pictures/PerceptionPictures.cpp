@@ -26,7 +26,7 @@ std::optional<draw::Image> draw(const mrpt::obs::CObservation& raw,
   return std::nullopt;
 }
 
-// A label may hold what no file is called.
+// Labels may contain characters that file names cannot have.
 std::string fileName(const mrpt::obs::CObservation& raw) {
   std::string name = raw.sensorLabel + "_" + base::formatUnix(raw.timestamp, 6);
   std::replace_if(

@@ -11,14 +11,14 @@ namespace omnimapper::exports {
 
 void drawSigns(draw::Image& picture, const obs::CObservationDoorSigns& found, std::vector<LegendRow>& legend) {
   constexpr double kSure = 0.9;
-  constexpr int kLine = 14;  // [px] from one text to the next
+  constexpr int kLine = 14;  // [px] distance between lines of text
   const draw::Rgb sure{20, 160, 40}, not_sure{230, 130, 0};
   const auto farthest = static_cast<float>(2 * std::max(picture.width, picture.height));
   std::size_t drawn = 0, read = 0;
   for (const auto& sign : found.signs) {
     const bool is_near =
         std::all_of(sign.corners_px.begin(), sign.corners_px.end(), [&](const Eigen::Vector2f& corner) {
-          return corner.cwiseAbs().maxCoeff() < farthest;  // false for no number, too
+          return corner.cwiseAbs().maxCoeff() < farthest;  // also false for NaN
         });
     if (!is_near) continue;
     ++drawn;
@@ -37,8 +37,8 @@ void drawSigns(draw::Image& picture, const obs::CObservationDoorSigns& found, st
       top += kLine;
     }
   }
-  if (read > 0) legend.push_back({sure, base::counted(read, "sign") + " of which a text is sure: outline, texts"});
-  if (drawn > read) legend.push_back({not_sure, base::counted(drawn - read, "sign") + " of which no text is sure"});
+  if (read > 0) legend.push_back({sure, base::counted(read, "sign") + " with a certain text: outline, texts"});
+  if (drawn > read) legend.push_back({not_sure, base::counted(drawn - read, "sign") + " without a certain text"});
 }
 
 }  // namespace omnimapper::exports

@@ -9,8 +9,8 @@
 
 namespace omnimapper::exports {
 
-/// Draws the outline of each sign on the image in which it was found, and below it its texts with how likely each is
-/// right: green where one of them is sure (0.9), orange where none is. Adds what that means to `legend`.
+/// Draws the outline of each sign on the image in which it was found, and below it its texts with their confidences:
+/// green if one of them is certain (confidence 0.9 or more), else orange. Adds rows to `legend`.
 void drawSigns(draw::Image& picture, const obs::CObservationDoorSigns& found, std::vector<LegendRow>& legend);
 
 }  // namespace omnimapper::exports

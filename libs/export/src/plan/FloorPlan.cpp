@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastOfPlan = 1e-3;  // [m]
 
-// The line that an upright surface stands on: as long as the surface, in the middle of what lean it has.
+// The line that an upright surface stands on: as long as the surface, at the mean of its vertices if it is tilted.
 PlanLine baseLine(const geometry::Polygon3& surface, const Eigen::Vector3d& area_vector) {
   const PlanPoint across = area_vector.head<2>().normalized(), along(-across.y(), across.x());
   double low = std::numeric_limits<double>::infinity(), high = -low, offset = 0;
@@ -32,7 +32,7 @@ void addLine(PlanShape& plan, const PlanLine& line) {
 }
 
 void addSurface(PlanShape& plan, const geometry::Polygon3& surface) {
-  constexpr double kUpright = 0.34;  // of the normal's height: 20 deg off
+  constexpr double kUpright = 0.34;  // largest z of the normal of an upright surface: 20 deg of tilt
   const Eigen::Vector3d area_vector = geometry::areaVector(surface);
   if (std::abs(area_vector.z()) < kUpright * area_vector.norm()) {
     addLine(plan, baseLine(surface, area_vector));
@@ -62,7 +62,8 @@ PlanShape fromAbove(const map::LandmarkShape& shape) {
 double doubledArea(const PlanArea& walk) {
   double sum = 0;
   for (std::size_t i = 0, j = walk.size() - 1; i < walk.size(); j = i++) {
-    const PlanPoint a = walk[j] - walk[0], b = walk[i] - walk[0];  // small numbers: less is lost
+    const PlanPoint a = walk[j] - walk[0],
+                    b = walk[i] - walk[0];  // relative to the first corner, which loses less precision
     sum += a.x() * b.y() - a.y() * b.x();
   }
   return sum;

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Positions as they stand in the file.
+/// Converts positions to the coordinates of the file.
 class Positions {
  public:
   explicit Positions(std::optional<mapper::EarthFrame> earth) : earth_(std::move(earth)) {}
@@ -46,7 +46,7 @@ std::string isoTime(base::Stamp stamp) {
   return text;
 }
 
-// A measure or a count as a number, so that a GIS can sort and style by it; what is written on a sign stays a text.
+// Measures and counts become numbers, so that a GIS can sort and style by them; the text of a sign remains a text.
 Json valueOf(const std::string& name, const std::string& text) {
   if (name == "number" || name == "words") return text;
   const char* const end = text.data() + text.size();
@@ -59,7 +59,7 @@ Json valueOf(const std::string& name, const std::string& text) {
   return text;
 }
 
-// A walk without the positions that rounding made equal to the one before.
+// A path without the positions that rounding made equal to the one before.
 Json walkOf(const std::vector<PlanPoint>& points, const Positions& at) {
   Json walk = Json::array();
   for (const auto& point : points) {
@@ -73,7 +73,7 @@ Json asGeometry(const char* type, Json coordinates) {
   return {{"type", type}, {"coordinates", std::move(coordinates)}};
 }
 
-// One thing, or several of a kind as one geometry.
+// Adds a single geometry, or several of the same type as one Multi geometry.
 void addParts(std::vector<Json>& geometries, const std::string& type, Json list) {
   if (list.size() == 1) geometries.push_back(asGeometry(type.c_str(), std::move(list.front())));
   if (list.size() > 1) geometries.push_back(asGeometry(("Multi" + type).c_str(), std::move(list)));
@@ -91,7 +91,7 @@ Json ringsOf(const PlanShape& plan, const Positions& at) {
   return polygons;
 }
 
-/// Null if nothing of it is left from above.
+/// Null if nothing of the shape is visible from above.
 Json geometryOf(const map::LandmarkShape& shape, const Positions& at) {
   const PlanShape plan = fromAbove(shape);
   std::vector<Json> geometries;
@@ -101,10 +101,10 @@ Json geometryOf(const map::LandmarkShape& shape, const Positions& at) {
     Json line = walkOf({from, to}, at);
     if (line.size() > 1) lines.push_back(std::move(line));
   }
-  // A thing that was in several places one after the other went this way.
-  const bool went = shape.point_stamps.size() > 1;
+  // A landmark that was in several places one after the other becomes a line through them.
+  const bool has_track = shape.point_stamps.size() > 1;
   for (const auto& point : plan.points) points.push_back(at(point));
-  if (went && plan.points.size() == shape.point_stamps.size()) {
+  if (has_track && plan.points.size() == shape.point_stamps.size()) {
     lines.push_back(std::move(points));
     points = Json::array();
   }
@@ -139,17 +139,17 @@ Json propertiesOf(const ShapedLandmark& shaped) {
   return properties;
 }
 
-// The key frames of a session.
-Json wayOf(const map::Map& map, const map::Session& session, const Positions& at) {
-  std::vector<PlanPoint> way;
+// The trajectory of a session through its key frames.
+Json trajectoryFeature(const map::Map& map, const map::Session& session, const Positions& at) {
+  std::vector<PlanPoint> path;
   base::Stamp first, last;
   for (const auto& frame : map.key_frames) {
     if (frame.id.session != session.number) continue;
-    if (way.empty()) first = frame.stamp;
+    if (path.empty()) first = frame.stamp;
     last = frame.stamp;
-    way.emplace_back(frame.map_from_base.x(), frame.map_from_base.y());
+    path.emplace_back(frame.map_from_base.x(), frame.map_from_base.y());
   }
-  Json walk = walkOf(way, at);
+  Json walk = walkOf(path, at);
   if (walk.size() < 2) return nullptr;
   return {{"type", "Feature"},
           {"id", "session " + std::to_string(session.number)},
@@ -168,7 +168,7 @@ std::string encodeGeoJson(const GeoJsonInput& input) {
   const auto place = input.metres ? std::nullopt : mapper::placeOnEarth(input.view);
   const Positions at(place ? std::optional(mapper::EarthFrame(*place, input.view)) : std::nullopt);
   Json features = Json::array();
-  // On the earth x and y of the map are east and north, whatever its z.
+  // With a place on the earth, x and y of the map are east and north, whatever the direction of its z.
   const LevelFrame level(place ? map::Map() : input.view.map);
   for (const auto& shaped : level(shapesOf(input.view))) {
     Json geometry = geometryOf(shaped.shape, at);
@@ -180,16 +180,16 @@ std::string encodeGeoJson(const GeoJsonInput& input) {
   }
   for (const auto& session : input.view.map.sessions) {
     if (!input.trajectory) break;
-    Json trajectory = wayOf(level(input.view.map), session, at);
+    Json trajectory = trajectoryFeature(level(input.view.map), session, at);
     if (!trajectory.is_null()) features.push_back(std::move(trajectory));
   }
   Json collection = {{"type", "FeatureCollection"}, {"name", input.title}};
   collection["frame"] = place ? "longitude and latitude, WGS84"
                         : level.isOfMap()
-                            ? "x and y of the map in metres, on no known place of the earth"
-                            : "x and y of the map, turned so that up is z, in metres, on no known place of the earth";
+                            ? "x and y of the map in metres, place on the earth unknown"
+                            : "x and y of the map, turned so that up is z, in metres, place on the earth unknown";
   collection["features"] = std::move(features);
-  // Names from a log may be no UTF-8: those bytes are replaced.
+  // Names from a log may not be valid UTF-8: invalid bytes are replaced.
   return collection.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -15,10 +15,10 @@ struct GeoJsonOptions {
 };
 
 /// Writes floorplan.geojson (RFC 7946), which any GIS or web map opens: upright surfaces and laser lines as
-/// LineStrings, all other surfaces as Polygons, points as Points, what has moved as the places it was in with their
-/// times, and the way of each session. In longitude and latitude (WGS84) where GPS has told the map its place on the
-/// earth, else in metres of the map: a GIS must then be told to take no coordinate reference system, or a local one in
-/// metres.
+/// LineStrings, all other surfaces as Polygons, points as Points, moved landmarks as the places where they were with
+/// the times, and the trajectory of each session. Coordinates are longitude and latitude (WGS84) if GPS gives the map's
+/// place on the earth, else metres of the map: a GIS must then be set to no coordinate reference system or to a local
+/// one in metres.
 class GeoJsonOutput : public mapper::OutputPlugin {
  public:
   GeoJsonOutput(const GeoJsonOptions& options, const mapper::PluginContext& context);

@@ -6,12 +6,13 @@
 
 namespace omnimapper::exports {
 
-/// The colour of what a user calls so: walls brown, doors green, windows cyan, tables violet, cabinets ochre, seats
-/// blue, floors slate, ceilings light blue, ramps pink, what nobody can name grey, and so on for all classes of
-/// surfaces; every other name has one of four more, always the same.
+/// The colour of landmarks with that label: walls brown, doors green, windows cyan, tables violet, cabinets ochre,
+/// seats blue, floors slate, ceilings light blue, ramps pink, unclassified surfaces grey, and so on for all classes of
+/// surfaces; any other label always gets the same one of four more colours.
 draw::Rgb colourOfLabel(const std::string& label);
 
-/// Whether it lies over or under everything else, as floors and ceilings do: a plan from above would show nothing else.
+/// Whether landmarks with that label lie over or under everything else, as floors and ceilings do, and would hide the
+/// rest of a plan from above.
 bool coversThePlan(const std::string& label);
 
 }  // namespace omnimapper::exports

@@ -10,8 +10,8 @@
 
 namespace omnimapper::exports {
 
-/// What drawings from above are made in: the frame of the map, turned so that up is z. Where the map's z is up, or
-/// nobody knows, that is the map's own frame, and everything stays as it is to the last bit.
+/// The frame for drawings from above: the map's frame, rotated so that up is z. If the map's z is up, or up is unknown,
+/// it is the map's own frame, and everything stays bit-identical.
 class LevelFrame {
  public:
   explicit LevelFrame(const map::Map& map);
@@ -21,7 +21,7 @@ class LevelFrame {
   std::vector<ShapedLandmark> operator()(std::vector<ShapedLandmark> landmarks) const;
   std::vector<map::StampedPose> operator()(std::vector<map::StampedPose> trajectory) const;
   std::vector<Closure> operator()(std::vector<Closure> closures) const;
-  /// Its key frames; landmarks and graph stay as they are.
+  /// Rotates the key frames; landmarks and graph stay unchanged.
   map::Map operator()(map::Map map) const;
 
  private:

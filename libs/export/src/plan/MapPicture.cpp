@@ -61,10 +61,10 @@ void drawLinesAndPoints(draw::Image& image, const GridPicture& grid, const std::
       const auto a = grid.pixelOf(from.x(), from.y()), b = grid.pixelOf(to.x(), to.y());
       landmark.moved ? drawBroken(image, a, b, {pen.colour, width}) : drawLine(image, a, b, pen);
     }
-    const bool went = !landmark.shape.point_stamps.empty();
+    const bool has_track = !landmark.shape.point_stamps.empty();
     for (std::size_t i = 0; i < plan.points.size(); ++i) {
       const auto at = grid.pixelOf(plan.points[i].x(), plan.points[i].y());
-      if (went && i > 0) {
+      if (has_track && i > 0) {
         drawBroken(image, grid.pixelOf(plan.points[i - 1].x(), plan.points[i - 1].y()), at, {pen.colour, width});
       }
       drawDot(image, at, {kPaper, 6 * width});
@@ -73,7 +73,7 @@ void drawLinesAndPoints(draw::Image& image, const GridPicture& grid, const std::
   }
 }
 
-// Of signs what is written on them, beside their dots. The font has the letters of ASCII.
+// Draws the texts of signs beside their dots. The font has ASCII letters only.
 void drawCaptions(draw::Image& image, const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
                   double width) {
   for (const auto& landmark : landmarks) {
@@ -89,7 +89,7 @@ void drawCaptions(draw::Image& image, const GridPicture& grid, const std::vector
   }
 }
 
-// What the colours of surfaces mean, the most frequent first, with how many there are.
+// The legend of landmark colours with counts, the most frequent first.
 std::vector<LegendRow> legendOf(const std::vector<ShapedLandmark>& landmarks) {
   std::map<std::string, int> counts;
   for (const auto& landmark : landmarks)
@@ -109,7 +109,7 @@ draw::Image drawMap(const GridPicture& grid, const std::vector<ShapedLandmark>& 
                     const std::vector<map::StampedPose>& trajectory, const std::vector<Closure>& closures) {
   draw::Image image(grid.image.width, grid.image.height, kPaper);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = grid.image.palette[grid.image.pixels[i]];
-  // Thin, so that walls are seen beside and under them.
+  // Thin lines, so that walls can be seen beside and under them.
   const double width = std::max(1.2, std::max(image.width, image.height) / 900.0);
   drawAreas(image, grid, landmarks, width);
   drawLinesAndPoints(image, grid, landmarks, width);
@@ -127,7 +127,8 @@ draw::Image drawMap(const GridPicture& grid, const std::vector<ShapedLandmark>& 
   }
   drawCaptions(image, grid, landmarks, width);
   drawScaleBar(image, grid);
-  constexpr int kColumns = 6, kSideOfALetter = 800;  // [px] of the picture, for each 6 by 13 px
+  constexpr int kColumns = 6,
+                kSideOfALetter = 800;  // [px] length of the longer side for which letters grow by 6 by 13 px
   drawLegend(image, legendOf(landmarks), kColumns, std::max(1, std::max(image.width, image.height) / kSideOfALetter));
   return image;
 }

@@ -7,14 +7,14 @@
 
 namespace omnimapper::exports {
 
-/// It has none.
+/// This output has no options.
 struct SurfacesOptions {
   static const base::OptionTable<SurfacesOptions>& table();
 };
 
-/// Writes surfaces.json: every flat landmark with its class, plane and outlines in the frame of the map, in the form in
-/// which the simulator writes the true ones, so that `omnimapper-eval map` compares both. What lines of a laser alone
-/// have shown has no height and is left out.
+/// Writes surfaces.json: every flat landmark with its class, plane and outlines in the map frame, in the format in
+/// which the simulator writes the true surfaces, so that `omnimapper-eval map` can compare both. Landmarks known only
+/// from laser lines have no height and are left out.
 class SurfacesOutput : public mapper::OutputPlugin {
  public:
   SurfacesOutput(const SurfacesOptions& options, const mapper::PluginContext& context);

@@ -14,7 +14,7 @@ namespace omnimapper::exports {
 
 namespace {
 
-// Of the drawing, in its own units; the page scales it.
+// Sizes of the drawing in its own units; the page scales it.
 constexpr double kWidth = 640, kHeight = 250, kLeft = 56, kRight = 12, kTop = 10, kBottom = 36;
 constexpr std::size_t kMostColumns = 560;
 
@@ -24,7 +24,7 @@ struct Span {
   bool empty() const { return !(low <= high); }
 };
 
-/// From values to the drawing.
+/// Converts values to coordinates of the drawing.
 class Axes {
  public:
   explicit Axes(const Chart& chart) : logarithmic_(chart.logarithmic) {
@@ -51,7 +51,8 @@ class Axes {
   std::vector<double> xTicks() const { return draw::roundValues(x_.low, x_.high, 7); }
   std::vector<double> yTicks() const {
     if (!logarithmic_) return draw::roundValues(y_.low, y_.high, 5);
-    // Powers of ten; over few decades also their doubles and fives; within less than one, plain round numbers.
+    // Ticks at powers of ten; for few decades also at 2 and 5 times these, and for less than one decade at plain round
+    // numbers.
     if (y_.high - y_.low < 0.7) return draw::roundValues(std::pow(10, y_.low), std::pow(10, y_.high), 4);
     const double step = std::max(1.0, std::ceil((y_.high - y_.low) / 6));
     const bool few = y_.high - y_.low < 2.5;
@@ -96,7 +97,7 @@ std::string drawAxes(const Chart& chart, const Axes& axes) {
   return svg + text(0.5 * (kLeft + right), kHeight - 4, "middle", chart.x_label);
 }
 
-/// Indices of the points to draw: of many that share a column of the drawing, the lowest and the highest.
+/// Indices of the points to draw. If many points share a column of the drawing, only its lowest and highest are kept.
 std::vector<std::size_t> visible(const ChartSeries& series, const Axes& axes) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -119,7 +120,7 @@ std::string drawSeries(const ChartSeries& series, const Axes& axes) {
   std::string svg;
   for (const std::size_t i : visible(series, axes)) {
     const std::string x = base::fixed(axes.px(series.x[i]), 1), y = base::fixed(axes.py(series.y[i]), 1);
-    // A dot is a line of no length with round ends: one path for all of them.
+    // A dot is a line of zero length with round ends, so that one path can draw all of them.
     if (series.form == ChartSeries::Form::dots) {
       svg += "M" + x + " " + y + "h0";
     } else {

@@ -6,11 +6,11 @@
 
 namespace omnimapper::exports {
 
-/// Cells of a table row: text, and numbers, which stand to the right and are sorted as such.
+/// Table cells for text and for numbers; the latter are right-aligned and sorted by value.
 std::string cell(const std::string& html);
 std::string numberCell(const std::string& html);
 
-/// A number with thin blanks between thousands.
+/// A number with thin spaces between groups of three digits.
 std::string grouped(std::size_t number);
 
 }  // namespace omnimapper::exports

@@ -44,7 +44,7 @@ std::string svgOf(const GridPicture& grid, const ShapedLandmark& shaped) {
   std::vector<draw::PixelPoint> places;
   for (const auto& point : plan.points) {
     places.push_back(at(point));
-    paths += svgPathOf("point", svgPath({places.back()}) + "h0");  // a line of no length with round ends
+    paths += svgPathOf("point", svgPath({places.back()}) + "h0");  // a line of zero length with round ends is a dot
   }
   if (!shaped.shape.caption.empty() && !places.empty()) {
     paths += "<text class=\"caption\" x=\"" + base::fixed(places.back().x + 6, 1) + "\" y=\"" +

@@ -10,17 +10,17 @@ namespace omnimapper::exports {
 
 /// The landmarks of one label as a layer of the report's map.
 struct LandmarkLayer {
-  std::string name;  ///< the class of its group
+  std::string name;  ///< CSS class of its group
   std::string label, colour;
   std::size_t count = 0;
-  bool shown = true;  ///< floors and ceilings are not, until somebody asks for them
-  std::string svg;    ///< a group, in pixels of the picture
+  bool shown = true;  ///< false for floors and ceilings, which are hidden until they are switched on
+  std::string svg;    ///< an SVG group in pixels of the picture
 };
 
-/// Floors and ceilings first, for they are under all else; then in the order of labels.
+/// One layer for each label: floors and ceilings first, because they lie under all others, then in the order of labels.
 std::vector<LandmarkLayer> landmarkLayers(const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks);
 
-/// A walk as the data of an SVG path.
+/// The data of an SVG path through the given points.
 std::string svgPath(const std::vector<draw::PixelPoint>& walk);
 
 }  // namespace omnimapper::exports

@@ -19,7 +19,7 @@ std::string drawCost(const std::vector<mapper::SolveRecord>& solves) {
   Chart chart{"Cost of the graph", "key frames at the solve", "half the weighted square error", true, {}};
   ChartSeries before{"before the solve", 2, ChartSeries::Form::dots, {}, {}};
   ChartSeries after{"after the solve", 1, ChartSeries::Form::line, {}, {}};
-  constexpr double kNone = 1e-3;  // less is rounding, and would stretch the axis
+  constexpr double kNone = 1e-3;  // smaller values are rounding errors and would stretch the axis
   for (const mapper::SolveRecord& solve : solves) {
     const auto at = static_cast<double>(solve.key_frames);
     before.x.push_back(at), before.y.push_back(std::max(solve.initial_cost, kNone));
@@ -29,13 +29,13 @@ std::string drawCost(const std::vector<mapper::SolveRecord>& solves) {
   return drawChart(chart);
 }
 
-/// One chart for each number of the decisions, accepted and refused in two colours.
+/// One chart for each number of the decisions, with accepted and refused ones in two colours.
 std::string drawNumbers(const mapper::View& view) {
   std::unordered_map<base::KeyFrameId, double> index;
   for (std::size_t i = 0; i < view.map.key_frames.size(); ++i) {
     index[view.map.key_frames[i].id] = static_cast<double>(i);
   }
-  std::vector<std::string> names;  // in the order they come
+  std::vector<std::string> names;  // in the order of first occurrence
   std::map<std::string, Chart> charts;
   for (const mapper::Decision& decision : view.decisions) {
     const auto at = index.find(decision.from);

@@ -6,9 +6,9 @@
 
 namespace omnimapper::exports {
 
-/// Curves of error: the cost over the solves, and each number that decisions were made on, per key frame.
+/// Curves of the error: the cost at each solve, and each number in the decisions over the key frames.
 std::string drawErrorCurves(const mapper::View& view);
-/// Curves of time: per key frame, and the total of each stage.
+/// Curves of computing time per key frame, and the total of each stage.
 std::string drawTimeCurves(const mapper::View& view);
 
 }  // namespace omnimapper::exports

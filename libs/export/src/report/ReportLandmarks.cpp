@@ -34,7 +34,7 @@ std::string photographOf(const map::LandmarkShape& shape) {
   return address.empty() ? "" : "<img class=\"photograph\" alt=\"\" src=\"" + address + "\"/>";
 }
 
-// What its plugin tells beside size and measurements, which have columns of their own.
+// The properties that the plugin gives, without those that have their own columns.
 std::string otherProperties(const map::LandmarkShape& shape) {
   std::string text;
   for (const auto& [name, value] : shape.properties) {
@@ -79,13 +79,10 @@ std::string drawLandmarkTable(const std::vector<ShapedLandmark>& landmarks, base
   for (const auto* landmark : listed) rows += landmarkRow(*landmark, start);
   return "<section class=\"card\"><h2>Landmarks</h2>" + note +
          "<div class=\"scroll tall\"><table class=\"sortable\" id=\"landmarks\"><thead><tr><th "
-         "class=\"num\">landmark</th>"
-         "<th>what</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y [m]</th>"
-         "<th class=\"num\">z [m]</th>"
-         "<th class=\"num\">area [m&#178;]</th><th class=\"num\">length [m]</th>"
-         "<th class=\"num\">measurements</th><th>seen by</th><th class=\"num\">first [s]</th><th class=\"num\">last "
-         "[s]</th>"
-         "<th></th><th>photograph</th><th>more</th></tr></thead><tbody>\n" +
+         "class=\"num\">landmark</th><th>label</th><th>kind</th><th class=\"num\">x [m]</th><th class=\"num\">y "
+         "[m]</th><th class=\"num\">z [m]</th><th class=\"num\">area [m&#178;]</th><th class=\"num\">length "
+         "[m]</th><th class=\"num\">measurements</th><th>seen by</th><th class=\"num\">first [s]</th><th "
+         "class=\"num\">last [s]</th><th></th><th>photograph</th><th>other properties</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></section>\n";
 }
 

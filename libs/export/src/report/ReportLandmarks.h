@@ -9,12 +9,13 @@
 
 namespace omnimapper::exports {
 
-/// What each landmark is, how large, how often and by which sensors it was seen, from when to when [s] after `start`.
-/// Of more than 200, those seen most often. Empty without landmarks.
+/// A table of the landmarks: label, size, number of measurements and sensors, and the first and last time it was seen
+/// [s] after `start`. If there are more than 200, those with the most measurements are listed. Empty without landmarks.
 std::string drawLandmarkTable(const std::vector<ShapedLandmark>& landmarks, base::Stamp start);
-/// How many landmarks each sensor saw alone, and how many several (thesis Fig. 65).
+/// The number of landmarks that only one sensor measured, for each sensor, and of those that several did (thesis Fig.
+/// 65).
 std::string drawSensorBars(const std::vector<ShapedLandmark>& landmarks);
-/// How many landmarks each key frame measured, by kind of measurement (thesis Fig. 64).
+/// The number of landmarks measured from each key frame, by kind of measurement (thesis Fig. 64).
 std::string drawFeatureCurves(const mapper::View& view);
 
 }  // namespace omnimapper::exports

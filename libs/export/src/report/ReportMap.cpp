@@ -43,7 +43,7 @@ std::string dot(const char* kind, draw::PixelPoint at, double radius) {
          base::fixed(at.y, 1) + "\" r=\"" + base::fixed(radius, 1) + "\"><title>" + kind + "</title></circle>\n";
 }
 
-/// A bar of a round length, about a sixth of the picture, in its lower left corner.
+/// A scale bar of a round length in the lower left corner, about a sixth of the picture wide.
 std::string scaleBar(const GridPicture& grid) {
   const double length = scaleBarLength(grid.image.width * grid.metres_per_pixel);
   const double size = std::max(grid.image.width, grid.image.height) / 50.0;
@@ -101,9 +101,9 @@ std::string drawReportMap(const GridPicture& grid, const std::vector<ShapedLandm
   for (const auto& path : paths) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
   svg += "</g>\n" + scaleBar(grid) + "</svg>\n";
   return "<section class=\"card map\">" + legend(layers, closures, max_refused) + svg +
-         "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure for its "
-         "reason, over a landmark for what it is. "
-         "To look closer: the buttons, or Ctrl and the wheel; then drag.</p></section>\n";
+         "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure to see its "
+         "reason, or over a landmark to see its properties. To zoom, use the buttons, or Ctrl and the mouse wheel; "
+         "then drag.</p></section>\n";
 }
 
 }  // namespace omnimapper::exports

@@ -11,9 +11,9 @@
 
 namespace omnimapper::exports {
 
-/// The map of the report: the picture embedded, over it landmarks, which tell what they are under the pointer,
-/// trajectory, start, end and closures as lines of an inline SVG in the picture's pixels; each closure tells its reason
-/// under the pointer. Refused closures beyond `max_refused` are not drawn, and the legend says so.
+/// The map of the report: an inline SVG in pixels of the embedded picture, with landmarks, trajectory, start, end and
+/// closures over it. Landmarks show their properties under the pointer, and closures their reasons. At most
+/// `max_refused` refused closures are drawn; if there are more, the legend says so.
 std::string drawReportMap(const GridPicture& grid, const std::vector<ShapedLandmark>& landmarks,
                           const std::vector<map::StampedPose>& trajectory, const std::vector<Closure>& closures,
                           std::size_t max_refused);

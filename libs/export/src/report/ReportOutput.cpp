@@ -32,7 +32,7 @@ ReportOutput::ReportOutput(const ReportOptions& options, const mapper::PluginCon
 }
 
 namespace {
-// Without what a run saw that only localizes in it.
+// The map without the observations of a run that only localizes in it.
 map::Map mapOnly(const mapper::View& view) {
   map::Map map = view.map;
   if (!view.map_is_held) return map;
@@ -46,14 +46,14 @@ map::Map mapOnly(const mapper::View& view) {
 void ReportOutput::finish(const mapper::View& view) {
   const LevelFrame level(view.map);
   auto trajectory = level(trajectoryOf(view));
-  // What was located nowhere is not drawn into the map.
+  // The trajectory of a run that was never located is not drawn into the map.
   if (view.map_is_held && metricsOf(view, trajectory).located == 0) trajectory.clear();
   const auto closures = level(closuresOf(view.map, view.decisions));
   const auto in_map = shapesOf(view), landmarks = level(in_map);
   ScanGridOptions grid_options;
   grid_options.resolution = options_.resolution;
   grid_options.max_range = options_.max_range;
-  grid_options.margin = 0.5;  // walls lie on the border of what scans have seen
+  grid_options.margin = 0.5;  // walls lie on the border of the observed area
   const auto map = level(mapOnly(view));
   const auto places = placesOf(trajectory, landmarks);
   std::optional<GridPicture> picture;

@@ -8,16 +8,16 @@
 namespace omnimapper::exports {
 
 struct ReportOptions {
-  double resolution = 0.05;  ///< [m] of the grid behind the map
+  double resolution = 0.05;  ///< [m] side of a cell of the grid behind the map
   double max_range = 30.0;   ///< [m]
-  int picture_side = 1600;   ///< [pixels] about
-  int max_rows = 2000;       ///< of the decision log that are listed
+  int picture_side = 1600;   ///< [pixels] approximate length of the longer side
+  int max_rows = 2000;       ///< largest number of listed rows of the decision log
 
   static const base::OptionTable<ReportOptions>& table();
 };
 
-/// Writes report.html, a page for people that needs nothing beside it: the map from above with trajectory and closures,
-/// curves of error and time, and the decision log with reasons; and map.png, the picture of the map alone.
+/// Writes report.html, a self-contained page: the map from above with trajectory and closures, curves of error and
+/// time, and the decision log with reasons; and map.png, the picture of the map alone.
 class ReportOutput : public mapper::OutputPlugin {
  public:
   ReportOutput(const ReportOptions& options, const mapper::PluginContext& context);

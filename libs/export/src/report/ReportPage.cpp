@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMostRefusedClosures = 1500;
 
-std::string figure(const std::string& value, const std::string& name) {
+std::string metricTile(const std::string& value, const std::string& name) {
   return "<div><b>" + value + "</b><span>" + name + "</span></div>";
 }
 
@@ -36,25 +36,26 @@ std::string large(double value) {
 
 std::string drawMetrics(const ReportInput& input, const RunMetrics& metrics) {
   const mapper::View& view = input.view;
-  std::string html = figure(grouped(view.map.key_frames.size()), "key frames") +
-                     figure(base::fixed(metrics.travel, metrics.travel < 100 ? 1 : 0) + " m", "distance travelled") +
-                     figure(duration(metrics.log_seconds), "recorded");
+  std::string html =
+      metricTile(grouped(view.map.key_frames.size()), "key frames") +
+      metricTile(base::fixed(metrics.travel, metrics.travel < 100 ? 1 : 0) + " m", "distance travelled") +
+      metricTile(duration(metrics.log_seconds), "recorded");
   if (view.map_is_held) {
-    html += figure(grouped(metrics.located) + " of " + grouped(metrics.localized), "new key frames located");
+    html += metricTile(grouped(metrics.located) + " of " + grouped(metrics.localized), "new key frames located");
   }
   if (input.picture) {
-    html += figure(base::fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
-                       base::fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
-                   "mapped");
+    html += metricTile(base::fixed(input.picture->maxX() - input.picture->min_x, 0) + " &#215; " +
+                           base::fixed(input.picture->max_y - input.picture->minY(), 0) + " m",
+                       "mapped");
   }
-  if (!input.landmarks.empty()) html += figure(grouped(input.landmarks.size()), "landmarks");
-  html += figure(grouped(metrics.closures), "loop closures") +
-          figure(grouped(metrics.refused_closures), "closures refused") +
-          figure(grouped(view.graph.factors().size()), "factors") + figure(large(view.graph.chi2()), "chi-square") +
-          figure(duration(metrics.wall_seconds), "computed");
+  if (!input.landmarks.empty()) html += metricTile(grouped(input.landmarks.size()), "landmarks");
+  html += metricTile(grouped(metrics.closures), "loop closures") +
+          metricTile(grouped(metrics.refused_closures), "closures refused") +
+          metricTile(grouped(view.graph.factors().size()), "factors") +
+          metricTile(large(view.graph.chi2()), "chi-square") + metricTile(duration(metrics.wall_seconds), "computed");
   if (metrics.wall_seconds > 0 && metrics.run_seconds > 0) {
     const double speed = metrics.run_seconds / metrics.wall_seconds;
-    html += figure(base::fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
+    html += metricTile(base::fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
   }
   return "<div class=\"figures\">" + html + "</div>\n";
 }
@@ -66,7 +67,7 @@ std::string drawWarnings(const std::vector<std::string>& warnings) {
   return "<section class=\"card warnings\"><h2>Warnings</h2><ul>" + items + "</ul></section>\n";
 }
 
-// Its figures are in the summary.
+// The numbers behind the verdict are in summary.json.
 std::string drawVerdict(const mapper::Verdict& verdict) {
   if (verdict.evidence.empty()) return {};
   return "<section class=\"card\"><h2>Verdict: " + mapper::toString(verdict.answer) + "</h2><p>" +

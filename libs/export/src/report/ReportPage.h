@@ -13,20 +13,20 @@
 
 namespace omnimapper::exports {
 
-/// What the report shows beside the view itself.
+/// Input of the report in addition to the view.
 struct ReportInput {
   const mapper::View& view;
   const mapper::PluginContext& context;
-  const GridPicture* picture;  ///< null for a map that is empty
-  /// From above, as LevelFrame turns them.
+  const GridPicture* picture;  ///< null if the map is empty
+  /// In the frame of LevelFrame, for drawing from above.
   const std::vector<map::StampedPose>& trajectory;
   const std::vector<Closure>& closures;
-  const std::vector<ShapedLandmark>& landmarks;  ///< in the map
+  const std::vector<ShapedLandmark>& landmarks;  ///< in the map's frame
   const std::vector<ShapedLandmark>& drawn_landmarks;
-  std::size_t max_rows;  ///< of the decision log
+  std::size_t max_rows;  ///< largest number of rows of the decision log
 };
 
-/// The whole page, which refers to nothing outside of it.
+/// The whole page, which has no references to other files.
 std::string drawReport(const ReportInput& input);
 
 }  // namespace omnimapper::exports

@@ -4,7 +4,7 @@
 
 namespace omnimapper::exports {
 
-/// The style sheet and the script that the report carries within it.
+/// The style sheet and the script that are embedded in the report.
 extern const std::string_view kReportStyle;
 extern const std::string_view kReportScript;
 

@@ -27,12 +27,12 @@ std::string row(const mapper::Decision& d, base::Stamp start) {
          cell(draw::escapeMarkup(d.reason)) + cell(draw::escapeMarkup(numbersText(d))) + "</tr>\n";
 }
 
-/// Which decisions are listed: all, or the refusals and those about two key frames first.
+/// The decisions to list: all, or if there are too many, refusals and those about two key frames first.
 std::vector<const mapper::Decision*> listed(const mapper::DecisionLog& decisions, std::size_t max_rows) {
   std::vector<const mapper::Decision*> rows;
-  for (const bool telling : {true, false}) {
+  for (const bool is_important : {true, false}) {
     for (const mapper::Decision& d : decisions) {
-      if (rows.size() < max_rows && telling == (!d.accepted || d.to.has_value())) rows.push_back(&d);
+      if (rows.size() < max_rows && is_important == (!d.accepted || d.to.has_value())) rows.push_back(&d);
     }
   }
   std::sort(rows.begin(), rows.end());  // back in the order of the log, which is contiguous
@@ -78,9 +78,9 @@ std::string drawSessionTable(const map::Map& map) {
             numberCell(base::fixed(metrics.seconds, 1)) +
             cell(first ? "" : draw::escapeMarkup(mapper::joinedText(*session))) + "</tr>\n";
   }
-  return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr>"
-         "<th class=\"num\">session</th><th>log</th><th class=\"num\">key frames</th><th class=\"num\">way [m]</th>"
-         "<th class=\"num\">time [s]</th><th>joined</th></tr></thead><tbody>\n" +
+  return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr><th "
+         "class=\"num\">session</th><th>log</th><th class=\"num\">key frames</th><th class=\"num\">travel [m]</th><th "
+         "class=\"num\">time [s]</th><th>joined</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></section>\n";
 }
 

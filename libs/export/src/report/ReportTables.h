@@ -8,15 +8,16 @@
 
 namespace omnimapper::exports {
 
-/// How much each session drove and where it was joined; empty for a map of one session.
+/// Distance travelled by each session and where it was joined; empty for a map with one session.
 std::string drawSessionTable(const map::Map& map);
-/// When the newest session, whose log is told, began; no stamp for an empty map.
+/// Stamp of the first key frame of the newest session, from which the times of the log are counted; no stamp for an
+/// empty map.
 base::Stamp startOf(const map::Map& map);
 /// Counts of decisions by plugin, kind, verdict and reason.
 std::string drawReasonTable(const mapper::DecisionLog& decisions);
-/// The decision log with filters, at most `max_rows` rows: where it is longer, refusals and closures go first.
+/// The decision log with filters and at most `max_rows` rows; if it is longer, refusals and closures are listed first.
 std::string drawDecisionTable(const map::Map& map, const mapper::DecisionLog& decisions, std::size_t max_rows);
-/// What became of the observations, and what the graph holds.
+/// Counts of the observations by their use, and of the variables and factors in the graph.
 std::string drawCountTables(const mapper::View& view);
 
 }  // namespace omnimapper::exports

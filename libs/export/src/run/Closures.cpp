@@ -13,8 +13,8 @@ std::vector<Closure> closuresOf(const map::Map& map, const mapper::DecisionLog& 
     if (!decision.to || !decision.is_loop_closure) continue;
     const auto from = index.find(decision.from), to = index.find(*decision.to);
     if (from == index.end() || to == index.end()) continue;
-    const auto apart = static_cast<long>(from->second) - static_cast<long>(to->second);
-    if (std::labs(apart) <= 1 && decision.from.session == decision.to->session) continue;
+    const auto steps = static_cast<long>(from->second) - static_cast<long>(to->second);
+    if (std::labs(steps) <= 1 && decision.from.session == decision.to->session) continue;
     closures.push_back({&decision, map.key_frames[from->second].map_from_base.translation(),
                         map.key_frames[to->second].map_from_base.translation()});
   }

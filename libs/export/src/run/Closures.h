@@ -8,9 +8,9 @@
 
 namespace omnimapper::exports {
 
-/// A decision about two key frames, with where they are in the map now.
+/// A decision about two key frames, with their current positions.
 struct Closure {
-  const mapper::Decision* decision;  ///< in the log it came from
+  const mapper::Decision* decision;  ///< points into the decision log
   mrpt::math::TPoint3D from, to;     ///< [m] in the map
 };
 

@@ -11,10 +11,9 @@ struct LocalizationOptions {
   static const base::OptionTable<LocalizationOptions>& table();
 };
 
-/// Writes localization.csv: where the base was known to be when each key frame came, from nothing that came later; one
-/// line each, "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located" with Unix time
-/// [s]. Sigmas are along the map's axes, empty where a direction is open; located is 0 or 1
-/// (mapper::LocalizationEstimate).
+/// Writes localization.csv: the pose of the base at each key frame, estimated without later data. Each line is
+/// "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located" with Unix time [s]. Sigmas
+/// are along the map's axes, empty if a direction is undetermined; located is 0 or 1 (mapper::LocalizationEstimate).
 class LocalizationOutput : public mapper::OutputPlugin {
  public:
   LocalizationOutput(const LocalizationOptions& options, const mapper::PluginContext& context);

@@ -9,7 +9,7 @@
 
 namespace omnimapper::exports {
 
-/// Path of a file in the output folder. Throws Error(unwritable_output) in a run without one.
+/// Path of a file in the output folder. Throws Error(unwritable_output) if the run has no output folder.
 inline std::string outputPath(const mapper::PluginContext& context, const std::string& name) {
   if (context.output_folder.empty()) {
     throw base::Error(base::ExitCode::unwritable_output, "[" + context.section + "] writes " + name +
@@ -18,7 +18,7 @@ inline std::string outputPath(const mapper::PluginContext& context, const std::s
   return context.output_folder + "/" + name;
 }
 
-/// Writes bytes whole or not at all. Throws Error(disk_full).
+/// Writes the whole file or none of it. Throws Error(disk_full).
 inline void writeBytes(const std::string& path, const std::string& bytes) {
   base::writeFile(path,
                   [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });

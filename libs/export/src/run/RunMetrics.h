@@ -10,23 +10,23 @@
 
 namespace omnimapper::exports {
 
-/// Figures of a run that several outputs show.
+/// Metrics of a run that several outputs show.
 struct RunMetrics {
   std::size_t trajectory_poses = 0;
-  double log_seconds = 0;  ///< from the first to the last observation of every session
-  double run_seconds = 0;  ///< the same of the newest session: what this run worked on
-  double travel = 0;       ///< [m] along the key frames of every session
+  double log_seconds = 0;  ///< sum of all sessions, each from its first to its last observation
+  double run_seconds = 0;  ///< the same of the newest session, the one of this run
+  double travel = 0;       ///< [m] distance travelled, summed along the key frames of all sessions
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0, min_z = 0, max_z = 0;  ///< [m] of the key frames
   std::size_t closures = 0, refused_closures = 0;
-  std::size_t localized = 0, located = 0;  ///< of a run that localizes: key frames, and those whose place was known
+  std::size_t localized = 0, located = 0;  ///< in a run that localizes: key frames, and those with a known pose
   double wall_seconds = 0;                 ///< sum of all stages
 };
 RunMetrics metricsOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory);
 
-/// The dense trajectory of the map, or of this run alone if it only localizes in one.
+/// The dense trajectory of the map, or only of this run if it localizes in a map.
 std::vector<map::StampedPose> trajectoryOf(const mapper::View& view);
 
-/// How often each decision was made for each reason, by plugin, kind, accepted first, reason.
+/// Number of decisions for each reason, sorted by plugin, kind, accepted ones first, reason.
 struct ReasonCount {
   std::string plugin, kind;
   bool accepted = false;
@@ -35,13 +35,13 @@ struct ReasonCount {
 };
 std::vector<ReasonCount> countReasons(const mapper::DecisionLog& decisions);
 
-/// Numbers of the graph's variables and factors.
+/// Numbers of the graph's variables and factors by kind and owner.
 struct GraphMetrics {
   std::map<std::string, std::size_t> variables_by_kind, factors_by_kind, factors_by_owner;
 };
 GraphMetrics metricsOf(const graph::Graph& graph);
 
-/// The counters of the engine with their names, in the order they are met.
+/// The counters of the engine with their names, in the order of processing.
 std::vector<std::pair<std::string, std::size_t>> namedCounts(const mapper::RunCounts& counts);
 
 }  // namespace omnimapper::exports

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;  // in a radian
+constexpr double kDegrees = 180 / 3.14159265358979323846;  // degrees per radian
 
 Json graphOf(const mapper::View& view) {
   const GraphMetrics metrics = metricsOf(view.graph);
@@ -61,7 +61,8 @@ Json timesOf(const mapper::StageTimes& times) {
   return stages;
 }
 
-// Mean milliseconds of a key frame in each tenth of the run: whether the cost grows with the length of the log.
+// Mean milliseconds per key frame in each tenth of the run, which shows whether the cost grows with the length of the
+// log.
 Json costsOf(const std::vector<mapper::StageTimes::PerKeyFrame>& costs) {
   constexpr std::size_t kParts = 10;
   Json list = Json::array();
@@ -184,7 +185,7 @@ SummaryOutput::SummaryOutput(const SummaryOptions&, const mapper::PluginContext&
     : path_(outputPath(context, "summary.json")), title_(context.title) {}
 
 void SummaryOutput::finish(const mapper::View& view) {
-  // Names from a log may be no UTF-8: those bytes are replaced.
+  // Names from a log may not be valid UTF-8: invalid bytes are replaced.
   writeBytes(path_, summaryOf(view, title_).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -25,7 +25,7 @@ class SummaryOutputFactory : public mapper::OutputPluginFactory {
   DEFINE_MRPT_OBJECT(SummaryOutputFactory, omnimapper::exports)
  public:
   std::string name() const override { return "SummaryOutput"; }
-  std::string summary() const override { return "Writes summary.json, the figures of the run."; }
+  std::string summary() const override { return "Writes summary.json, the metrics of the run."; }
   const std::vector<base::OptionSpec>& options() const override { return SummaryOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
                                              const mapper::PluginContext& context) const override;

@@ -13,8 +13,8 @@ struct TrajectoryOptions {
   static const base::OptionTable<TrajectoryOptions>& table();
 };
 
-/// Writes trajectory.tum: map_from_base of every observation of the reference sensor, one line each
-/// "stamp x y z qx qy qz qw" with Unix time [s] to the tick, lengths [m] and a unit quaternion, qw >= 0.
+/// Writes trajectory.tum: map_from_base at every observation of the reference sensor, one per line: "stamp x y z qx qy
+/// qz qw" with Unix time [s] to the tick, lengths [m] and a unit quaternion, qw >= 0.
 class TrajectoryOutput : public mapper::OutputPlugin {
  public:
   TrajectoryOutput(const TrajectoryOptions& options, const mapper::PluginContext& context);

@@ -9,7 +9,8 @@ namespace omnimapper::exports {
 
 namespace {
 
-// Six steps of each colour; grey, which most of a building is, in finer ones; and paper.
+// The palette has six steps for each colour channel, finer steps of grey, which is the colour of most of a building,
+// and the background.
 constexpr int kSteps = 6, kColours = kSteps * kSteps * kSteps, kGreys = 39;
 constexpr std::uint8_t kPaperIndex = kColours + kGreys;
 
@@ -24,7 +25,7 @@ std::vector<draw::Rgb> coloursAndGreys() {
   return colours;
 }
 
-// The nearer one of the nearest colour and the nearest grey of the palette.
+// The nearest palette entry: the closest colour or the closest grey.
 std::uint8_t indexOf(const draw::Rgb& colour, const std::vector<draw::Rgb>& palette) {
   const auto step = [](int value, int steps) { return (value * (steps - 1) + 127) / 255; };
   const int of_colours = (step(colour.r, kSteps) * kSteps + step(colour.g, kSteps)) * kSteps + step(colour.b, kSteps);
@@ -63,7 +64,7 @@ std::vector<ColouredPoint> belowCeilings(const map::Map& map, double cube) {
 
 std::optional<GridPicture> cloudPicture(const map::Map& map, const std::vector<mrpt::math::TPoint3D>& places,
                                         int side) {
-  constexpr double kCube = 0.05, kCut = 0.005;  // [m], part
+  constexpr double kCube = 0.05, kCut = 0.005;  // [m], share
   if (!hasDepthClouds(map)) return std::nullopt;
   const auto points = belowCeilings(map, kCube);
   if (points.empty()) return std::nullopt;
@@ -79,7 +80,7 @@ std::optional<GridPicture> cloudPicture(const map::Map& map, const std::vector<m
     low = std::min(low, place.y), high = std::max(high, place.y);
   }
   const double longer = std::max({right - left, high - low, 0.5});
-  const double margin = 0.03 * longer, below = 0.06 * longer;  // wider below, where the scale bar lies
+  const double margin = 0.03 * longer, below = 0.06 * longer;  // wider below for the scale bar
   GridPicture picture;
   picture.metres_per_pixel = longer / side;
   picture.min_x = left - margin;
@@ -91,7 +92,7 @@ std::optional<GridPicture> cloudPicture(const map::Map& map, const std::vector<m
   image.palette = coloursAndGreys();
   image.pixels.assign(static_cast<std::size_t>(image.width) * image.height, kPaperIndex);
   const double half =
-      0.7 * kCube / picture.metres_per_pixel;  // squares that meet, though points lie anywhere in a cube
+      0.7 * kCube / picture.metres_per_pixel;  // squares that touch although points lie anywhere in a cube
   for (const auto& point : points) {
     const auto at = picture.pixelOf(point.in_map.x, point.in_map.y);
     const auto index = indexOf(point.colour, image.palette);

@@ -9,19 +9,21 @@
 
 namespace omnimapper::exports {
 
-/// An open window on the screen that draws a map. Implemented by libomnimapper-window, which LiveWindow loads: MRPT's
-/// windows bring many libraries, and every program would start later for something rarely used.
+/// An open window on the screen that draws a map. It is implemented by libomnimapper-window, which LiveWindow loads at
+/// run time: MRPT's windows need many libraries, which would slow down the start of every program for a rarely used
+/// feature.
 class LiveScene {
  public:
   virtual ~LiveScene() = default;
   virtual bool isOpen() const = 0;
   virtual void show(const mapper::View& view) = 0;
-  /// The robot is there now.
+  /// Moves the drawn robot to this pose.
   virtual void move(const mrpt::poses::CPose3D& map_from_base) = 0;
 };
 
 }  // namespace omnimapper::exports
 
-/// What libomnimapper-window exports. The caller owns the scene. Throws Error(command_line) if there is no display.
+/// The function that libomnimapper-window exports. The caller owns the scene. Throws Error(command_line) if there is no
+/// display.
 extern "C" omnimapper::exports::LiveScene* omnimapperOpenLiveScene(
     const omnimapper::exports::LiveWindowOptions& options, const std::string& title);

@@ -33,7 +33,7 @@ const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
 
 namespace {
 
-// Never unloaded: MRPT's thread may paint until the program ends.
+// The library is never unloaded, because MRPT's thread may paint until the program ends.
 std::unique_ptr<LiveScene> openScene(const LiveWindowOptions& options, const std::string& title) {
   void* open = base::functionOfLibrary("libomnimapper-window.so", "omnimapperOpenLiveScene",
                                        "the live window cannot be opened", "Install it, or leave out --gui.");
@@ -51,10 +51,10 @@ bool LiveWindow::isOpen() const {
   return scene_->isOpen();
 }
 
-// A large map takes long to draw: then it is drawn seldom.
+// A large map takes long to draw and is therefore drawn less often.
 void LiveWindow::update(const mapper::View& view) {
   constexpr auto kShortest = std::chrono::milliseconds(200);
-  constexpr int kShare = 10;  // of the time at most one part in so many is drawn
+  constexpr int kShare = 10;  // at most 1/kShare of the time is spent on drawing
   if (!isOpen()) return;
   const auto begin = Clock::now();
   scene_->show(view);

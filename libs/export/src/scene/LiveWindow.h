@@ -22,13 +22,12 @@ struct LiveWindowOptions {
 
 class LiveScene;
 
-/// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures,
-/// landmarks, the newest pose. Drawn anew after each solve, and up to five times a second between; the pose moves with
-/// every frame, up to 30 times a second. It may be closed at any time; the run goes on.
+/// A 3D window of MRPT that shows the map while it grows: occupancy grid, points, trajectory, closures, landmarks and
+/// the newest pose. It is redrawn after each solve, and up to five times a second in between; the pose moves with every
+/// frame, up to 30 times a second. The window may be closed at any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
-  /// Throws Error(command_line) if there is no display to open a window on, Error(plugin_library) if
-  /// libomnimapper-window is not there.
+  /// Throws Error(command_line) if there is no display, and Error(plugin_library) if libomnimapper-window is missing.
   LiveWindow(const LiveWindowOptions& options, const std::string& title);
   ~LiveWindow() override;
   void update(const mapper::View& view) override;
@@ -36,7 +35,7 @@ class LiveWindow : public mapper::OutputPlugin {
   void frameAdded(const mapper::View& view) override;
   /// Shows the final map.
   void finish(const mapper::View& view) override;
-  /// Whether the window is open and to be kept so.
+  /// Whether the window is open and should stay open.
   bool isLookedAt() const override { return options_.keep_open && isOpen(); }
 
   bool isOpen() const;
@@ -45,7 +44,7 @@ class LiveWindow : public mapper::OutputPlugin {
   LiveWindowOptions options_;
   std::unique_ptr<LiveScene> scene_;
   using Clock = std::chrono::steady_clock;
-  Clock::time_point next_ = Clock::now();  // before it nothing is drawn but what a solve has moved
+  Clock::time_point next_ = Clock::now();  // earliest time of the next drawing that does not follow a solve
   Clock::time_point next_move_ = next_;
 };
 

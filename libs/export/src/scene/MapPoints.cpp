@@ -19,7 +19,7 @@ namespace {
 using mrpt::math::TPoint3Df;
 using mrpt::obs::CObservationPointCloud;
 
-/// Below this difference of height [m] a map counts as flat.
+/// A map whose points differ in height by less than this [m] counts as flat.
 constexpr float kFlat = 0.3f;
 
 void addCloud(const CObservationPointCloud& cloud, double max_range, std::vector<TPoint3Df>& points) {
@@ -29,7 +29,7 @@ void addCloud(const CObservationPointCloud& cloud, double max_range, std::vector
   const auto& z = cloud.pointcloud->getPointsBufferRef_z();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const mrpt::math::TPoint3D in_sensor(x[i], y[i], z[i]);
-    // Written so that NaN is left out too.
+    // This form of the condition also leaves out NaN.
     if (in_sensor.norm() <= max_range) points.emplace_back(cloud.sensorPose.composePoint(in_sensor));
   }
 }
@@ -48,7 +48,7 @@ bool isFlat(const std::vector<ColouredPoint>& points) {
 }
 
 void colourByHeight(std::vector<ColouredPoint>& points) {
-  // The lowest and highest hundredth do not stretch the scale.
+  // The lowest and highest hundredth of the points do not determine the scale.
   std::vector<float> heights;
   for (const auto& point : points) {
     const float height = point.in_map.z;  // a copy: MRPT's points are packed, and a reference must be aligned

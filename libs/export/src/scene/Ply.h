@@ -11,7 +11,7 @@ namespace omnimapper::exports {
 
 /// The bytes of a PLY file: binary, little-endian, float x y z [m], uchar red green blue.
 std::string encodePly(const std::vector<ColouredPoint>& points);
-/// The same with a face for each triangle, in the colour of its first corner.
+/// The same with a face for each triangle; a triangle has the colour of its first corner.
 std::string encodePly(const std::vector<mrpt::opengl::TTriangle>& triangles);
 
 }  // namespace omnimapper::exports

@@ -7,21 +7,22 @@
 
 namespace omnimapper::exports {
 
-/// By what points are coloured; automatic: by height if they differ in height, else by time.
+/// The meaning of point colours. automatic: the camera's colours if there are depth images, else height if the points
+/// differ in height, else time.
 enum class PointColour { automatic, height, time };
 
 struct PointsOptions {
-  double voxel = 0.05;      ///< [m] one point is kept of each cube of this side; 0: all
-  double max_range = 30.0;  ///< [m] from the sensor
+  double voxel = 0.05;      ///< [m] one point is kept in each cube of this side; 0: all are kept
+  double max_range = 30.0;  ///< [m] largest distance from the sensor
   PointColour colour = PointColour::automatic;
 
   static const base::OptionTable<PointsOptions>& table();
 };
 
 /// Writes points.ply (binary, little-endian; x y z [m] in the map, red green blue): the point clouds of the key frames
-/// if there are any, else the ends of the beams of their 2D scans; and landmarks.ply, the landmarks as a coloured mesh,
-/// apart from the points because viewers show either points or faces of a file. Landmarks that have moved are not in
-/// it. A map without points or landmarks gives no such file.
+/// if there are any, else the end points of their 2D scans' beams; and landmarks.ply, the landmarks as a coloured mesh,
+/// in a separate file because viewers show either points or faces of a file. Moved landmarks are left out. Files that
+/// would be empty are not written.
 class PointsOutput : public mapper::OutputPlugin {
  public:
   PointsOutput(const PointsOptions& options, const mapper::PluginContext& context);

@@ -35,7 +35,7 @@ void addDashed(CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eige
     obs::addStroke(strokes, from + begin * (to - from), from + end * (to - from), width);
 }
 
-// Outlines and lines.
+// The outlines and lines of a landmark, dashed if it has moved.
 CSetOfTriangles::Ptr landmarkStrokes(const ShapedLandmark& landmark) {
   auto strokes = CSetOfTriangles::Create();
   const auto add = landmark.moved ? addDashed : obs::addStroke;
@@ -47,7 +47,7 @@ CSetOfTriangles::Ptr landmarkStrokes(const ShapedLandmark& landmark) {
   for (const auto& surface : landmark.shape.surfaces) addWalk(surface);
   for (const auto& hole : landmark.shape.holes) addWalk(hole);
   for (const auto& [from, to] : landmark.shape.lines) add(*strokes, from, to, kLineStroke);
-  // Where it was, one place after the other.
+  // A dashed path through its former places.
   if (!landmark.shape.point_stamps.empty()) {
     const auto& points = landmark.shape.points;
     for (std::size_t i = 1; i < points.size(); ++i) addDashed(*strokes, points[i - 1], points[i], kOutlineStroke);
@@ -57,7 +57,7 @@ CSetOfTriangles::Ptr landmarkStrokes(const ShapedLandmark& landmark) {
   return strokes;
 }
 
-// On the largest surface, to its free side.
+// An arrow on the largest surface, towards its free side.
 void addNormal(CSetOfObjects& scene, const ShapedLandmark& landmark) {
   const auto& surfaces = landmark.shape.surfaces;
   if (surfaces.empty() || !landmark.shape.normal) return;
@@ -69,7 +69,7 @@ void addNormal(CSetOfObjects& scene, const ShapedLandmark& landmark) {
   obs::addArrow(scene, middle, middle + length * *landmark.shape.normal, inkOf(landmark));
 }
 
-// Where a name is read without hiding what it names.
+// A place for the name that does not hide the landmark.
 Eigen::Vector3d namePlace(const map::LandmarkShape& shape) {
   const Eigen::Vector3d above(0, 0, 0.1);
   if (!shape.surfaces.empty()) return middleOfSurface(shape.surfaces.front()) + above;
@@ -77,7 +77,7 @@ Eigen::Vector3d namePlace(const map::LandmarkShape& shape) {
   return shape.points.back() + above;
 }
 
-// Of a thing at a point, upright before it.
+// Shows the photograph of a landmark at a point, upright in front of it.
 void addPhotograph(CSetOfObjects& object, const map::LandmarkShape& shape) {
   constexpr double kHalfHeight = 0.08, kBefore = 0.05;  // [m]
   if (!shape.photograph || !shape.normal || shape.points.size() != 1) return;
@@ -85,7 +85,7 @@ void addPhotograph(CSetOfObjects& object, const map::LandmarkShape& shape) {
   mrpt::img::CImage image(static_cast<unsigned>(width), static_cast<unsigned>(height), mrpt::img::CH_RGB);
   for (int y = 0; y < height; ++y) {
     auto* pixel = image.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
-    for (int x = 0; x < width; ++x, pixel += 3) {  // blue first
+    for (int x = 0; x < width; ++x, pixel += 3) {  // MRPT stores blue first
       const auto* from = rgb.data() + std::size_t{3} * (static_cast<std::size_t>(y) * width + x);
       std::reverse_copy(from, from + 3, pixel);
     }
@@ -118,7 +118,7 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   return object;
 }
 
-// Two square pyramids, base to base.
+// Two square pyramids joined at their bases.
 void addOctahedron(CSetOfTriangles& triangles, const Eigen::Vector3d& middle) {
   const auto corner = [&](int axis, double side) {
     Eigen::Vector3d p = middle;

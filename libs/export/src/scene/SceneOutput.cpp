@@ -33,7 +33,7 @@ SceneOutput::SceneOutput(const SceneOptions& options, const mapper::PluginContex
 
 void SceneOutput::finish(const mapper::View& view) {
   mrpt::opengl::COpenGLScene scene;
-  // Colours mean something: they hardly depend on where a surface looks.
+  // Mostly ambient light, because colours have a meaning and should hardly depend on the direction of a surface.
   auto& light = scene.getViewport()->lightParameters();
   light.ambient = {0.8f, 0.8f, 0.8f, 1.0f};
   light.diffuse = {0.25f, 0.25f, 0.25f, 1.0f};
@@ -45,9 +45,9 @@ void SceneOutput::finish(const mapper::View& view) {
   const auto closures = closuresOf(view.map, view.decisions);
   scene.insert(closureLines(closures, true));
   if (options_.refused_closures) scene.insert(closureLines(closures, false));
-  // Last, so that what is behind a translucent surface is there when it is drawn.
+  // Landmarks are inserted last, so that what is behind their translucent surfaces is already drawn.
   scene.insert(landmarkObjects(shapesOf(view), options_.names));
-  // Through memory: MRPT's own compressed file does not notice a full disk.
+  // The scene is written through memory, because MRPT's own compressed file does not notice a full disk.
   mrpt::io::CMemoryStream memory;
   mrpt::serialization::archiveFrom(memory) << scene;
   writeBytes(path_, {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()});

@@ -8,18 +8,18 @@
 namespace omnimapper::exports {
 
 struct SceneOptions {
-  double voxel = 0.05;          ///< [m] as of PointsOptions
+  double voxel = 0.05;          ///< [m] as in PointsOptions
   double max_range = 30.0;      ///< [m]
-  double corner_spacing = 2.0;  ///< [m] of way between two drawn key frames
+  double corner_spacing = 2.0;  ///< [m] distance travelled between two drawn key frames
   bool refused_closures = false;
-  bool names = true;  ///< of landmarks
+  bool names = true;  ///< names of landmarks are drawn
 
   static const base::OptionTable<SceneOptions>& table();
 };
 
-/// Writes scene.3Dscene, which SceneViewer3D opens: ground grid, points, trajectory, frames of some key frames and
-/// closures (green, refused ones red); landmarks: walls brown, tables violet, floors grey, ceilings light blue,
-/// surfaces translucent with an arrow to their free side, what has moved as an outline of dashes.
+/// Writes scene.3Dscene, which SceneViewer3D opens: ground grid, points, trajectory, axes of some key frames, closures
+/// (green, refused ones red) and landmarks: walls brown, tables violet, floors grey, ceilings light blue, surfaces
+/// translucent with an arrow to their free side, moved ones as dashed outlines.
 class SceneOutput : public mapper::OutputPlugin {
  public:
   SceneOutput(const SceneOptions& options, const mapper::PluginContext& context);

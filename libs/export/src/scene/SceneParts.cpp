@@ -12,7 +12,7 @@ namespace {
 using mrpt::img::TColor;
 using namespace mrpt::opengl;
 
-// [m] above the ground and one above the other, so that each is seen.
+// [m] heights above the ground; they differ so that no line hides another.
 constexpr float kRefusedHeight = 0.01f, kAcceptedHeight = 0.02f, kTrajectoryHeight = 0.03f;
 constexpr double kBorder = 5;  // [m]
 
@@ -59,13 +59,13 @@ CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory
 CSetOfObjects::Ptr keyFrameCorners(const map::Map& map, double spacing) {
   auto corners = CSetOfObjects::Create();
   corners->setName("key frames");
-  double way = spacing;
+  double travel = spacing;
   for (std::size_t i = 0; i < map.key_frames.size(); ++i) {
     const auto& pose = map.key_frames[i].map_from_base;
-    if (i > 0) way += (pose.translation() - map.key_frames[i - 1].map_from_base.translation()).norm();
+    if (i > 0) travel += (pose.translation() - map.key_frames[i - 1].map_from_base.translation()).norm();
     const bool newest = i + 1 == map.key_frames.size();
-    if (way < spacing && !newest) continue;
-    way = 0;
+    if (travel < spacing && !newest) continue;
+    travel = 0;
     auto corner = stock_objects::CornerXYZSimple(newest ? 1.0f : 0.4f, newest ? 3.0f : 1.0f);
     corner->setPose(pose);
     corners->insert(corner);

@@ -13,14 +13,14 @@
 
 namespace omnimapper::exports {
 
-/// What a 3D scene of a map is made of, for the file and for the live window.
+/// Parts of a 3D scene of a map, for the file and for the live window.
 
-/// Lines on the ground under the trajectory and 5 m around it, a round distance apart.
+/// A grid of lines on the ground under the trajectory and 5 m around it, with a round spacing.
 mrpt::opengl::CGridPlaneXY::Ptr groundOf(const map::Map& map);
 mrpt::opengl::CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory);
-/// Axes of key frames that are at least `spacing` [m] of way apart, and of the newest.
+/// Axes of key frames that are at least `spacing` [m] of travel apart, and of the newest one.
 mrpt::opengl::CSetOfObjects::Ptr keyFrameCorners(const map::Map& map, double spacing);
-/// Of the closures that were accepted, or of those that were not.
+/// Lines of the accepted closures, or of the refused ones.
 mrpt::opengl::CSetOfLines::Ptr closureLines(const std::vector<Closure>& closures, bool accepted);
 mrpt::opengl::CPointCloudColoured::Ptr cloudOf(const std::vector<ColouredPoint>& points);
 

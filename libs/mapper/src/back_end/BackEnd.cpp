@@ -31,8 +31,8 @@ RawImages imagesThatOutputsNeed(const PluginSet& plugins) {
   return most;
 }
 
-// Who is surer than others of where a session lies ties it first.
-void tellWhoSeeks(const PluginSet& plugins, const map::Map& map) {
+// While a plugin searches for the session, plugins whose landmarks look alike must not tie it to the map first.
+void updateSeeking(const PluginSet& plugins, const map::Map& map) {
   const auto is_seeking = [](const auto& named) {
     const auto* seeker = dynamic_cast<const SeeksSession*>(named.plugin.get());
     return seeker && seeker->isSeeking();
@@ -78,7 +78,7 @@ bool BackEnd::process(FrameBundle& bundle) {
   }
   if (bundle.reference) state_.map.key_frames.edit(place->id).reference = true;
   const bool is_first = place->is_new && !place->before && !place->after;
-  // The first key frame of a session: gates start from the covariance of its prior.
+  // The gates start from the covariance of the prior on the first key frame of the session.
   if (is_first) estimator_.begin();
   if (place->is_new && place->after) {
     ++state_.counts.spliced;
@@ -96,8 +96,8 @@ bool BackEnd::process(FrameBundle& bundle) {
   return true;
 }
 
-// The raw observations, then what the workers made of them, without what the key frame has already: a perceived log
-// brings derived observations of its own, and a late one may repeat an old one.
+// Collects the raw observations, then the derived ones. Observations that the key frame already has are left out: a
+// perceived log contains derived observations, and a late observation may repeat an old one.
 BackEnd::Gathered BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id) {
   std::vector<Perceived> raw, derived;
   std::vector<map::CloudPoint> cloud;
@@ -128,7 +128,7 @@ BackEnd::Gathered BackEnd::gather(FrameBundle& bundle, base::KeyFrameId id) {
 }
 
 void BackEnd::measure(base::KeyFrameId id, const std::vector<Perceived>& perceived) {
-  tellWhoSeeks(plugins_, state_.map);
+  updateSeeking(plugins_, state_.map);
   for (std::size_t i = 0; i < plugins_.measurement.size(); ++i) {
     auto& [section, plugin] = plugins_.measurement[i];
     for (const auto& one : perceived) {
@@ -141,7 +141,7 @@ void BackEnd::measure(base::KeyFrameId id, const std::vector<Perceived>& perceiv
       };
       const Batch batch = measured();
       applier_.apply(batch, {section, frame.stamp}, *plugin);
-      // Plugins that follow tell landmarks apart by this pose: it takes up what was measured of it first.
+      // The plugins that follow associate landmarks from this pose, so it is first refined with the new measurement.
       if (plugin->givesAbsolutePoses() && batch.changesGraph()) estimator_.refine(id);
     }
   }
@@ -182,7 +182,7 @@ void BackEnd::findLevel() {
   for (auto& sentence : judged.warnings) state_.warnings.push_back(std::move(sentence));
 }
 
-// Each plugin sees what those before it concluded.
+// Each plugin sees the results of those before it.
 void BackEnd::conclude() {
   const base::Stamp now = state_.map.key_frames.back().stamp;
   for (auto& named : plugins_.measurement) {
@@ -212,7 +212,7 @@ void BackEnd::judgeMap() {
     for (const auto& session : state_.map.sessions) {
       if (session.joined) continue;
       evidence.push_back({"session_" + std::to_string(session.number) + "_not_joined", 1, Evidence::Says::against_it,
-                          joinedText(session) + " to the map, and lies where its start says"});
+                          joinedText(session) + " to the map and lies at its assumed start"});
     }
   }
   if (settings_.engine.motion == Motion::planar) {
@@ -232,7 +232,7 @@ void BackEnd::resume() {
   }
 }
 
-// What plugins keep takes the place of what they kept before; sections of nobody here stay.
+// The sections of these plugins replace those that they saved before; all other sections are kept.
 void BackEnd::collectSections() {
   for (auto& [section, plugin] : plugins_.measurement) {
     auto saved = plugin->save();
@@ -249,7 +249,7 @@ void BackEnd::collectSections() {
 }
 
 void BackEnd::holdMap(int key_frames) {
-  // What a job finds of a key frame must find it free.
+  // A job may return factors of its key frame, which must then still be free.
   const int free = std::max(key_frames, settings_.engine.job_delay + 1);
   window_.emplace(settings_.engine.motion, static_cast<std::size_t>(free), state_.map, state_.graph);
   window_->holdMap();

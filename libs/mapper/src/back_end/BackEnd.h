@@ -20,44 +20,46 @@
 
 namespace omnimapper::mapper {
 
-/// Bundles of observations in, a map out (thesis 5.2.3, 5.3.3): each becomes a key frame, plugins measure there, and
-/// the graph is solved from time to time. During a run nothing but the back end's classes changes map and graph.
+/// Builds the map from bundles of observations (thesis 5.2.3, 5.3.3): each becomes a key frame, the plugins measure
+/// there, and the graph is solved from time to time. During a run only the classes of the back end change map and
+/// graph.
 class BackEnd {
  public:
-  /// All of them stay the caller's.
+  /// The caller owns all arguments.
   BackEnd(const EngineSettings& settings, PluginSet& plugins, base::WorkerPool& pool, Schedule& schedule,
           RunState& state);
 
-  /// Begins a session in the map as it stands; without `start` at the origin, or where measurements say.
+  /// Begins a session in the current map. Without `start` it begins at the origin, or where absolute measurements place
+  /// it.
   void beginSession(const map::Session& session, const std::optional<SessionStart>& start);
-  /// Goes on from a saved map: it counts as solved, and plugins find in it what they left there.
+  /// Continues a saved map: the map counts as solved, and the plugins restore their saved data.
   void resume();
-  /// The map stands and is held from now on: what follows is only localized in it, and about `key_frames` of that are
-  /// kept free.
+  /// Holds the current map fixed: later key frames are only localized in it, and about `key_frames` of them are kept
+  /// free.
   void holdMap(int key_frames);
 
-  /// Whether the bundle became or joined a key frame. False where its stamp is a dependent frame alone, and where no
-  /// source links it to the others, which is counted.
+  /// Whether the bundle became or joined a key frame. False if its stamp is only a dependent frame, or if no pose
+  /// source links it to the others; the latter is counted.
   bool process(FrameBundle& bundle);
-  /// Takes key frames before `stamp` out of the window of a run that localizes; does nothing in others.
+  /// In a run that localizes, takes key frames before `stamp` out of the window; in other runs does nothing.
   void retireBefore(base::Stamp stamp);
 
-  /// Whether jobs are still to be applied.
+  /// Whether there are jobs whose batches are not applied yet.
   bool hasJobs() const { return applier_.jobs() > 0; }
-  /// Waits for the jobs that are left, and applies what they found, in order.
+  /// Waits for all remaining jobs and applies their batches in order.
   void applyAllJobs();
-  /// Solves to the end.
+  /// Solves with the final options.
   void solveFinally() { solve(settings_.solver.final()); }
-  /// Finds which way is up.
+  /// Determines which way is up.
   void findLevel();
-  /// Lets plugins conclude what only the whole log tells.
+  /// Applies the edits that plugins make at the end of the log (MeasurementPlugin::atEnd()).
   void conclude();
-  /// Weighs what plugins say for and against the map.
+  /// Collects the evidence of the plugins for and against the map into a verdict.
   void judgeMap();
-  /// Keeps what plugins leave to a later session.
+  /// Collects the map sections that the plugins save for a later session.
   void collectSections();
 
-  /// Asked while a solve runs; true ends it with the best so far.
+  /// `stop` is called while a solve runs; if it returns true, the solve ends with its best values so far.
   void setStop(std::function<bool()> stop) { estimator_.setStop(std::move(stop)); }
   PoseChain& chain() { return chain_; }
 
@@ -75,10 +77,10 @@ class BackEnd {
   const EngineSettings& settings_;
   PluginSet& plugins_;
   RunState& state_;
-  std::set<std::string> absolute_;  // sections of the plugins that say where in the map the base is
+  std::set<std::string> absolute_;  // sections of the plugins that give absolute poses
   PoseChain chain_;
   Estimator estimator_;
-  std::optional<SlidingWindow> window_;  // of a run that localizes
+  std::optional<SlidingWindow> window_;  // only in a run that localizes
   BatchApplier applier_;
   KeptObservations kept_;
 };

@@ -50,7 +50,7 @@ void BatchApplier::applyJobs(Which which) {
     dropped.plugin = done->origin.owner;
     dropped.kind = done->name;
     dropped.from = done->frame;
-    dropped.reason = "what it is about has changed since: " + why_unfit;
+    dropped.reason = "the graph or the map has changed since the job started: " + why_unfit;
     state_.decisions.push_back(std::move(dropped));
   }
 }

@@ -12,23 +12,23 @@
 
 namespace omnimapper::mapper {
 
-/// Applies what measurement plugins return: batches at once, those of their jobs when they are due.
+/// Applies the batches of measurement plugins: their own at once, those of their jobs when they are due.
 class BatchApplier {
  public:
-  /// All of them stay the caller's.
+  /// The caller owns all arguments.
   BatchApplier(std::vector<Named<MeasurementPlugin>>& plugins, RunState& state, Estimator& estimator,
                base::WorkerPool& pool, Schedule& schedule, std::size_t job_delay)
       : plugins_(plugins), state_(state), estimator_(estimator), schedule_(schedule), jobs_(pool, job_delay) {}
 
-  /// Applies a batch and tells its plugin the final ids. Throws Error(internal) if it does not fit.
+  /// Applies a batch and passes the final ids to its plugin. Throws Error(internal) if the batch does not fit.
   void apply(const Batch& batch, const BatchOrigin& origin, MeasurementPlugin& plugin);
-  /// What each plugin wants after key frame `id`: its batch now, its jobs into the queue.
+  /// Collects the follow-ups of each plugin after key frame `id`: applies their batches now and queues their jobs.
   void collectFollowUps(base::KeyFrameId id);
-  /// The jobs that are due now, or all that are left.
+  /// Which jobs to apply: those that are due now, or all.
   enum class Which { due, all };
-  /// Applies the batches of those jobs. One that no longer fits is dropped, and the decision log says why.
+  /// Applies the batches of those jobs. A batch that no longer fits is dropped, and the decision log gives the reason.
   void applyJobs(Which which);
-  /// Jobs whose batches are not applied yet.
+  /// Number of jobs whose batches are not applied yet.
   std::size_t jobs() const { return jobs_.size(); }
 
  private:

@@ -14,7 +14,8 @@ void Estimator::refine(base::KeyFrameId id) {
 }
 
 void Estimator::applied(const Batch& batch, const AppliedBatch& ids) {
-  // More than its noise explains, nineteen times of twenty: chi-square is about its rows' number, 7.8 for three.
+  // Bound of chi-square per row above which a hypothesis contradicts the estimate: 7.8 for three rows, which noise
+  // exceeds in one case of twenty.
   constexpr double kContradiction = 2.6;
   hypotheses_.take(batch, ids, state_.graph, state_.decisions);
   for (const auto id : ids.factors) {
@@ -27,10 +28,11 @@ void Estimator::applied(const Batch& batch, const AppliedBatch& ids) {
 bool Estimator::isDue() const {
   const auto& options = settings_.engine;
   const double since_solve = static_cast<double>(state_.map.key_frames.size() - key_frames_at_solve_);
-  // In a window a solve is cheap, and where the robot is counts now; so does what may join a session to the map.
+  // In a window a solve is cheap, and a current pose matters most. A hypothesis that may join the session to the map is
+  // urgent, too.
   const bool is_joined = state_.map.sessions.empty() || state_.map.sessions.back().joined;
   if (held_ > 0 && hypotheses_.anyFresh()) {
-    // Nothing leaves the window of a session that is not joined yet.
+    // The window of a session that is not joined yet grows, because no key frame leaves it.
     const double own = static_cast<double>(state_.map.key_frames.size() - held_);
     return is_joined || since_solve >= options.solve_growth * own;
   }

@@ -11,34 +11,35 @@
 
 namespace omnimapper::mapper {
 
-/// When the graph is solved, and what is kept of it: key frames at their new estimates, the uncertainty for gates, a
-/// record for the curves. Between solves the newest pose alone is refined.
+/// Decides when the graph is solved and updates what depends on it: poses of the key frames, the uncertainty for gates,
+/// and the record for the report's curves. Between solves only the newest pose is refined.
 class Estimator {
  public:
-  /// Both stay the caller's.
+  /// The caller owns both arguments.
   Estimator(const EngineSettings& settings, RunState& state)
       : settings_(settings), state_(state), hypotheses_(settings.hypotheses.consistency()) {}
 
-  /// The first key frame of a session is there: gates start from it.
+  /// Called when the first key frame of a session is in the graph: gates start from its covariance.
   void begin() { state_.uncertainty = Uncertainty(state_.graph); }
-  /// A saved map is there, which counts as solved.
+  /// Called when a saved map was loaded, which counts as solved.
   void resume() {
     begin();
     key_frames_at_solve_ = state_.map.key_frames.size();
   }
-  /// The first so many key frames of the map are held, in a graph that binds them no more (SlidingWindow).
+  /// The first `key_frames` of the map are held fixed, and no factor binds them any more (SlidingWindow).
   void hold(std::size_t key_frames) { held_ = key_frames; }
-  /// Takes note of a batch that was just applied; its decisions are the last of the log.
+  /// Must be called after each batch that was applied; its decisions are the last of the log.
   void applied(const Batch& batch, const AppliedBatch& ids);
-  /// Moves one key frame to where all factors that bind it want it, all others held.
+  /// Moves one key frame to the optimum of all factors that bind it, with all other variables held.
   void refine(base::KeyFrameId id);
-  /// Whether it is time to solve: after so many key frames, sooner where hypotheses wait for their verdict, soonest
-  /// where one contradicts the estimate; in a large map later, so that the cost of a key frame does not grow.
+  /// Whether it is time to solve: after a number of key frames, earlier if hypotheses wait for their verdict, and
+  /// earliest if one of them contradicts the estimate. The intervals grow with the map, so that the cost per key frame
+  /// does not.
   bool isDue() const;
-  /// Solves with what is found consistent.
+  /// Tests the hypotheses and solves with those that are consistent.
   void solve(graph::SolveOptions options);
 
-  /// Asked while a solve runs; true ends it with the best so far.
+  /// `stop` is called while a solve runs; if it returns true, the solve ends with its best values so far.
   void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
 
  private:
@@ -47,8 +48,8 @@ class Estimator {
   Hypotheses hypotheses_;
   std::function<bool()> stop_;
   std::size_t key_frames_at_solve_ = 0;
-  std::size_t held_ = 0;       // key frames
-  bool contradicted_ = false;  // by a hypothesis since the last solve
+  std::size_t held_ = 0;       // number of key frames that are held
+  bool contradicted_ = false;  // a hypothesis since the last solve contradicts the estimate
 };
 
 }  // namespace omnimapper::mapper

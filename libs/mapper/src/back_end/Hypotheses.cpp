@@ -8,7 +8,7 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// What the log says of a hypothesis that no decision came with, or that was made in an earlier session.
+// The log entry for a hypothesis that came without a decision or was made in an earlier session.
 Decision decisionAbout(base::FactorId id, const graph::FactorRecord& record, const map::Map& map) {
   Decision decision;
   decision.plugin = record.tags.owner;
@@ -47,7 +47,7 @@ void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_opt
   auto options = solve_options;
   options.stop = nullptr;
   if (solve_options.stop && solve_options.stop()) {
-    // Nobody waits for a test any more, and what a solve leaves half done is nothing to judge by.
+    // The run is being stopped: the test is skipped, because an interrupted solve is no basis for a verdict.
     constexpr int kLastIterations = 5;
     options.max_iterations = std::min(options.max_iterations, kLastIterations);
     graph::solve(graph, options);
@@ -63,7 +63,8 @@ void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_opt
   fresh_.clear();
 }
 
-// The decision that brought the hypothesis tells its latest verdict; one that changes is an entry of its own as well.
+// The decision that came with the hypothesis holds its latest verdict; a verdict that changes is also logged as a new
+// entry.
 void Hypotheses::log(const graph::Verdict& verdict, const graph::FactorRecord& record, const map::Map& map,
                      DecisionLog& decisions) {
   const auto entry = decision_of_.find(verdict.factor);
@@ -76,14 +77,14 @@ void Hypotheses::log(const graph::Verdict& verdict, const graph::FactorRecord& r
     if (!verdict.against) return;
     const auto other = decision_of_.find(*verdict.against);
     if (other == decision_of_.end()) return;
-    decision.numbers.emplace_back("against that of key frame", decisions[other->second].from.index);
+    decision.numbers.emplace_back("contradicts that of key frame", decisions[other->second].from.index);
   };
   if (entry != decision_of_.end()) {
     Decision& decision = decisions[entry->second];
     if (!fresh) {
       Decision change = decision;
-      change.kind += verdict.accepted ? ", taken after all" : ", taken back";
-      change.is_loop_closure = false;  // the entry that it changes is one
+      change.kind += verdict.accepted ? ", accepted after all" : ", taken back";
+      change.is_loop_closure = false;  // the entry that it changes already counts as one
       change.numbers.clear();
       complete(change);
       if (!map.key_frames.empty()) change.stamp = map.key_frames.back().stamp;

@@ -10,17 +10,18 @@
 
 namespace omnimapper::mapper {
 
-/// The factors that could bend the map if they were wrong, from the batch that brings them to the verdict, and to a
-/// later one that takes it back. Until they are judged they do not act. Every verdict goes to the decision log.
+/// Keeps track of the hypotheses, factors that would bend the map if they were wrong, from the batch that adds them to
+/// their verdict and to a later one that revokes it. They have no weight until they are tested. Every verdict is
+/// logged.
 class Hypotheses {
  public:
   explicit Hypotheses(const graph::ConsistencyOptions& options) : options_(options) {}
 
-  /// Takes up those of a batch that was just applied; its decisions are the last of `decisions`.
+  /// Adds the hypotheses of a batch that was just applied; its decisions are the last of `decisions`.
   void take(const Batch& batch, const AppliedBatch& applied, graph::Graph& graph, DecisionLog& decisions);
-  /// Whether some wait for their verdict.
+  /// Whether any hypothesis waits for its verdict.
   bool anyFresh() const { return !fresh_.empty(); }
-  /// Solves `graph` with what is found consistent, and says so in the log.
+  /// Tests the hypotheses, solves `graph` with those that are consistent, and logs the verdicts.
   void solve(graph::Graph& graph, const graph::SolveOptions& solve_options, const map::Map& map,
              DecisionLog& decisions);
 
@@ -30,7 +31,7 @@ class Hypotheses {
 
   graph::ConsistencyOptions options_;
   std::vector<base::FactorId> fresh_;
-  std::unordered_map<base::FactorId, std::size_t> decision_of_;  // place in the log
+  std::unordered_map<base::FactorId, std::size_t> decision_of_;  // index in the log
 };
 
 }  // namespace omnimapper::mapper

@@ -7,7 +7,7 @@ namespace omnimapper::mapper {
 
 void JobQueue::add(std::size_t now, const BatchOrigin& origin, base::KeyFrameId frame, Job job,
                    std::shared_ptr<const Snapshot> snapshot) {
-  // The task holds no owner of the snapshot: the last one must die in the thread that changes map and graph.
+  // The task does not own the snapshot: the last owner must release it in the thread that changes map and graph.
   auto batch = pool_.submit<Batch>([work = std::move(job.work), seen = snapshot.get()] { return work(seen->state()); });
   waiting_.push_back({now + delay_, origin, frame, std::move(job.name), std::move(snapshot), std::move(batch)});
 }

@@ -59,7 +59,7 @@ CObservation::ConstPtr stripped(const CObservationStereoImages& images) {
   return made;
 }
 
-// Null where there is nothing to leave out.
+// A copy without the images that are not kept; null if there is nothing to remove.
 CObservation::ConstPtr stripped(const CObservation& observation, RawImages kept) {
   if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) return stripped(*scan, kept);
   if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return stripped(*image);
@@ -78,7 +78,7 @@ void KeptObservations::posesChanged() {
   const bool is_as_it_was = std::all_of(map_.key_frames.begin(), map_.key_frames.end(), [this](const auto& frame) {
     const auto seen = seen_from_.find(frame.id);
     if (seen == seen_from_.end()) return frame.cloud.empty();
-    constexpr double kLever = 3;  // [m] at which a turn moves points by as much as this
+    constexpr double kLever = 3;  // [m] distance at which a rotation counts by how far it moves a point
     const auto far = [&](const mrpt::poses::CPose3D& pose) { return pose.composePoint({kLever, 0, 0}); };
     const auto side = [&](const mrpt::poses::CPose3D& pose) { return pose.composePoint({0, kLever, 0}); };
     return (far(frame.map_from_base) - far(seen->second)).norm() < cloud_.voxel &&

@@ -10,20 +10,20 @@
 
 namespace omnimapper::mapper {
 
-/// What key frames keep of images: a thinned cloud, and of the images themselves no more than an output asks for. A
-/// place that was seen before adds no points, so that the cloud grows with the place and not with the log.
+/// Reduces what key frames keep of images: a thinned point cloud, and of the images themselves only what an output
+/// needs. A place that was seen before adds no points, so the cloud grows with the place and not with the log.
 class KeptObservations {
  public:
-  /// `map` stays the caller's.
+  /// The caller owns `map`.
   KeptObservations(const CloudOptions& cloud, RawImages images, map::Map& map)
       : cloud_(cloud), images_(images), map_(map), cubes_(cloud.voxel) {}
 
-  /// To be called when a map was loaded or a solve has moved poses: what counts as seen is where its points are now, if
-  /// that is another cube.
+  /// Must be called after a map was loaded or a solve moved poses: the occupied cubes are computed again if points may
+  /// have moved to other cubes.
   void posesChanged();
-  /// Takes those of the points, in the base of the key frame, that lie where the map has none yet.
+  /// Adds to the key frame those of `points`, given in its base frame, that lie where the map has none yet.
   void addCloud(base::KeyFrameId id, const std::vector<map::CloudPoint>& points);
-  /// Replaces images that nobody keeps by observations of the same sensor and stamp without them.
+  /// Replaces observations whose images are not kept by copies of the same sensor and stamp without images.
   void dropImages(base::KeyFrameId id);
 
  private:
@@ -32,8 +32,9 @@ class KeptObservations {
   CloudOptions cloud_;
   RawImages images_;
   map::Map& map_;
-  geometry::CubeSet cubes_;                                               // of the map that have a point
-  std::unordered_map<base::KeyFrameId, mrpt::poses::CPose3D> seen_from_;  // by which they are in these
+  geometry::CubeSet cubes_;  // cubes of the map that contain a point
+  std::unordered_map<base::KeyFrameId, mrpt::poses::CPose3D>
+      seen_from_;  // pose with which the points of a key frame are in cubes_
 };
 
 }  // namespace omnimapper::mapper

@@ -77,7 +77,7 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
                         : start_ ? start_->map_from_base
                                  : CPose3D();
   if (before && after) {
-    // What a source measured of the whole span is not given up for the guess of a fallback.
+    // A measured motion over the whole span is not replaced by the guess of a fallback.
     const bool guessed = to.by_guess || from.by_guess;
     if (guessed && !links_[*place.before].by_guess) return std::nullopt;
     unlink(*place.before);
@@ -91,7 +91,7 @@ std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   if (before) link(*place.before, place.id, to);
   if (after) link(place.id, *place.after, from);
   if (!before) hold(pose);
-  // Dependent frames of the key frame before that are later than this one become its own.
+  // Dependent frames of the key frame before that are later than the new one become dependent frames of the new one.
   const auto later = std::upper_bound(dependents.begin(), dependents.end(), stamp);
   const auto earlier = std::lower_bound(dependents.begin(), later, stamp);
   if (before && earlier != dependents.end()) reattach(*place.before, {dependents.begin(), earlier});
@@ -109,15 +109,16 @@ map::KeyFrame PoseChain::newFrame(base::Stamp stamp, const CPose3D& map_from_bas
   return frame;
 }
 
-// The first pose of a session has nothing before it. Where another one was first until now, that one is let go.
+// Holds the first pose of a session, which has no predecessor. If another pose was the first until now, it is released.
 void PoseChain::hold(base::VariableId first_pose) {
   constexpr char kOwner[] = "engine";
-  // Where measurements place the map, the first pose is only a start: a kilometre and a turn either way.
+  // If absolute measurements place the map, the first pose is only an initial value: its prior is a kilometre wide and
+  // leaves all rotations open.
   constexpr double kAnywhere = 1e3;
   const Eigen::Matrix<double, 6, 6> anywhere = kAnywhere * kAnywhere * Eigen::Matrix<double, 6, 6>::Identity();
   map::Session& session = map_.sessions.back();
   if (start_) {
-    // The session begins where the first pose that came was; one before it moves nothing.
+    // The start stays attached to the pose that came first, even if a late one precedes it.
     if (hold_) return;
     session.anchor = graph_.addVariable(poseVariable(motion_), poseValue(motion_, start_->map_from_base));
     graph_.addFactor(startFactor(motion_, session.anchor,
@@ -152,8 +153,8 @@ void PoseChain::unlink(base::KeyFrameId begin) {
   links_.erase(begin);
 }
 
-// Step by step: asking for all of the motion each time would cost ever more while the robot rests. Where nothing is
-// measured, a frame is where the one before it is.
+// The motion is summed step by step, because the cost of asking for the whole span would grow while the robot rests. If
+// no motion is known, a frame gets the pose of the one before it.
 void PoseChain::reattach(base::KeyFrameId begin, const std::vector<base::Stamp>& stamps) {
   map::KeyFrame& frame = map_.key_frames.edit(begin);
   frame.dependents.clear();
@@ -197,7 +198,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
       const map::KeyFrame& next = map_.key_frames[position + 1];
       const auto span = motionBetween(map_.key_frames[position].stamp, next.stamp, true);
       const bool worse = span.motions.empty() || (span.by_guess && !links_[id].by_guess);
-      if (worse) continue;  // what was measured before is all there is
+      if (worse) continue;  // the older measurements stay
       unlink(id);
       link(id, next.id, span);
     }
@@ -205,7 +206,7 @@ void PoseChain::relink(base::Stamp begin, base::Stamp end) {
   }
 }
 
-// Every source that covers the span; else the first fallback that does.
+// The motions of all sources that cover the span, or of the first fallback that does.
 PoseChain::SpanMotions PoseChain::motionBetween(base::Stamp begin, base::Stamp end, bool or_guess) const {
   SpanMotions span;
   for (const bool fallback : {false, true}) {

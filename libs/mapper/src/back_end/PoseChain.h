@@ -15,48 +15,48 @@
 
 namespace omnimapper::mapper {
 
-/// The key frames of the running session and the continuous factors that link each to the next (thesis 5.2.3): between
-/// neighbours in time, and only there, each continuous source that covers the span has one factor, or the first
-/// fallback if none does. A key frame that comes late is spliced in: the factors across its stamp are replaced by two,
-/// and nothing else changes.
+/// The key frames of the current session and the continuous factors between neighbours in time (thesis 5.2.3). Between
+/// two neighbours, each continuous source that covers the span has one factor, or the first fallback if no source does.
+/// A key frame that comes late is spliced in: the factors across its stamp are replaced by two, and nothing else
+/// changes.
 class PoseChain {
  public:
-  /// `sources`, `map` and `graph` stay the caller's.
+  /// The caller owns `sources`, `map` and `graph`.
   PoseChain(Motion motion, const std::vector<Named<PosePlugin>>& sources, map::Map& map, graph::Graph& graph)
       : motion_(motion), sources_(sources), map_(map), graph_(graph) {}
 
-  /// Before the first key frame of a session. Without `start` the first pose is held at the map's origin, or left to
-  /// measurements if these are `absolute`: they say where in the map the base is.
+  /// Must be called before the first key frame of a session. Without `start` the first pose is held at the map's
+  /// origin, or only initialized there if `absolute` is set, because measurements then place it in the map.
   void beginSession(const map::Session& session, const std::optional<SessionStart>& start, bool absolute);
 
   struct Place {
     base::KeyFrameId id;
-    bool is_new;  ///< false: there was a key frame of that stamp
+    bool is_new;  ///< false if there was already a key frame of that stamp
     std::optional<base::KeyFrameId> before, after;
   };
-  /// The key frame of that stamp: the one there is, or a new one in its place. None if no source tells the motion to
-  /// its neighbours.
+  /// Finds the key frame of that stamp or inserts a new one. None if no source has the motion to its neighbours.
   std::optional<Place> place(base::Stamp stamp);
-  /// An observation of the reference sensor that is no key frame: becomes a dependent frame of the key frame before it.
-  /// False if there is none, or no source tells the motion from it.
+  /// Adds a dependent frame for an observation of the reference sensor that is no key frame; it belongs to the key
+  /// frame before it. False if there is no such key frame or no source has the motion from it.
   bool attach(base::Stamp stamp);
-  /// A source tells other than before of that span: what links the key frames there is made anew.
+  /// Must be called when a source has new information on that span: the key frames there are linked again.
   void relink(base::Stamp begin, base::Stamp end);
 
-  /// That key frame of the session and those before it are held (SlidingWindow): nothing links them any more, and a
-  /// stamp before the next one has no place in the chain.
+  /// That key frame and those before it in the session are held (SlidingWindow): nothing links them any more, and a
+  /// stamp before the next key frame has no place in the chain.
   void retire(base::KeyFrameId id);
 
   /// Stamp of the session's newest key frame; none before the first.
   std::optional<base::Stamp> newest() const;
   /// Stamp of the session's last key frame that is not after `stamp`.
   std::optional<base::Stamp> lastAtOrBefore(base::Stamp stamp) const;
-  /// What the first source that covers the span says; those that do not measure are asked if `or_guess`.
+  /// The motion of the first source that covers the span. Sources that do not measure are used only if `or_guess` is
+  /// set.
   std::optional<RelativeMotion> motion(base::Stamp begin, base::Stamp end, bool or_guess) const;
 
  private:
   struct SpanMotions {
-    std::vector<std::pair<std::string, RelativeMotion>> motions;  // by section of the source
+    std::vector<std::pair<std::string, RelativeMotion>> motions;  // with the section of the source
     bool by_guess = false;
   };
   struct Link {
@@ -77,13 +77,13 @@ class PoseChain {
   const std::vector<Named<PosePlugin>>& sources_;
   map::Map& map_;
   graph::Graph& graph_;
-  std::map<base::KeyFrameId, Link> links_;  // to the next key frame
+  std::map<base::KeyFrameId, Link> links_;  // the link to the next key frame
   std::optional<SessionStart> start_;
   bool absolute_ = false;
-  // What holds the session's first pose: a factor, or that it is fixed.
+  // The session's first pose is held by a factor or by being fixed.
   std::optional<base::FactorId> hold_;
   std::optional<base::VariableId> held_;
-  std::optional<base::KeyFrameId> retired_;  // the last one
+  std::optional<base::KeyFrameId> retired_;  // the last key frame that was retired
 };
 
 }  // namespace omnimapper::mapper

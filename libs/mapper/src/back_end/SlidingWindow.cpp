@@ -15,14 +15,14 @@ namespace {
 
 struct Belief {
   mrpt::poses::CPose3D map_from_base;
-  geometry::Matrix6d covariance;  // in the tangent there
+  geometry::Matrix6d covariance;  // in the tangent at that pose
 };
 
-// What the factors of `gone`, and they alone, say of `heir`. Those that bind a third free variable are left out. None
-// if they leave a direction of it open.
-std::optional<Belief> marginalOf(base::VariableId heir, base::VariableId gone, const graph::Graph& graph) {
+// The marginal of `neighbour` by the factors of `gone` alone, without those that bind a third free variable. None if
+// they leave a direction of `neighbour` undetermined.
+std::optional<Belief> marginalOf(base::VariableId neighbour, base::VariableId gone, const graph::Graph& graph) {
   graph::Graph part;
-  std::vector<std::pair<base::VariableId, base::VariableId>> copies;  // in the graph, in the part
+  std::vector<std::pair<base::VariableId, base::VariableId>> copies;  // (id in graph, id in part)
   const auto copyOf = [&](base::VariableId id) {
     const auto known = std::find_if(copies.begin(), copies.end(), [&](const auto& pair) { return pair.first == id; });
     if (known != copies.end()) return known->second;
@@ -30,21 +30,22 @@ std::optional<Belief> marginalOf(base::VariableId heir, base::VariableId gone, c
     copies.emplace_back(id, part.addVariable(variable.kind, variable.value, variable.fixed));
     return copies.back().second;
   };
-  const auto heir_copy = copyOf(heir);
+  const auto neighbour_copy = copyOf(neighbour);
   for (const auto id : graph.factorsOf(gone)) {
     auto record = graph.factor(id);
-    const bool speaks_of_others = std::any_of(record.variables.begin(), record.variables.end(), [&](auto other) {
-      return other != gone && other != heir && !graph.variable(other).fixed;
+    const bool binds_others = std::any_of(record.variables.begin(), record.variables.end(), [&](auto other) {
+      return other != gone && other != neighbour && !graph.variable(other).fixed;
     });
-    if (record.weight == 0 || speaks_of_others) continue;
+    if (record.weight == 0 || binds_others) continue;
     for (auto& variable : record.variables) variable = copyOf(variable);
     part.addFactor(std::move(record));
   }
   try {
     graph::solve(part);
-    const Eigen::MatrixXd covariance = graph::Marginals(part).covariance(heir_copy);
-    return Belief{poseOf(part, heir_copy), covariance.rows() == 3 ? geometry::embedPlanar(Eigen::Matrix3d(covariance))
-                                                                  : geometry::Matrix6d(covariance)};
+    const Eigen::MatrixXd covariance = graph::Marginals(part).covariance(neighbour_copy);
+    return Belief{poseOf(part, neighbour_copy), covariance.rows() == 3
+                                                    ? geometry::embedPlanar(Eigen::Matrix3d(covariance))
+                                                    : geometry::Matrix6d(covariance)};
   } catch (const base::Error&) {
     return std::nullopt;
   }
@@ -63,7 +64,7 @@ void SlidingWindow::holdMap() {
 }
 
 bool SlidingWindow::mayRetire() const {
-  constexpr std::size_t kStanding = 10;  // key frames since that which joined the session
+  constexpr std::size_t kStanding = 10;  // key frames after the one that joined the session
   const auto& session = map_.sessions.back();
   if (hasRetired()) return true;
   if (!session.joined) return false;
@@ -86,29 +87,29 @@ std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {
   return retired;
 }
 
-// The first pose that came is tied to where the session began.
+// The session's start is tied to the first pose that came: retires the start.
 void SlidingWindow::retireAnchor() {
   const auto anchor = map_.sessions.back().anchor;
   const auto factors = graph_.factorsOf(anchor);
   for (const auto id : factors) {
     const auto variables = graph_.factor(id).variables;
-    for (const auto heir : variables) {
-      if (heir != anchor && !graph_.variable(heir).fixed) return retire(anchor, heir);
+    for (const auto neighbour : variables) {
+      if (neighbour != anchor && !graph_.variable(neighbour).fixed) return retire(anchor, neighbour);
     }
   }
 }
 
-void SlidingWindow::retire(base::VariableId gone, base::VariableId heir) {
+void SlidingWindow::retire(base::VariableId gone, base::VariableId neighbour) {
   constexpr char kOwner[] = "engine";
-  // Where they leave a direction of it open: anywhere.
+  // Standard deviation if the factors leave a direction undetermined.
   constexpr double kAnywhere = 1e3;
   const auto belief =
-      marginalOf(heir, gone, graph_)
-          .value_or(Belief{poseOf(graph_, heir), kAnywhere * kAnywhere * geometry::Matrix6d::Identity()});
+      marginalOf(neighbour, gone, graph_)
+          .value_or(Belief{poseOf(graph_, neighbour), kAnywhere * kAnywhere * geometry::Matrix6d::Identity()});
   const std::vector<base::FactorId> factors = graph_.factorsOf(gone);
   for (const auto id : factors) graph_.removeFactor(id);
   graph_.setFixed(gone, true);
-  graph_.addFactor(posePrior(motion_, heir, belief.map_from_base, belief.covariance, kOwner));
+  graph_.addFactor(posePrior(motion_, neighbour, belief.map_from_base, belief.covariance, kOwner));
 }
 
 }  // namespace omnimapper::mapper

@@ -10,32 +10,33 @@
 
 namespace omnimapper::mapper {
 
-/// Localisation in a map that stands: everything of earlier sessions is held, and of the running one only the newest
-/// key frames are free. One that leaves the window is retired: held where it is, its observations let go, and what its
-/// factors told of the next key frame is left as a prior of that (its marginal); factors that bind a third free
-/// variable are let go. So what a key frame costs hardly grows with the length of the log: there is the trajectory, and
-/// passes over the ids of all that is held.
+/// Localization in a fixed map: all variables of earlier sessions are held, and of the current session only the newest
+/// key frames are free. A key frame that leaves the window is retired: its pose is held, its observations are dropped,
+/// and its factors are replaced by a prior on the next key frame (their marginal); factors that bind a third free
+/// variable are removed. The cost per key frame therefore hardly grows with the length of the log: only the trajectory
+/// and passes over all held ids do.
 class SlidingWindow {
  public:
-  /// `key_frames` stay free at least. `map` and `graph` stay the caller's.
+  /// At least `key_frames` stay free. The caller owns `map` and `graph`.
   SlidingWindow(Motion motion, std::size_t key_frames, map::Map& map, graph::Graph& graph)
       : motion_(motion), size_(key_frames), map_(map), graph_(graph) {}
 
-  /// Before the first key frame of the running session: holds every variable at its value and lets go of all factors,
-  /// which have nothing left to say.
+  /// Must be called before the first key frame of the session: holds every variable at its value and removes all
+  /// factors, which then have no effect any more.
   void holdMap();
-  /// Retires what has left the window, as far as it is older than `stamp`, oldest first, once the session is joined and
-  /// that has stood for some key frames: before that nobody knows where to hold it. The ids of what it retired.
+  /// Retires the key frames that have left the window and are older than `stamp`, oldest first. Retires none before the
+  /// session has been joined for some key frames, because its place in the map is not reliable until then. Returns
+  /// their ids.
   std::vector<base::KeyFrameId> retire(base::Stamp stamp);
-  /// From then on nothing can take back that the session is joined.
+  /// Whether any key frame was retired. From then on the session stays joined.
   bool hasRetired() const { return held_ > of_map_; }
-  /// So many key frames are held; they come first in the map's order.
+  /// Number of key frames that are held; they come first in the map's order.
   std::size_t held() const { return held_; }
 
  private:
   bool mayRetire() const;
   void retireAnchor();
-  void retire(base::VariableId gone, base::VariableId heir);
+  void retire(base::VariableId gone, base::VariableId neighbour);
 
   Motion motion_;
   std::size_t size_;

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using map::Level;
 
 constexpr double kDegree = geometry::kPi / 180;
-constexpr double kBaseSigma = 1 * kDegree;  // [rad] that floors and the chassis of robots are off
+constexpr double kBaseSigma = 1 * kDegree;  // [rad] standard deviation of the tilt of floors and of robots' chassis
 
 std::string degrees(double angle) {
   char text[32];
@@ -34,7 +34,8 @@ double angleBetween(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// The rotation of the base at a stamp within a session; none outside, and where the poses around are far apart in time.
+// Rotation of the base at a stamp within a session; none outside of it, and none where the neighbouring poses are far
+// apart in time and differ in rotation.
 class Rotations {
  public:
   explicit Rotations(std::vector<map::StampedPose> poses) : poses_(std::move(poses)) {
@@ -59,7 +60,7 @@ class Rotations {
   std::vector<map::StampedPose> poses_;
 };
 
-// Of the sensor that tells most; its label goes into the reason.
+// The level by the inertial sensor with the smallest covariance; the reason names its label.
 Level byGravity(const map::Map& map, const LevelEvidence& evidence) {
   Level level;
   if (evidence.imus().empty() || map.sessions.empty()) return level;
@@ -86,7 +87,7 @@ Level byGravity(const map::Map& map, const LevelEvidence& evidence) {
   return level;
 }
 
-// Of cameras, or without any of the base.
+// The poses of the cameras, or of the base if there are no cameras.
 std::vector<surfaces::Viewpoint> viewpointsOf(const map::Map& map) {
   std::vector<surfaces::Viewpoint> viewpoints;
   const auto add = [&](const geometry::Se3& pose) {
@@ -108,7 +109,7 @@ std::vector<surfaces::Viewpoint> viewpointsOf(const map::Map& map) {
   return viewpoints;
 }
 
-// What was seen once only may be noise.
+// The landmarks with surfaces, without those that were measured only once, which may be noise.
 std::vector<surfaces::FlatArea> areasOf(const State& state) {
   constexpr std::uint32_t kFewest = 2;  // measurements
   std::vector<surfaces::FlatArea> areas;
@@ -133,10 +134,10 @@ std::vector<surfaces::FlatArea> areasOf(const State& state) {
 Level bySurfaces(const State& state, double& margin) {
   Level level;
   const auto areas = areasOf(state);
-  const auto told = surfaces::levelOfSurfaces(areas, viewpointsOf(state.map));
-  margin = told.margin;
-  level.reason = told.reason;
-  if (told.up) level = {Level::Source::planes, *told.up, told.covariance, told.reason};
+  const auto estimate = surfaces::levelOfSurfaces(areas, viewpointsOf(state.map));
+  margin = estimate.margin;
+  level.reason = estimate.reason;
+  if (estimate.up) level = {Level::Source::planes, *estimate.up, estimate.covariance, estimate.reason};
   return level;
 }
 
@@ -144,7 +145,7 @@ Level byBase(const map::Map& map, const LevelEvidence& evidence, Motion motion) 
   Level level;
   const bool is_planar = motion == Motion::planar;
   if ((evidence.levelBase().empty() && !is_planar) || map.key_frames.empty()) {
-    level.reason = "no wheels or level 2D laser tell that the base is level";
+    level.reason = "neither wheel odometry nor a level 2D laser shows that the base is level";
     return level;
   }
   Vector3d sum = Vector3d::Zero();
@@ -157,20 +158,20 @@ Level byBase(const map::Map& map, const LevelEvidence& evidence, Motion motion) 
   return level;
 }
 
-// Farther apart than both can be off.
+// Whether two levels differ by more than their standard deviations explain.
 bool contradict(const Level& a, const Level& b) {
   constexpr double kSigmas = 3, kLeast = 3 * kDegree;
   const double sigma = std::hypot(a.standardDeviation(), b.standardDeviation());
   return angleBetween(a.up, b.up) > std::max(kLeast, kSigmas * sigma);
 }
 
-// "gravity" or "surfaces", and by how much it says otherwise.
+// A clause that says by how much `other` (gravity or surfaces) differs.
 std::string otherwise(const Level& of, const Level& other) {
-  return std::string(other.source == Level::Source::imu ? "gravity" : "surfaces") + " would have up " +
-         degrees(angleBetween(of.up, other.up)) + " from there";
+  return std::string("the up direction by ") + (other.source == Level::Source::imu ? "gravity" : "surfaces") +
+         " differs by " + degrees(angleBetween(of.up, other.up));
 }
 
-// Both together, by their covariances.
+// Combines both, weighted by their covariances.
 Level fused(const Level& imu, const Level& planes) {
   Eigen::Matrix<double, 3, 2> tangent;
   tangent.col(0) = imu.up.unitOrthogonal();
@@ -184,15 +185,15 @@ Level fused(const Level& imu, const Level& planes) {
   Level level = by_imu.trace() > by_planes.trace() ? imu : planes;
   level.up = (geometry::expSo3(turn) * imu.up).normalized();
   level.covariance = tangent * covariance * tangent.transpose();
-  level.reason = imu.reason + ", together with surfaces, " + degrees(angleBetween(imu.up, planes.up)) +
-                 " from there (" + planes.reason + ")";
+  level.reason = imu.reason + ", combined with surfaces, which differ by " + degrees(angleBetween(imu.up, planes.up)) +
+                 " (" + planes.reason + ")";
   return level;
 }
 
-// The base is level, unless what is measured clearly tells that it leans. A quarter turn is no lean: there it is the
-// surfaces that are mistaken for others.
+// The base is taken as level unless the measurements clearly show a tilt. A tilt of 30 deg or more is not believed:
+// floors and walls are then probably mistaken for each other.
 JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured) {
-  constexpr double kMostLean = 30 * kDegree;
+  constexpr double kMostTilt = 30 * kDegree;
   JudgedLevel judged{base, {}};
   for (const Level* other : measured) {
     if (!other->isKnown()) continue;
@@ -206,13 +207,13 @@ JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured
       judged.level.covariance *= variance / (kBaseSigma * kBaseSigma);
       return judged;
     }
-    const std::string sentence = "the base is not level: by " + toString(other->source) + " it leans by " +
+    const std::string sentence = "the base is not level: by " + toString(other->source) + " it is tilted by " +
                                  degrees(angle) + " against the map's z (" + other->reason + ")";
-    if (angle < kMostLean && judged.level.source == Level::Source::base) {
+    if (angle < kMostTilt && judged.level.source == Level::Source::base) {
       judged.level = *other;
       judged.warnings.push_back(sentence +
-                                "; surfaces are judged by what was measured. If the sensor's pose on the "
-                                "base is wrong, tell it in [mapper] sensors");
+                                "; surfaces are judged by the measured up direction. If the sensor's pose on the base "
+                                "is wrong, give the right one in [mapper] sensors");
     } else {
       judged.level.reason += ", though " + otherwise(judged.level, *other);
     }
@@ -240,14 +241,13 @@ JudgedLevel estimateLevel(const State& state, const LevelEvidence& evidence, Mot
         judged.level.reason += ", though " + otherwise(imu, planes);
         judged.warnings.push_back("gravity and surfaces do not agree on which way is up: " + otherwise(imu, planes) +
                                   " (" + planes.reason +
-                                  "); gravity counts. Does the inertial sensor's pose on the "
-                                  "base hold?");
+                                  "); gravity is used. Is the inertial sensor's pose on the base right?");
       }
     }
   } else if (planes.isKnown()) {
     judged.level = planes;
     if (base.isKnown() && contradict(planes, base))
-      judged.warnings.push_back("the base is not level: by planes it leans by " +
+      judged.warnings.push_back("the base is not level: by planes it is tilted by " +
                                 degrees(angleBetween(planes.up, base.up)) + " on average (" + planes.reason + ")");
   } else if (base.isKnown()) {
     judged.level = base;

@@ -11,16 +11,15 @@
 
 namespace omnimapper::mapper {
 
-/// A level with what a user should know of it.
+/// A level and the warnings about it.
 struct JudgedLevel {
   map::Level level;
   std::vector<std::string> warnings;  ///< sentences
 };
 
-/// Which way is up in a map: by gravity where an inertial sensor told it; else by the landmarks that are flat; else by
-/// the base of a robot on wheels. In a planar map of such a robot z is up, for the base is level by assumption, unless
-/// gravity or surfaces clearly contradict. What an earlier session knew by gravity counts on where this one has no
-/// inertial sensor.
+/// Determines which way is up in a map: by gravity if an inertial sensor measured it, else by the flat landmarks, else
+/// by the base of a robot on wheels. In a planar map the base is level by assumption and z is up, unless gravity or
+/// surfaces clearly contradict. If this session has no inertial sensor, the gravity of an earlier session is used.
 JudgedLevel estimateLevel(const State& state, const LevelEvidence& evidence, Motion motion);
 
 }  // namespace omnimapper::mapper

@@ -24,12 +24,11 @@ std::optional<Evidence> judgeTilt(const map::Map& map) {
       map.key_frames.empty() ? 0 : 100.0 * static_cast<double>(tilted) / static_cast<double>(map.key_frames.size());
   if (percent <= kMuch) return std::nullopt;
   char text[300];
-  std::snprintf(
-      text, sizeof text,
-      "the base tilts by more than 5 deg from one key frame to the next in %.0f %% of them (at most %.0f deg), "
-      "which [mapper] motion = planar leaves out; --check names the INI that fits, for a camera carried by hand "
-      "rgbd_handheld.ini",
-      percent, largest * 180 / geometry::kPi);
+  std::snprintf(text, sizeof text,
+                "the base tilts by more than 5 deg from one key frame to the next in %.0f %% of them (at most %.0f "
+                "deg), which [mapper] motion = planar ignores; --check names the INI that fits; for a hand-held camera "
+                "it is rgbd_handheld.ini",
+                percent, largest * 180 / geometry::kPi);
   return Evidence{"tilted_percent", percent, Evidence::Says::against_it, text};
 }
 

@@ -7,8 +7,9 @@
 
 namespace omnimapper::mapper {
 
-/// Evidence against a map with [mapper] motion = planar whose base, by what its pose plugins told, often tilted from
-/// one key frame to the next by more than ramps and thresholds tilt a robot: a hand carried it. None if it did not.
+/// Evidence against a map with [mapper] motion = planar if the base, according to its pose plugins, often tilted
+/// between consecutive key frames by more than ramps and thresholds tilt a robot, as a hand-held camera does. None
+/// otherwise.
 std::optional<Evidence> judgeTilt(const map::Map& map);
 
 }  // namespace omnimapper::mapper

@@ -14,12 +14,12 @@ namespace {
 using mrpt::math::TPoint3D;
 using mrpt::obs::CObservation3DRangeScan;
 
-// Pixels between those that are looked at: of a Kinect 3 cm apart at 4 m.
+// Pixel step of the sampling; 3 cm apart at 4 m for a Kinect.
 constexpr int kStride = 4;
-// Of the depth, between neighbours that see the same surface.
+// Largest relative difference in depth between neighbouring pixels of the same surface.
 constexpr double kLargestStep = 0.05;
 
-// Colours of points by the picture that was taken with the depth image.
+// Colours of points from the image that was taken with the depth image.
 class Colours {
  public:
   explicit Colours(const CObservation3DRangeScan& scan) : scan_(scan) {

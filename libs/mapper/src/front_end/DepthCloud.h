@@ -8,9 +8,9 @@
 
 namespace omnimapper::mapper {
 
-/// The points of a depth image with their colours, one of each cube of `options.voxel`; none of other observations, nor
-/// where there is no depth. Points at edges of depth, where a pixel sees two surfaces, are left out. Without a picture
-/// the points are grey.
+/// The coloured points of a depth image in the base frame, one for each cube of side `options.voxel`; empty for other
+/// observations and where there is no depth. Points at depth discontinuities, where a pixel covers two surfaces, are
+/// left out. Without a colour image the points are grey.
 std::vector<map::CloudPoint> depthCloud(const mrpt::obs::CObservation& observation, const CloudOptions& options);
 
 }  // namespace omnimapper::mapper

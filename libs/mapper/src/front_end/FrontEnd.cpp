@@ -10,7 +10,7 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// How long beyond the window an observation waits for a pose source that lags behind.
+// How much longer than the window an observation waits for a pose source that lags behind.
 constexpr double kPatienceSeconds = 3;
 
 template <class Plugin>
@@ -47,7 +47,7 @@ void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
   const auto placed = sensor_poses_.applied(observation);
   const bool is_taken = feedSources(placed);
   state_.level_evidence.add(*placed);
-  // Where nothing is to be measured, what tells the motion makes the key frames.
+  // Without measurement plugins, the observations of the pose sources make the key frames.
   if (perception_.wants(*placed) || (is_taken && plugins_.measurement.empty())) {
     if (!queue_.add(placed)) addLate(placed);
   } else if (!is_taken) {
@@ -55,7 +55,8 @@ void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
   }
 }
 
-// Whether a pose source took it. Where a source corrects what it said of the past, the factors there change.
+// Whether a pose source took the observation. If a source has new information on the past, the factors there are
+// replaced.
 bool FrontEnd::feedSources(const mrpt::obs::CObservation::ConstPtr& observation) {
   bool taken = false;
   for (auto& [section, plugin] : plugins_.pose) {
@@ -70,7 +71,8 @@ bool FrontEnd::feedSources(const mrpt::obs::CObservation::ConstPtr& observation)
   return taken;
 }
 
-// Whether every continuous source can tell the motion until then. One that has fallen silent is waited for no more.
+// Whether every continuous source covers the time up to `stamp`. A source that has been silent for too long is not
+// waited for.
 bool FrontEnd::isCovered(base::Stamp stamp) const {
   const auto patience = base::durationFromSeconds(options_.window + kPatienceSeconds);
   return std::all_of(plugins_.pose.begin(), plugins_.pose.end(), [&](const auto& named) {
@@ -79,7 +81,8 @@ bool FrontEnd::isCovered(base::Stamp stamp) const {
   });
 }
 
-// Later than its window. Beyond the horizon nobody knows any more how the base moved then.
+// Handles an observation that comes after its window. Older than the horizon, the motion of the base then is not known
+// any more.
 void FrontEnd::addLate(const mrpt::obs::CObservation::Ptr& observation) {
   const auto newest = chain_.newest();
   if (newest && observation->timestamp + base::durationFromSeconds(options_.horizon) < *newest) {
@@ -103,7 +106,7 @@ std::optional<FrameBundle> FrontEnd::next() {
   return first;
 }
 
-// Whether there was a group that waits no more.
+// Releases the next group if it is due, the log has ended or the queue is full. Returns whether it released one.
 bool FrontEnd::releaseNext() {
   const auto due = queue_.due();
   const bool is_ready = closed_ || (due && isCovered(*due));
@@ -116,7 +119,8 @@ bool FrontEnd::releaseNext() {
   return group.has_value();
 }
 
-// Past the trigger, perception starts at once; the bundle itself is worked on when those before it are.
+// Passes a group through the trigger. Perception of the observations that fire starts at once; the bundle is processed
+// after those before it.
 void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
   for (auto& [section, plugin] : plugins_.pose) {
     const auto timer = state_.times.measure(Stage::plugin, section);

@@ -20,29 +20,29 @@
 
 namespace omnimapper::mapper {
 
-/// Observations in, in order of arrival; bundles for key frames out, in order of time except for late ones (thesis
-/// 5.2.3.2, 5.3.2.1). Pose sources are fed on the way, and perception of a bundle starts in the worker pool when the
-/// trigger lets it through.
+/// Takes observations in order of arrival and returns bundles for key frames, in order of time except for late ones
+/// (thesis 5.2.3.2, 5.3.2.1). It also feeds the pose sources, and starts the perception of a bundle in the worker pool
+/// when the trigger lets it through.
 class FrontEnd {
  public:
-  /// All but `sensor_poses` stay the caller's. `chain` answers the trigger how the base moved, and learns of what pose
-  /// sources correct.
+  /// The caller owns all arguments but `sensor_poses`. `chain` gives the trigger the motion of the base and is informed
+  /// when a pose source corrects the past.
   FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
            base::WorkerPool& pool, Schedule& schedule, RunState& state);
 
-  /// Takes one observation. What cannot be used is counted.
+  /// Takes one observation. Unusable ones are counted.
   void add(const mrpt::obs::CObservation::Ptr& observation);
-  /// The log has ended: next() hands out all that still waits.
+  /// Called at the end of the log: from then on next() returns everything that still waits.
   void close();
-  /// The bundle to work on now; none until more is added. Process it before the next call: the trigger asks how the
-  /// base moved until then.
+  /// The bundle to process now; none until more observations are added. It must be processed before the next call,
+  /// because the trigger needs the motion of the base up to it.
   std::optional<FrameBundle> next();
 
-  /// Whether so many bundles wait for their perception that no more are begun.
+  /// Whether enough bundles wait for their perception that no more should be started.
   bool isFull() const { return bundles_.size() > Schedule::kPipelineDepth; }
-  /// Stamp of the oldest bundle that waits to be handed out; late ones stand behind younger ones.
+  /// Earliest stamp of the waiting bundles; late ones stand behind younger ones.
   std::optional<base::Stamp> oldestWaiting() const;
-  /// Lets pose sources and trigger drop what they keep of the time before `stamp`.
+  /// Lets pose sources and trigger drop their data from before `stamp`.
   void forgetBefore(base::Stamp stamp);
 
  private:

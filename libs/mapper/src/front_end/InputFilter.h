@@ -9,11 +9,11 @@
 
 namespace omnimapper::mapper {
 
-/// Refuses observations that nothing can be made of, and counts them.
+/// Refuses unusable observations and counts them.
 class InputFilter {
  public:
-  /// Whether it has a stamp, of its own among those of its class and label that came just before, and a finite sensor
-  /// pose.
+  /// Whether the observation has a valid stamp, which differs from that of the previous one of its class and label, and
+  /// a finite sensor pose.
   bool accepts(const mrpt::obs::CObservation& observation, RunCounts& counts);
 
  private:

@@ -14,20 +14,21 @@
 
 namespace omnimapper::mapper {
 
-/// What happens to an observation in the worker pool, ahead of the engine: extractors derive observations from it, and
-/// measurement plugins prepare what they want of it and of those. Depends on the observation, and on those given with
-/// it, alone.
+/// Processes observations in the worker pool, ahead of the engine: extractors derive observations, and measurement
+/// plugins prepare the raw and derived ones that they want. The result depends only on the observation and on those
+/// passed with it.
 class Perception {
  public:
-  /// All of them stay the caller's and must outlive this, and this the tasks in the pool.
+  /// The caller owns all arguments; they must outlive this object, and this object must outlive its tasks in the pool.
   Perception(std::vector<const perception::Extractor*> extractors, std::vector<const MeasurementPlugin*> plugins,
              base::WorkerPool& pool, const CloudOptions& cloud)
       : extractors_(std::move(extractors)), plugins_(std::move(plugins)), pool_(pool), cloud_(cloud) {}
 
-  /// Whether an extractor or a plugin takes it.
+  /// Whether any extractor or plugin wants the observation.
   bool wants(const mrpt::obs::CObservation& raw) const;
-  /// Extractors all of whose results are among `brought`, observations of the same stamp that came with the log, are
-  /// spared. What they throw as base::Error is in the result; other exceptions come out of the future.
+  /// Starts the processing of `raw`. `brought` are the observations of the same stamp that came with the log; an
+  /// extractor whose results are all among them is skipped. A base::Error of an extractor is part of the result; other
+  /// exceptions come out of the future.
   std::future<PerceivedParts> submit(mrpt::obs::CObservation::ConstPtr raw,
                                      std::vector<mrpt::obs::CObservation::ConstPtr> brought = {}) const;
 

@@ -9,8 +9,8 @@
 
 namespace omnimapper::mapper {
 
-/// Sorts observations by stamp and holds each until one arrives that is a window later, so that slower sensors find
-/// their place (thesis 5.2.3.2). Observations of one stamp leave together, in order of arrival.
+/// Sorts observations by stamp and holds each until one arrives that is a window later, so that observations of slower
+/// sensors are put in order (thesis 5.2.3.2). Observations of one stamp leave together, in order of arrival.
 class ReleaseQueue {
  public:
   struct Group {
@@ -20,19 +20,20 @@ class ReleaseQueue {
 
   explicit ReleaseQueue(base::Duration window) : window_(window) {}
 
-  /// False if its stamp was released already: it comes too late.
+  /// False if a stamp as late as this was already released: the observation comes too late.
   bool add(const mrpt::obs::CObservation::Ptr& observation);
-  /// Whether one of that label, class and stamp waits already.
+  /// Whether an observation with the same label, class and stamp is waiting.
   bool holds(const mrpt::obs::CObservation& observation) const;
-  /// An observation of that stamp has arrived, queued or not. A single stamp from far off is forgotten with the next.
+  /// Must be called for each observation that arrives, queued or not. A single stamp that is far off has no effect
+  /// beyond the next call.
   void arrived(base::Stamp stamp) { now_ = stamp; }
-  /// Stamp of what arrived last.
+  /// Stamp of the observation that arrived last.
   std::optional<base::Stamp> now() const { return now_; }
   /// Stamp of the next group, if it has waited long enough.
   std::optional<base::Stamp> due() const;
-  /// The next group, however long it has waited.
+  /// Removes and returns the next group, however long it has waited.
   std::optional<Group> next();
-  /// Of the groups that wait.
+  /// Number of groups that wait.
   std::size_t size() const { return groups_.size(); }
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 using Track = std::map<base::Stamp, mrpt::poses::CPose3D>;
 
-// Adds the pose of a line "stamp x y z qx qy qz qw". What is wrong with it, if anything.
+// Adds the pose of a line "stamp x y z qx qy qz qw". Returns what is wrong with the line, or an empty string.
 std::string addLine(const std::string& line, Track& track) {
   std::istringstream fields(line);
   std::string stamp;
@@ -25,7 +25,7 @@ std::string addLine(const std::string& line, Track& track) {
   const geometry::Se3 pose{rotation.normalized(), {x, y, z}};
   try {
     const bool is_new = track.emplace(base::parseUnix(stamp), geometry::toMrpt(pose)).second;
-    return is_new ? "" : "this stamp stands twice";
+    return is_new ? "" : "this stamp occurs twice";
   } catch (const base::Error& error) {
     return error.what();
   }
@@ -42,12 +42,12 @@ Track readTrack(const std::string& path) {
     if (problem.empty()) continue;
     throw base::Error(base::ExitCode::unreadable_input, path + ":" + std::to_string(number) + ": " + problem);
   }
-  if (track.empty()) throw base::Error(base::ExitCode::unreadable_input, path + ": holds no sensor pose");
+  if (track.empty()) throw base::Error(base::ExitCode::unreadable_input, path + ": contains no sensor pose");
   return track;
 }
 
-// A section that tells an aperture and no part of a pose leaves the pose as the observations have it.
-bool tellsPose(const base::ConfigSection& section) {
+// A section that gives an aperture but no part of a pose keeps the sensor pose of the observations.
+bool givesPose(const base::ConfigSection& section) {
   const std::string keys[] = {"pose_x_m", "pose_y_m", "pose_z_m", "pose_yaw_deg", "pose_pitch_deg", "pose_roll_deg"};
   return std::any_of(std::begin(keys), std::end(keys), [&](const std::string& key) {
     std::string text;
@@ -82,13 +82,14 @@ SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::C
   for (const auto& name : sections) {
     const auto options = config.section(name).read<SensorPoseOptions>();
     if (options.label.empty()) {
-      throw base::Error(base::ExitCode::wrong_type,
-                        config.file() + ": [" + name + "] needs 'label = ...': whose place on the base is this?");
+      throw base::Error(
+          base::ExitCode::wrong_type,
+          config.file() + ": [" + name + "] needs 'label = ...', the label of the sensor whose pose it gives");
     }
     if (options.aperture > 0) apertures_[options.label] = options.aperture;
     if (!options.file.empty()) {
       tracks_[options.label] = readTrack(options.file);
-    } else if (options.aperture == 0 || tellsPose(config.section(name))) {
+    } else if (options.aperture == 0 || givesPose(config.section(name))) {
       tracks_[options.label] = {{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
                                                                      options.pitch, options.roll)}};
     }

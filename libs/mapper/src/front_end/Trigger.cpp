@@ -47,7 +47,7 @@ bool Trigger::fires(const std::string& label, base::Stamp stamp, const MotionBet
     return true;
   }
   Since& since = entry->second;
-  // Motion is summed step by step: asking for all of it each time would cost ever more while the robot rests.
+  // The motion is summed step by step, because the cost of asking for the whole span would grow while the robot rests.
   const auto step = motion(since.seen, stamp);
   since.motion = step && since.motion ? std::make_optional(*since.motion + step->begin_from_end) : std::nullopt;
   since.seen = stamp;
@@ -63,8 +63,8 @@ bool Trigger::firesLate(const std::string& label, base::Stamp stamp, const Motio
   if (entry == labels_.end()) return fires(label, stamp, motion);
   Since& since = entry->second;
   const auto isFar = [&](base::Stamp begin, base::Stamp end) {
-    const auto told = motion(begin, end);
-    return isDue({begin, end, told ? std::make_optional(told->begin_from_end) : std::nullopt});
+    const auto measured = motion(begin, end);
+    return isDue({begin, end, measured ? std::make_optional(measured->begin_from_end) : std::nullopt});
   };
   const auto after = since.all_fired.lower_bound(stamp);
   if (after != since.all_fired.end() && *after == stamp) return false;
@@ -74,16 +74,16 @@ bool Trigger::firesLate(const std::string& label, base::Stamp stamp, const Motio
   const bool newest = after == since.all_fired.end();
   since.all_fired.insert(stamp);
   if (newest) {
-    const auto told = motion(stamp, std::max(stamp, since.seen));
+    const auto measured = motion(stamp, std::max(stamp, since.seen));
     since.fired = stamp;
     since.seen = std::max(stamp, since.seen);
-    since.motion = told ? std::make_optional(told->begin_from_end) : std::nullopt;
+    since.motion = measured ? std::make_optional(measured->begin_from_end) : std::nullopt;
   }
   return true;
 }
 
 void Trigger::forgetBefore(base::Stamp stamp) {
-  // The last one before it stays: a late observation may follow it.
+  // The last one before `stamp` is kept, because a late observation may follow it.
   for (auto& [label, since] : labels_) {
     const auto kept = since.all_fired.upper_bound(stamp);
     if (kept != since.all_fired.begin()) since.all_fired.erase(since.all_fired.begin(), std::prev(kept));

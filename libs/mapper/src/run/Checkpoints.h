@@ -13,21 +13,22 @@
 
 namespace omnimapper::mapper {
 
-/// Writes the map from time to time while it grows, in a thread of its own, on a copy that shares what does not change.
+/// Writes the map from time to time while it grows, in a separate thread and from a copy that shares unchanged data.
 class Checkpoints {
  public:
-  /// `period` [s]: 0 writes none.
+  /// `period` [s]; 0 writes no checkpoints.
   Checkpoints(std::string path, double period) : path_(std::move(path)), period_(period) {}
-  /// Waits for one that is being written.
+  /// Waits for a checkpoint that is being written.
   ~Checkpoints();
   Checkpoints(const Checkpoints&) = delete;
   Checkpoints& operator=(const Checkpoints&) = delete;
 
-  /// Begins to write one if it is time for it and the last is done. Gives a sentence if that could not be written.
+  /// Starts to write a checkpoint if one is due and the last is finished. Returns a sentence if the last could not be
+  /// written, else an empty string.
   std::string offer(const View& view);
-  /// The run is over: a checkpoint that it wrote is not needed any more if there is the map itself, younger, as `map`.
+  /// Must be called at the end of the run: removes the checkpoint that it wrote if the file `map` is there and younger.
   void removeFor(const std::string& map);
-  /// Writes done.
+  /// Number of checkpoints written.
   std::size_t count() const { return count_; }
 
  private:
@@ -41,7 +42,8 @@ class Checkpoints {
   std::string path_;
   std::chrono::duration<double> period_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  std::unique_ptr<const Copy> copy_;  // that is being written; made and destroyed by the thread that changes the map
+  std::unique_ptr<const Copy>
+      copy_;  // the copy being written; created and destroyed by the thread that changes the map
   std::future<void> written_;
   std::size_t count_ = 0;
 };

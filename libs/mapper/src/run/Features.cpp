@@ -22,7 +22,8 @@ std::string libraryOf(std::string_view feature) {
   return "libomnimapper-" + std::string(feature) + ".so";
 }
 
-// The libraries that loadFeatures() found, by file name, each with what the loader said if it could not be loaded.
+// The libraries that loadFeatures() found, by file name, each with the loader's error message if it could not be
+// loaded.
 std::map<std::string, std::string>& foundLibraries() {
   static std::map<std::string, std::string> problem_of;
   return problem_of;
@@ -34,7 +35,7 @@ void loadAll() {
   for (const auto& entry : kFeatureIndex) {
     const std::string library = libraryOf(entry.feature);
     const fs::path path = fs::path(featureFolder()) / library;
-    std::error_code error;  // what cannot be looked at is not there
+    std::error_code error;  // a path that cannot be examined counts as missing
     if (!entry.left_out.empty() || foundLibraries().count(library) > 0 || !fs::exists(path, error)) continue;
     std::string problem;
     const bool loaded = mrpt::system::loadPluginModule(path, problem);

@@ -16,52 +16,53 @@
 
 namespace omnimapper::mapper {
 
-/// In the output folder, of a live run that goes on or crashed.
+/// File in the output folder of a live run that is running or crashed.
 inline constexpr char kCheckpoint[] = "checkpoint.omnimap";
 
-/// Where the observations of a run come from: logs, sensors, or what was recorded of sensors.
+/// The source of a run's observations: logs, sensors, or the recording of a live run.
 class Feed {
  public:
   using Stop = std::function<bool()>;
 
   virtual ~Feed() = default;
 
-  /// Of the session that the run makes.
+  /// Title of the session that the run adds.
   virtual std::string title() const = 0;
-  /// What is read, for messages.
+  /// Name of the input, for messages.
   virtual std::string name() const = 0;
-  /// Files that no output may replace.
+  /// Input files, which no output may overwrite.
   virtual std::vector<std::string> inputs() const { return {}; }
-  /// When the engine is to take up what its workers make.
+  /// The schedule by which the engine uses the results of its workers.
   virtual std::unique_ptr<Schedule> schedule() { return std::make_unique<Schedule>(); }
-  /// Whether a run that `stop` ends is a whole one.
+  /// Whether a run that is ended by `stop` counts as complete.
   virtual bool endsWhenStopped() const { return false; }
 
-  /// Why the outputs must not take the place of a run's that is in this folder; empty if they may.
+  /// Why the outputs must not replace those of the run in this folder: the rest of a sentence that begins with "the
+  /// folder holds the map of an earlier run, and"; empty if they may.
   virtual std::string keepsRunIn(const std::string& /*folder*/) const { return ""; }
 
-  /// Opens what can be opened before there is a place for outputs; throws Error where that cannot be read.
+  /// Opens the inputs before the output folder exists; throws Error if they cannot be read.
   virtual void open(const Stop& stop) = 0;
-  /// The folder of the outputs is there.
+  /// Called when the output folder exists.
   virtual void begin(const std::string& /*output_folder*/, const Stop& /*stop*/) {}
-  /// Gives all to the engine. True if `stop` ended it before its end.
+  /// Passes all observations to the engine. Returns true if `stop` ended it early.
   virtual bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) = 0;
-  /// The outputs are in their places, in this folder.
+  /// Called when the outputs are in their final places in this folder.
   virtual void published(const std::string& /*output_folder*/) {}
 
-  /// What was read until now.
+  /// Report on the observations read so far.
   virtual source::SourceReport report() const = 0;
-  /// What the program ends with if nothing else is wrong.
+  /// Exit code of the program if nothing else is wrong.
   virtual base::ExitCode code() const { return report().exitCode(); }
-  /// Half a sentence for the user of a run that has no map: what of it was written all the same.
+  /// Clause for the user of a run without a map: what was written nevertheless.
   virtual std::string whatStays() const { return "nothing was written"; }
-  /// What to run where nothing could be mapped.
+  /// Sentence for the user that names the command to try when nothing could be mapped.
   virtual std::string checkHint() const { return "omnimapper-graphslam --check names the INIs that fit this log"; }
-  /// Names in the output folder that are the feed's own.
+  /// Names of files and folders in the output folder that belong to the feed.
   virtual std::vector<std::string> files() const { return {}; }
 };
 
-/// What the request asks for. Throws Error where the INI does not suit it.
+/// Makes the feed that the request names. Throws Error if the INI does not suit it.
 std::unique_ptr<Feed> makeFeed(const RunRequest& request, const base::Config& config);
 
 }  // namespace omnimapper::mapper

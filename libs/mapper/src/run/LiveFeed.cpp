@@ -23,7 +23,7 @@ std::string times(std::uint64_t count) {
   return std::to_string(count) + " times";
 }
 
-// Keys of [source] that are about reading logs.
+// The keys of [source] in the INI that only apply to logs.
 std::string keysForLogs(const base::Config& config) {
   std::string keys, text;
   for (const auto& spec : source::SourceOptions::table().specs())
@@ -63,7 +63,7 @@ void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
 bool LiveFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
   try {
     feedAll(engine, samples, progress, stop);
-  } catch (...) {  // the map of what came before is finished, and nobody takes what sensors would send meanwhile
+  } catch (...) {  // the map so far is finished without further observations
     sensors_->close();
     engine.setLive(metrics());
     throw;
@@ -97,7 +97,7 @@ void LiveFeed::feedAll(Engine& engine, SensorSamples& samples, base::Progress& p
   attend(engine, progress);
 }
 
-// False if there is nothing.
+// Passes the next observation to the engine. Returns false if there is none.
 bool LiveFeed::giveNext(Engine& engine, SensorSamples& samples, milliseconds patience) {
   const auto take = [&] {
     const auto timer = engine.measure(Stage::source);
@@ -118,7 +118,7 @@ bool LiveFeed::giveNext(Engine& engine, SensorSamples& samples, milliseconds pat
   return true;
 }
 
-// What is due beside mapping, some times a second.
+// Handles everything beside mapping, several times a second: messages, checkpoints, journal, verdict and state line.
 void LiveFeed::attend(Engine& engine, base::Progress& progress) {
   constexpr milliseconds kBetween(50), kBetweenFlushes(200);
   const auto now = Clock::now();
@@ -128,9 +128,9 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
   if (const auto problem = checkpoints_->offer(engine.view()); !problem.empty()) progress.reportEvent(problem);
   if (trace_->journal && now - flushed_ >= kBetweenFlushes) {
     flushed_ = now;
-    if (!trace_->journal->flush() && !has_told_journal_) {
-      has_told_journal_ = true;
-      const std::string problem = "the journal of the recording cannot be written any more: a replay ends there";
+    if (!trace_->journal->flush() && !journal_has_failed_) {
+      journal_has_failed_ = true;
+      const std::string problem = "the journal of the recording cannot be written any more: a replay will end here";
       progress.reportEvent(problem);
       engine.warn(problem);
     }
@@ -140,19 +140,19 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
   progress.reportState(stateText(engine.view()));
 }
 
-// The larger the map the longer that takes, and mapping waits for it.
+// Judges the map. The engine waits meanwhile, and the time this takes grows with the map, so the interval does as well.
 void LiveFeed::judge(Engine& engine) {
   constexpr auto kShortest = std::chrono::seconds(5);
-  constexpr int kShare = 200;  // of the time at most one part in so many
+  constexpr int kShare = 200;  // at most 1/kShare of the time is spent on it
   const auto begin = Clock::now();
   engine.judge();
   next_judgement_ = Clock::now() + std::max<Clock::duration>(kShortest, kShare * (Clock::now() - begin));
 }
 
-// One sentence for each sensor that did not go well: each single loss was told when it came.
+// Adds a warning for each sensor that had problems; each single loss was already reported when it occurred.
 void LiveFeed::warnOfSensors(Engine& engine) const {
   if (!unused_keys_.empty())
-    engine.warn("live sensors are not read with these settings, which are for logs: [source] " + unused_keys_);
+    engine.warn("these settings apply only to logs and have no effect on live sensors: [source] " + unused_keys_);
   if (filtered_out_ > 0)
     engine.warn("[source] labels left " + std::to_string(filtered_out_) +
                 " observations out of the map; they are recorded");
@@ -168,7 +168,7 @@ void LiveFeed::warnOfSensors(Engine& engine) const {
     if (sensor.left_out > 0) add("sent " + std::to_string(sensor.left_out) + " invalid messages, which were discarded");
     if (sensor.clock_jumps > 0) {
       char text[120];
-      std::snprintf(text, sizeof text, "has another clock than the host: %.3f s were added to its stamps at last",
+      std::snprintf(text, sizeof text, "has another clock than the host: %.3f s are added to its latest stamps",
                     sensor.clock_offset);
       add(text);
     }
@@ -222,12 +222,12 @@ source::SourceReport LiveFeed::report() const {
 
 base::ExitCode LiveFeed::code() const {
   const auto* recorder = sensors_->recorder();
-  const bool is_cut = (recorder && !recorder->failure().empty()) || has_told_journal_;
+  const bool is_cut = (recorder && !recorder->failure().empty()) || journal_has_failed_;
   return is_cut ? base::ExitCode::disk_full : report().exitCode();
 }
 
 std::string LiveFeed::whatStays() const {
-  return recording_.empty() ? Feed::whatStays() : "no map was written; what came is recorded in " + recording_;
+  return recording_.empty() ? Feed::whatStays() : "no map was written; the observations are recorded in " + recording_;
 }
 
 std::vector<std::string> LiveFeed::files() const {

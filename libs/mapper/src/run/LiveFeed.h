@@ -13,10 +13,10 @@
 
 namespace omnimapper::mapper {
 
-/// Sensors, until the run is stopped.
+/// Maps live sensors until the run is stopped.
 class LiveFeed : public Feed {
  public:
-  /// Of sensors, only `labels` are mapped, all if it is empty. Throws Error as live::readSensors().
+  /// Only observations with one of `labels` are mapped, or all if it is empty. Throws Error as live::readSensors().
   LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config);
 
   std::string title() const override { return title_; }
@@ -30,7 +30,7 @@ class LiveFeed : public Feed {
   source::SourceReport report() const override;
   base::ExitCode code() const override;
   std::string whatStays() const override;
-  // A drive cannot be made again as a run on a log can, and Ctrl-C may end the next one after a second.
+  // Unlike a run on a log, a live drive cannot be repeated, and Ctrl-C may end the next one after a second.
   std::string keepsRunIn(const std::string&) const override { return "a live run would replace it"; }
   std::string checkHint() const override { return "omnimapper-graphslam --check --live shows what the sensors send"; }
   std::vector<std::string> files() const override;
@@ -47,15 +47,15 @@ class LiveFeed : public Feed {
 
   live::LiveOptions options_;
   std::vector<std::string> labels_;
-  std::string unused_keys_;  // of [source]
+  std::string unused_keys_;  // keys of [source] that have no effect
   std::vector<live::SensorSection> sections_;
-  std::string title_, ini_, name_, recording_;  // its folder, empty without
+  std::string title_, ini_, name_, recording_;  // recording_: its folder, empty without a recording
   std::shared_ptr<LiveTrace> trace_ = std::make_shared<LiveTrace>();
   std::unique_ptr<live::LiveSource> sensors_;
   std::optional<Checkpoints> checkpoints_;
   Clock::time_point attended_ = Clock::now(), flushed_ = attended_, next_judgement_ = attended_;
-  std::uint64_t filtered_out_ = 0;  // by [source] labels
-  bool has_ended_ = false, has_told_journal_ = false;
+  std::uint64_t filtered_out_ = 0;  // observations left out by [source] labels
+  bool has_ended_ = false, journal_has_failed_ = false;
 };
 
 }  // namespace omnimapper::mapper

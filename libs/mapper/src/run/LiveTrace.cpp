@@ -12,7 +12,7 @@ namespace {
 
 using Kind = live::JournalEvent::Kind;
 
-constexpr double kShortest = 1e-3, kStep = 1.05;  // [s], and from one length to the next
+constexpr double kShortest = 1e-3, kStep = 1.05;  // [s] the shortest latency, and the ratio of consecutive bins
 
 }  // namespace
 

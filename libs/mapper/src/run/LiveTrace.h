@@ -10,31 +10,31 @@
 
 namespace omnimapper::mapper {
 
-/// How many of each length of time, to 5 % of it, however many there are.
+/// Histogram of latencies with a relative resolution of 5 % and constant memory.
 class LatencyCounts {
  public:
-  /// [s]
+  /// Adds a latency [s].
   void add(double latency);
-  /// The length that the share `quantile` of all stays below; 0 without any.
+  /// The latency [s] below which the share `quantile` of all lies; 0 if there are none.
   double quantile(double quantile) const;
 
  private:
-  static constexpr std::size_t kSteps = 400;  // from a millisecond to three days
+  static constexpr std::size_t kSteps = 400;  // bins from a millisecond to three days
   std::array<std::uint64_t, kSteps> counts_{};
   std::uint64_t all_ = 0;
 };
 
-/// What is noted of a live run while it goes on.
+/// The data recorded about a live run while it goes on.
 struct LiveTrace {
   std::optional<live::JournalWriter> journal;
-  LatencyCounts latencies;  ///< from an observation's stamp to its key frame in the map
+  LatencyCounts latencies;  ///< from the stamp of an observation to its key frame being in the map
 
   void note(live::JournalEvent::Kind kind, std::uint64_t number = 0) {
     if (journal) journal->add({kind, number});
   }
 };
 
-/// Takes what the workers have done, and notes when.
+/// Uses the results of the workers as soon as they are done, and records this in the journal.
 class LiveSchedule : public Schedule {
  public:
   explicit LiveSchedule(std::shared_ptr<LiveTrace> trace) : trace_(std::move(trace)) {}

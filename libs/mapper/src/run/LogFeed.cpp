@@ -11,11 +11,11 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// Sleeps so that the log's time runs `speed` times as fast as the clock on the wall.
+// Sleeps so that log time passes `speed` times as fast as real time.
 class Pace {
  public:
   explicit Pace(double speed) : speed_(speed) {}
-  // Returns early if it is to stop.
+  // Returns early if `stop` returns true.
   void waitFor(base::Stamp stamp, const std::function<bool()>& stop) {
     if (speed_ <= 0 || !base::isValid(stamp)) return;
     if (!first_) first_ = stamp;
@@ -57,7 +57,7 @@ bool LogFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progr
   };
   while (!stop()) {
     const auto observation = read();
-    // Stopped while it waited?
+    // The log has ended, unless `stop` interrupted next().
     if (!observation) return log_->report().ending == source::SourceReport::Ending::open && stop();
     pace.waitFor(observation->timestamp, stop);
     if (stop()) return true;

@@ -9,10 +9,10 @@
 
 namespace omnimapper::mapper {
 
-/// Logs, merged by stamp, as fast as they can be mapped, or at a pace.
+/// Reads logs, merged by stamp, as fast as they can be mapped or at a given pace.
 class LogFeed : public Feed {
  public:
-  /// `speed`: times the log's own pace; 0: as fast as possible.
+  /// `speed` is relative to the log's own pace; 0: as fast as possible.
   LogFeed(std::vector<std::string> logs, double speed, source::SourceOptions options)
       : logs_(std::move(logs)), speed_(speed), options_(std::move(options)) {}
 

@@ -28,18 +28,18 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// What breaks while the log is worked on must not cost the map of what came before it.
+// Runs `work`. If it throws, the map of what came before it is kept; returns the exception.
 std::exception_ptr tried(Engine& engine, const std::function<void()>& work) {
   try {
     work();
     return nullptr;
   } catch (const std::exception& error) {
-    engine.warn(std::string("broken off: ") + error.what() + "; this is the map of what came before");
+    engine.warn(std::string("the run broke off: ") + error.what() + "; the map contains what was read before");
     return std::current_exception();
   }
 }
 
-// Sections whose `label` and `labels` are those of sensors.
+// Sections whose keys `label` and `labels` name sensors.
 std::vector<std::string> labelledSections(const EngineOptions& options, const PerceptionOptions& perception) {
   std::vector<std::string> sections = options.sensors;
   sections.emplace_back("calibration");
@@ -49,7 +49,7 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
   return sections;
 }
 
-// An empty map is not written: it would take the place of a good one.
+// An empty map is not written, because it would replace a good one.
 [[noreturn]] void failWithNothingToMap(const Feed& feed, const std::string& ini, const RunResult& result,
                                        const std::vector<std::string>& unknown_labels,
                                        const std::string& missing_extractors) {
@@ -57,7 +57,7 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
   for (const auto& sentence : unknown_labels) labels += sentence + "\n";
   const bool is_whole = result.code == base::ExitCode::ok;
   if (is_whole && result.source.sensors.empty() && result.source.unusable.empty()) {
-    throw base::Error(base::ExitCode::nothing_to_map, feed.name() + ": nothing to map: no observation came; " +
+    throw base::Error(base::ExitCode::nothing_to_map, feed.name() + ": nothing to map: no observation was received; " +
                                                           feed.whatStays() + ". " + feed.checkHint() + ".");
   }
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
@@ -69,40 +69,42 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
           result.source.text());
 }
 
-// What stands still in the map though it moved is wrong by as much.
+// Without measured motion the map is refused: all key frames would get the same pose.
 [[noreturn]] void failWithNoMotion(const Feed& feed, const std::string& ini, const RunResult& result,
                                    const std::vector<std::string>& idle) {
-  throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
-                    feed.name() +
-                        ": nothing to map: it does not tell how the sensors moved: there is nothing in it for " +
-                        base::option_text::format(idle) + " of " + ini + "; " + feed.whatStays() +
-                        ". omnimapper-graphslam --check names the INIs that fit this log.\n" + "What was read:\n" +
-                        result.source.text());
+  throw base::Error(
+      result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
+      feed.name() +
+          ": nothing to map: the motion of the sensors cannot be determined, because there are no observations for " +
+          base::option_text::format(idle) + " of " + ini + "; " + feed.whatStays() +
+          ". omnimapper-graphslam --check names the INIs that fit this log.\n" + "What was read:\n" +
+          result.source.text());
 }
 
-// The trajectory is written all the same: in the map's frame only by what [session] start says.
+// Fails after the trajectory was written: its place in the map is only that of [session] start.
 [[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result, SessionOptions::Start start) {
   const bool was_sought = start == SessionOptions::Start::anywhere;
   const bool was_compared = result.closures + result.refused_closures > 0;
   const std::string report = result.output_folder + "/report.html";
   if (result.code == base::ExitCode::interrupted)
-    throw base::Error(result.code, request.localize_map + ": interrupted before the log was located in the map");
+    throw base::Error(result.code,
+                      request.localize_map + ": the run was interrupted before the log was located in the map");
   const auto code = result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code;
   if (result.awaits_confirmation) {
-    throw base::Error(code, request.localize_map +
-                                ": the log was located nowhere in the map: one place fits, and the log ends before "
-                                "another match confirms it: drive on for some metres. The place is among the "
-                                "decisions in " +
-                                report);
+    throw base::Error(code,
+                      request.localize_map +
+                          ": the log was located nowhere in the map: one place fits, but the log ends before a second "
+                          "match confirms it; drive some metres further. The place is among the decisions in " +
+                          report);
   }
   throw base::Error(
-      code,
-      request.localize_map + ": the log was located nowhere in the map: is it of another place? If not, say " +
-          (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
-          "where it begins (origin, pose). " +
-          (was_compared ? "Why: the refused closures in " + report
-                        : "No scan of it was compared with one of the map: an INI with loop_closure does that where "
-                          "both have a laser; else the map needs landmarks of the kinds that the INI measures"));
+      code, request.localize_map +
+                ": the log was located nowhere in the map: was it recorded in another place? If not, set " +
+                (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
+                "another start (origin, pose). " +
+                (was_compared ? "The refused closures with their reasons are in " + report
+                              : "None of its scans was compared with the map: if both have a laser, use an INI with "
+                                "loop_closure; else the map needs landmarks of the kinds that the INI measures"));
 }
 
 RunResult resultOf(const View& view) {
@@ -119,7 +121,7 @@ RunResult resultOf(const View& view) {
   result.localized = view.localization.size();
   for (const auto& estimate : view.localization) result.located += estimate.located();
   for (const auto& decision : view.decisions)
-    result.awaits_confirmation |= decision.kind == kRelocalisation && decision.accepted;
+    result.awaits_confirmation |= decision.kind == kRelocalization && decision.accepted;
   const auto metrics = map::sessionMetrics(view.map);
   if (!metrics.empty() && metrics.back().number == result.sessions.back().number) {
     result.new_key_frames = metrics.back().key_frames;
@@ -129,9 +131,9 @@ RunResult resultOf(const View& view) {
   return result;
 }
 
-constexpr char kInterrupted[] = "interrupted";  // folder of what is not whole
+constexpr char kInterrupted[] = "interrupted";  // folder for the outputs of an incomplete run
 
-// One run of an INI over its logs: open(), feed(), finish(), report(), in that order.
+// One run of an INI over its logs: call open(), feed(), finish() and report() in this order.
 class Run {
  public:
   Run(const RunRequest& request, const base::Config& config, base::Progress& progress,
@@ -167,7 +169,7 @@ class Run {
   const SessionOptions session_ = config_.section("session").read<SessionOptions>();
   const std::unique_ptr<Feed> feed_ = makeFeed(request_, config_);
 
-  std::set<std::string> measuring_;  // sections that measure
+  std::set<std::string> measuring_;  // sections of plugins that measure
   std::vector<std::pair<std::string, const PosePlugin*>> pose_plugins_;
   std::vector<std::pair<std::string, const perception::Extractor*>> extractors_;
   std::vector<std::pair<std::string, const MeasurementPlugin*>> measurement_plugins_;
@@ -176,10 +178,10 @@ class Run {
   std::optional<base::InputsKept> kept_;
   base::OutputFolder outputs_{request_.output_folder};
   bool stopped_ = false;
-  std::exception_ptr failure_, failure_at_end_;  // while the log was fed, while the map was finished
+  std::exception_ptr failure_, failure_at_end_;  // thrown by feed(), and by finish()
 };
 
-// Everything that an INI, a map or a log can be refused for.
+// Opens and checks everything for which an INI, a map or a log can be refused.
 void Run::open() {
   makeEngine();
   if (!feed_->endsWhenStopped()) engine_->setStop(stop_);
@@ -189,12 +191,12 @@ void Run::open() {
   }
   if (request_.continue_map.empty() && !localizes() && config_.has("session"))
     engine_->warn(config_.placeOf("session") +
-                  ": [session] says where a log begins in a map that it continues or is "
-                  "localized in; without --continue or --localize it counts for nothing");
+                  ": [session] gives the start of a log in a map that it continues or is localized in; without "
+                  "--continue or --localize it has no effect");
   if (measurement_plugins_.empty() && (localizes() || !request_.continue_map.empty())) {
     throw base::Error(base::ExitCode::command_line,
                       config_.file() +
-                          ": nothing in it can tie a log to a map: --continue and --localize need one of " +
+                          ": it has no plugin that can tie a log to a map: --continue and --localize need one of " +
                           "[mapper] measurement_plugins, such as loop_closure for a laser, or landmarks");
   }
   loadMapInto(request_, session_, config_, settings_.engine.motion, *engine_);
@@ -240,8 +242,7 @@ void Run::finish() {
   failure_at_end_ = tried(*engine_, [&] { engine_->finish(); });
 }
 
-// Tells the engine what a user should know of the run. Gives a sentence for each label that the INI names and the log
-// lacks.
+// Adds the warnings about the run. Returns a sentence for each label that the INI names and the log lacks.
 std::vector<std::string> Run::warn(const RunResult& result) {
   const auto report = feed_->report();
   warnOfLog(report, stopped_, *engine_);
@@ -266,7 +267,7 @@ std::vector<std::string> Run::warn(const RunResult& result) {
   return unknown_labels;
 }
 
-// What would give a measurement plugin something to work on; empty if nobody knows.
+// What would give the plugin observations to work on; empty if nothing is known to help.
 std::string Run::missingFor(const std::string& section) const {
   for (const auto& [name, plugin] : measurement_plugins_) {
     if (name == section && !plugin->worksOnLandmarks()) return samples_.extractorsFor(*plugin);
@@ -274,7 +275,7 @@ std::string Run::missingFor(const std::string& section) const {
   return "";
 }
 
-// What stands only after warn(), and how the run ended.
+// Completes the result with what is only known after warn(), and with the exit code.
 void Run::complete(RunResult& result) const {
   result.verdict = engine_->view().verdict;
   result.warnings = engine_->view().warnings;
@@ -287,41 +288,40 @@ void Run::complete(RunResult& result) const {
     result.code = base::ExitCode::suspicious_map;
 }
 
-// Puts the outputs in the place of an older run's. Those of a run that is not whole, or that cannot have their places,
-// never replace a whole one's: they have a folder of their own. Throws what failed of the outputs, all of it.
+// Replaces the outputs of an older run. The outputs of an incomplete run, and those that cannot be put in place, never
+// replace a complete run: they go to a separate folder. Throws all errors of the outputs as one.
 void Run::publish(const std::vector<base::Error>& failures, RunResult& result) {
   std::vector<base::Error> errors;
   for (const auto& error : failures) errors.emplace_back(error.code(), outputs_.asTheUserSees(error.what()));
   const bool held_run = outputs_.holdsRun();
-  bool is_apart = held_run && (stopped_ || failure_ || failure_at_end_ || !errors.empty());
-  if (!is_apart) {
+  bool is_separate = held_run && (stopped_ || failure_ || failure_at_end_ || !errors.empty());
+  if (!is_separate) {
     try {
       keepContinuedMap();
       outputs_.commit();
     } catch (const base::Error& error) {
       errors.push_back(error);
-      is_apart = !outputs_.isCommitted();
+      is_separate = !outputs_.isCommitted();
     }
   }
-  result.output_folder = outputs_.folder() + (is_apart ? std::string("/") + kInterrupted : "");
+  result.output_folder = outputs_.folder() + (is_separate ? std::string("/") + kInterrupted : "");
   try {
-    is_apart ? outputs_.commitInto(kInterrupted) : outputs_.removeInner(kInterrupted);
+    is_separate ? outputs_.commitInto(kInterrupted) : outputs_.removeInner(kInterrupted);
   } catch (const base::Error& error) {
-    is_apart ? errors.push_back(error) : result.warnings.push_back(error.what());
+    is_separate ? errors.push_back(error) : result.warnings.push_back(error.what());
   }
-  result.took_place = held_run && !is_apart;
+  result.took_place = held_run && !is_separate;
   result.foreign_files = foreignFiles();
-  const std::string older = is_apart ? outputs_.folder() +
-                                           " is as it was; what there is of this run, which is not whole, "
-                                           "is in " +
-                                           result.output_folder
-                                     : "";
+  const std::string older = is_separate ? outputs_.folder() +
+                                              " is unchanged; the outputs of this run, which is incomplete, are in " +
+                                              result.output_folder
+                                        : "";
   if (!errors.empty()) {
     std::string sentences;
     for (const auto& error : errors) sentences += error.what() + std::string("\n");
     throw base::Error(errors.front().code(), sentences + older);
   }
-  if (is_apart) result.warnings.push_back(older);
+  if (is_separate) result.warnings.push_back(older);
 }
 
 std::vector<std::string> Run::foreignFiles() const {
@@ -338,10 +338,10 @@ void Run::refuseToReplaceRun() const {
   if (why.empty()) return;
   throw base::Error(base::ExitCode::unwritable_output,
                     folder + ": holds the map of an earlier run, and " + why +
-                        "; give another folder (-o), or go on from that map (--continue " + folder + ")");
+                        "; give another folder (-o), or continue that map (--continue " + folder + ")");
 }
 
-// Whether the map that is gone on from lies in the output folder.
+// Whether the continued map lies in the output folder.
 bool Run::continuesItsFolder() const {
   if (request_.continue_map.empty()) return false;
   std::error_code none;
@@ -350,12 +350,12 @@ bool Run::continuesItsFolder() const {
   return std::filesystem::equivalent(folder, outputs_.folder(), none);
 }
 
-// A map that was gone on from, and that this INI does not write, is not another INI's.
+// Keeps a continued map in its folder even if this INI does not write it.
 void Run::keepContinuedMap() {
   if (continuesItsFolder()) outputs_.keep("map.omnimap");
 }
 
-// Until nobody looks at the map any more, or the user stops the run.
+// Waits until the window is closed or the user stops the run.
 void Run::showToTheEnd(const RunResult& result) {
   if (!engine_->isLookedAt() || stop_()) return;
   const bool is_broken = failure_ || failure_at_end_ || (localizes() && result.located == 0);
@@ -363,12 +363,12 @@ void Run::showToTheEnd(const RunResult& result) {
   while (engine_->isLookedAt() && !stop_()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
-// Writes the outputs. Throws where there is nothing worth writing, and at the end what broke the run off.
+// Writes the outputs. Throws if nothing is worth writing, and at the end rethrows the exception that broke the run off.
 RunResult Run::report() {
   auto outcome = resultOf(engine_->view());
   const auto unknown_labels = warn(outcome);
   complete(outcome);
-  // A map that is continued is there already: better that one than one broken off.
+  // A continued map already exists, and is better than one of a run that broke off.
   const bool keep_old = outcome.new_key_frames == 0 || !request_.continue_map.empty();
   if (keep_old && failure_) std::rethrow_exception(failure_);
   if (keep_old && failure_at_end_) std::rethrow_exception(failure_at_end_);

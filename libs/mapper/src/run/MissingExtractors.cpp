@@ -10,7 +10,7 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// With its defaults; what it cannot be made or cannot take without its user's word gives nothing.
+// Tries the extractor with its default options; one that needs other options, or throws, gives nothing.
 bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservation& observation,
                     const MeasurementPlugin& plugin) {
   try {
@@ -29,7 +29,7 @@ bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservati
 }  // namespace
 
 void SensorSamples::add(const mrpt::obs::CObservation::ConstPtr& observation) {
-  constexpr std::size_t kMost = 32;  // a log may give every observation a label of its own
+  constexpr std::size_t kMost = 32;  // a damaged log may give every observation its own label
   if (samples_.size() < kMost)
     samples_.try_emplace({observation->sensorLabel, observation->GetRuntimeClass()}, observation);
 }
@@ -45,9 +45,9 @@ std::string SensorSamples::extractorsFor(const MeasurementPlugin& plugin) const 
     if (helps) names += (names.empty() ? "" : " or ") + extractors->name();
   }
   return names.empty() ? ""
-                       : "of what is in the log, " + names +
-                             " would give it something to work on: add a section "
-                             "with that class, and name it in [perception] extractors";
+                       : names +
+                             " would derive suitable observations from the log: add a section with that class, and "
+                             "name it in [perception] extractors";
 }
 
 }  // namespace omnimapper::mapper

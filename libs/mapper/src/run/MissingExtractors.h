@@ -10,13 +10,13 @@
 
 namespace omnimapper::mapper {
 
-/// The first observation of each sensor and class in a log: what extractors that nobody named would make of it.
+/// Keeps the first observation of each sensor and class of a log, to try extractors that the INI does not name.
 class SensorSamples {
  public:
   void add(const mrpt::obs::CObservation::ConstPtr& observation);
 
-  /// A sentence that names the extractor classes, with their default options, that would give `plugin` something to
-  /// work on; empty if there is none.
+  /// A sentence that names the extractor classes that would, with default options, derive observations that `plugin`
+  /// wants; empty if there are none.
   std::string extractorsFor(const MeasurementPlugin& plugin) const;
 
  private:

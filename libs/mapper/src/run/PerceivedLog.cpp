@@ -12,7 +12,8 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-// Of one stamp; no robot has more sensors, and a log whose clock stands still must not be kept in memory.
+// Largest number of observations of one stamp that are kept together: more than any robot has sensors. It bounds the
+// memory for a log whose clock stands still.
 constexpr std::size_t kMostTogether = 64;
 
 bool isRepeatOf(const CObservation& a, const CObservation& b) {
@@ -23,18 +24,18 @@ bool isRepeatOf(const CObservation& a, const CObservation& b) {
 
 void PerceivedLog::add(PerceptionLine::Perceived perceived) {
   const auto stamp = perceived.raw->timestamp;
-  if (!moment_.empty() && (moment_.front().raw->timestamp != stamp || moment_.size() == kMostTogether)) writeMoment();
-  moment_.push_back(std::move(perceived));
+  if (!group_.empty() && (group_.front().raw->timestamp != stamp || group_.size() == kMostTogether)) writeGroup();
+  group_.push_back(std::move(perceived));
 }
 
 void PerceivedLog::finish() {
-  writeMoment();
+  writeGroup();
   if (errors_.first() && !has_succeeded_) throw *errors_.first();
   warn();
 }
 
-void PerceivedLog::writeMoment() {
-  for (auto& [raw, outcomes] : moment_) {
+void PerceivedLog::writeGroup() {
+  for (auto& [raw, outcomes] : group_) {
     if (request_.with_raw) rawlog_.add(*source::withImagesInside(raw));
     std::vector<CObservation::Ptr> all;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -44,7 +45,7 @@ void PerceivedLog::writeMoment() {
     }
     if (request_.show) request_.show(*raw, all);
   }
-  moment_.clear();
+  group_.clear();
   written_.clear();
 }
 
@@ -69,10 +70,10 @@ void PerceivedLog::write(Outcome& outcome, const CObservation& raw, PerceptionRe
   }
 }
 
-// With the observations that were read, those that an earlier run derived are written too.
+// With `with_raw`, the input's own observations are written, including those that an earlier run derived.
 bool PerceivedLog::bringsAlready(const CObservation& derived) const {
-  return request_.with_raw && std::any_of(moment_.begin(), moment_.end(),
-                                          [&](const Entry& entry) { return isRepeatOf(*entry.raw, derived); });
+  return request_.with_raw &&
+         std::any_of(group_.begin(), group_.end(), [&](const Entry& entry) { return isRepeatOf(*entry.raw, derived); });
 }
 
 bool PerceivedLog::isWritten(const CObservation& derived) const {
@@ -85,11 +86,11 @@ void PerceivedLog::warn() {
   if (in_log_ > 0)
     warnings.push_back(std::to_string(in_log_) +
                        " derived observations are in the log already and were not written a second time; without " +
-                       "--with-raw they are made anew");
+                       "--with-raw they are derived again");
   if (repeated_ > 0)
     warnings.push_back(std::to_string(repeated_) +
                        " derived observations have the label and stamp of another one and were left out, first " +
-                       first_repeated_ + "; name one extractor of them in [perception] extractors");
+                       first_repeated_ + "; name only one of these extractors in [perception] extractors");
   if (result_.code == base::ExitCode::ok) result_.code = errors_.code();
 }
 

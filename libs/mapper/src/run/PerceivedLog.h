@@ -11,20 +11,21 @@
 
 namespace omnimapper::mapper {
 
-/// The log that a run of perception writes, and what is to be said about it.
+/// Writes the log of a run of perception and collects the warnings about it.
 class PerceivedLog {
  public:
   PerceivedLog(const PerceptionRequest& request, source::RawlogWriter& rawlog, PerceptionResult& result)
       : request_(request), rawlog_(rawlog), result_(result) {}
 
-  /// In the order of what was read. Observations of one stamp are written together.
+  /// Must be called in the order of the input log. Observations of one stamp are written together.
   void add(PerceptionLine::Perceived perceived);
-  /// After the last one. Throws the first error of an extractor if none made anything of what it wanted.
+  /// Must be called after the last observation. Throws the first error if no extractor succeeded on any observation
+  /// that it wanted.
   void finish();
 
  private:
   using Entry = PerceptionLine::Perceived;
-  void writeMoment();
+  void writeGroup();
   void write(Outcome& outcome, const mrpt::obs::CObservation& raw, PerceptionResult::Count& count);
   bool bringsAlready(const mrpt::obs::CObservation& derived) const;
   bool isWritten(const mrpt::obs::CObservation& derived) const;
@@ -33,8 +34,8 @@ class PerceivedLog {
   const PerceptionRequest& request_;
   source::RawlogWriter& rawlog_;
   PerceptionResult& result_;
-  std::vector<Entry> moment_;                          // of one stamp
-  std::vector<mrpt::obs::CObservation::Ptr> written_;  // what was derived of it
+  std::vector<Entry> group_;                           // observations of one stamp
+  std::vector<mrpt::obs::CObservation::Ptr> written_;  // derived observations of that stamp
   ExtractionErrors errors_;
   bool has_succeeded_ = false;
   std::size_t in_log_ = 0, repeated_ = 0;

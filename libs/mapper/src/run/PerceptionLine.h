@@ -16,16 +16,16 @@
 
 namespace omnimapper::mapper {
 
-/// What one extractor made of one observation, or why it could not.
+/// The result of one extractor for one observation, or its error.
 struct Outcome {
   bool wanted = false;
-  bool unchanged = false;  ///< it is that of the observation before, for this one showed nothing new
+  bool unchanged = false;  ///< repeated from the previous observation, because this one shows nothing new
   std::vector<mrpt::obs::CObservation::Ptr> derived;
   std::optional<base::Error> error;
 };
 
-/// The extractors at work on one observation after another, some at once, handed back in their order. What shows
-/// nothing new by the word of an extractor's Novelty gets what it made of the last that did, with its own stamp.
+/// Runs the extractors on consecutive observations, several at once, and returns the results in order. If an
+/// extractor's Novelty finds nothing new in an observation, it gets the result of the last new one with its own stamp.
 class PerceptionLine {
  public:
   struct Perceived {
@@ -33,13 +33,13 @@ class PerceptionLine {
     std::vector<Outcome> outcomes;  ///< by extractor
   };
 
-  /// `extractors` stay the caller's.
+  /// The caller owns `extractors`.
   PerceptionLine(const std::vector<Named<perception::Extractor>>& extractors, int threads);
 
   bool isFull() const { return items_.size() >= depth_; }
   bool isEmpty() const { return items_.empty(); }
   void add(const mrpt::obs::CObservation::Ptr& raw);
-  /// The first that was added and not taken; waits for it.
+  /// The oldest observation that was not taken yet; waits for its results.
   Perceived take();
 
  private:

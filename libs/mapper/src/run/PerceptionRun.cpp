@@ -21,7 +21,7 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-// True if it was stopped.
+// Returns true if it was stopped.
 bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, PerceptionLine& line, PerceivedLog& output,
           base::Progress& progress, const std::function<bool()>& stop) {
   bool stopped = false;
@@ -36,7 +36,7 @@ bool work(source::ObservationSource& log, const SensorPoses& sensor_poses, Perce
   return stopped || (log.report().ending == source::SourceReport::Ending::open && stop());
 }
 
-// What an earlier run left is not replaced by an empty file.
+// Throws if nothing was derived, so that the output of an earlier run is not replaced by an empty file.
 void refuseNothing(const PerceptionRequest& request, const std::string& ini, const PerceptionResult& result) {
   for (const auto& extractor : result.extractors) {
     if (extractor.taken > 0) return;
@@ -44,8 +44,8 @@ void refuseNothing(const PerceptionRequest& request, const std::string& ini, con
   std::string logs;
   for (const auto& log : request.logs) logs += (logs.empty() ? "" : ", ") + log;
   throw base::Error(result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
-                    logs + ": no observation that an extractor of " + ini +
-                        " makes something of; nothing was written.\nWhat was read:\n" + result.source.text());
+                    logs + ": contains no observation from which an extractor of " + ini +
+                        " derives anything; nothing was written.\nWhat was read:\n" + result.source.text());
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
     for (const auto& warning : extractor->warnings()) result.warnings.push_back("[" + section + "] " + warning);
   }
   if (result.code == base::ExitCode::interrupted)
-    result.warnings.push_back("interrupted: this is what was made of the log until then");
+    result.warnings.push_back("interrupted: the output contains what was derived until then");
   result.wall_seconds = watch.seconds();
   return result;
 }
@@ -96,7 +96,8 @@ std::string toText(const PerceptionResult& result, const std::string& output) {
     out << "  " << extractor.section << ": " << base::counted(extractor.derived, "observation") << " of "
         << extractor.taken;
     if (extractor.failed > 0) out << ", " << extractor.failed << " left out";
-    if (extractor.unchanged > 0) out << ", " << extractor.unchanged << " as before, for what was seen had not changed";
+    if (extractor.unchanged > 0)
+      out << ", " << extractor.unchanged << " repeated, because the observation showed nothing new";
     out << "\n";
   }
   out << "wall time " << result.wall_seconds << " s\nin " << output << "\n";

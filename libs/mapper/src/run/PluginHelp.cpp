@@ -34,7 +34,7 @@ std::string printIni(const std::string& class_name) {
                               factory->summary(), factory->options());
   }
   if (const auto why = whyUnavailable(class_name); !why.empty())
-    throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: no '" + class_name + "' here: " + why);
+    throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: '" + class_name + "' is not available: " + why);
   std::string near = base::nearestName(class_name, known);
   for (const char* ending : {"Plugin", "Extractor", "Output"})
     if (near.empty()) near = base::nearestName(class_name + ending, known);

@@ -52,7 +52,7 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
     known.push_back(factory->name());
   }
   if (const auto why = whyUnavailable(name); !why.empty())
-    throw base::Error(base::ExitCode::unknown_plugin, place + ": no '" + name + "' here: " + why);
+    throw base::Error(base::ExitCode::unknown_plugin, place + ": '" + name + "' is not available: " + why);
   const std::string near = base::nearestName(name, known);
   throw base::Error(base::ExitCode::unknown_plugin, place + ": no " + toString(kind) + " is called '" + name + "'" +
                                                         (near.empty() ? "" : "; did you mean '" + near + "'?") +
@@ -63,10 +63,10 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
 void loadPluginLibrary(const std::string& path) {
   std::string problem;
   if (!mrpt::system::loadPluginModule(path, problem)) {
-    throw base::Error(base::ExitCode::plugin_library,
-                      "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
-                          "); give its full path, or one relative to the INI's folder, after --set to the "
-                          "working directory");
+    throw base::Error(
+        base::ExitCode::plugin_library,
+        "[mapper] plugin_libraries: cannot load '" + path + "' (" + problem +
+            "); give its full path, or a path relative to the INI's folder (with --set, to the working directory)");
   }
 }
 
@@ -75,8 +75,8 @@ void loadPluginLibraries(const base::Config& config) {
   if (!paths.empty() && !config.isTrusted("mapper", "plugin_libraries")) {
     throw base::Error(base::ExitCode::plugin_library,
                       config.placeOf("mapper", "plugin_libraries") +
-                          ": [mapper] plugin_libraries names programs that are run. It counts only in the first INI, "
-                          "and not in one that was written from a log: put it there, or say --set");
+                          ": [mapper] plugin_libraries loads program code. It is accepted only in the first INI, and "
+                          "not in one that was written from a log: put it there, or give it with --set");
   }
   const bool is_from_command_line = config.isFromCommandLine("mapper", "plugin_libraries");
   const auto folder = std::filesystem::path(is_from_command_line ? "" : config.firstFile()).parent_path();
@@ -90,7 +90,7 @@ std::string withArticle(PluginKind kind) {
   return (name.front() == 'o' || name.front() == 'e' ? "an " : "a ") + name;
 }
 
-// A name that no section has is probably misspelt where the sections are listed.
+// A name without a section is probably misspelt in the list of sections.
 [[noreturn]] void failWithoutSection(const std::string& name, PluginKind kind, const base::Config& config) {
   std::string key = toString(kind) + "s";
   std::replace(key.begin(), key.end(), ' ', '_');

@@ -39,13 +39,14 @@ std::vector<std::string> ReplayFeed::inputs() const {
   return inputs;
 }
 
-// Only there stands how the live run went: its sensors, what was dropped, latencies.
+// The live run's own outputs must not be replaced: only they say how it went, with its sensors, dropped observations
+// and latencies.
 std::string ReplayFeed::keepsRunIn(const std::string& folder) const {
   const auto recording = std::filesystem::absolute(path_).parent_path();
   std::error_code ignored;
   const bool is_there = std::filesystem::equivalent(recording, folder, ignored) ||
                         std::filesystem::equivalent(recording.parent_path(), folder, ignored);
-  return is_there ? "it is of the live run that is replayed" : "";
+  return is_there ? "that run is the live run that is replayed" : "";
 }
 
 std::unique_ptr<Schedule> ReplayFeed::schedule() {
@@ -64,7 +65,8 @@ void ReplayFeed::openFile(const Stop& stop) {
   log_.emplace(std::move(file), stop);
 }
 
-// The observation of that number; null at the end of the recording. Those between were left out.
+// Reads up to the observation of that number, and skips those between, which were left out; null at the end of the
+// recording.
 mrpt::obs::CObservation::Ptr ReplayFeed::read(std::uint64_t number, const Stop& stop) {
   while (!stop()) {
     auto observation = log_->next();
@@ -85,13 +87,12 @@ void ReplayFeed::depart(Engine& engine) {
   auto& cursor = *cursor_;
   if (cursor.has_departed) return;
   cursor.has_departed = true;
-  engine.warn(
-      path_ + ": this run does something else than the live run did at line " + std::to_string(cursor.next + 1) +
-      " of the journal (is the INI, or the map that it goes on from, another one?); from there on the recording "
-      "is mapped like a log");
+  engine.warn(path_ + ": this run departs from the live run at line " + std::to_string(cursor.next + 1) +
+              " of the journal (is the INI, or the map that it continues, a different one?); from there on the "
+              "recording is mapped like a log");
 }
 
-// Recordings from before such an INI was written have none.
+// Older recordings have no INI to compare with.
 void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> differences;
@@ -106,7 +107,7 @@ void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
   for (std::size_t i = 0; i < std::min(differences.size(), kMostNamed); ++i)
     text += (i > 0 ? ", " : "") + differences[i];
   if (differences.size() > kMostNamed) text += " and " + std::to_string(differences.size() - kMostNamed) + " more";
-  engine.warn("the settings are not those of the live run, and so the map may be another: " + text);
+  engine.warn("the settings differ from those of the live run, so the map may differ: " + text);
 }
 
 bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {
@@ -115,9 +116,11 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
   const auto& events = cursor.journal.events;
   while (cursor.next < events.size() && !stop()) {
     const auto event = events[cursor.next++];
-    if (event.kind == EventKind::add || event.kind == EventKind::drop) told_ = std::max(told_, event.number + 1);
+    if (event.kind == EventKind::add || event.kind == EventKind::drop)
+      first_unmentioned_ = std::max(first_unmentioned_, event.number + 1);
     if (event.kind == EventKind::drop) continue;
-    // An event of the engine that is left over, or one that it lacks: a live run adds nothing while the engine is busy.
+    // The run departs if the journal has an event that the engine did not cause, or lacks one: a live run adds no
+    // observation while the engine is busy.
     if (event.kind != EventKind::add || engine.isBusy()) depart(engine);
     if (event.kind != EventKind::add) continue;
     const auto observation = [&] {
@@ -136,28 +139,29 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
   if (!ended_early_ && !stop()) mapWhatIsLeft(engine, samples, stop);
   if (ended_early_)
     engine.warn(path_ +
-                ": the recording ends before its journal does, as when its writer was killed: this is the map "
-                "of what was recorded");
+                ": the recording ends before its journal, as happens when the program was killed: the map contains "
+                "what was recorded");
   return stop();
 }
 
-// What the journal says nothing of: it was cut off.
+// Maps the observations after the end of a journal that was cut off.
 void ReplayFeed::mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop) {
   std::uint64_t count = 0;
-  for (auto observation = read(std::max(next_, told_), stop); observation; observation = read(next_, stop), ++count) {
+  for (auto observation = read(std::max(next_, first_unmentioned_), stop); observation;
+       observation = read(next_, stop), ++count) {
     cursor_->has_departed = true;
     samples.add(observation);
     engine.add(observation);
   }
   if (count > 0)
     engine.warn(path_ + ": the journal ends " + std::to_string(count) +
-                " observations before its recording: they are mapped as of a log");
+                " observations before its recording: they are mapped like a log");
 }
 
 source::SourceReport ReplayFeed::report() const {
   auto report = of_earlier_;
   auto of_last = log_->report();
-  // Of the last file all that the journal speaks of was read.
+  // All observations of the last file that the journal mentions were read.
   if (of_last.ending == source::SourceReport::Ending::open) of_last.ending = source::SourceReport::Ending::complete;
   report.add(of_last);
   return report;

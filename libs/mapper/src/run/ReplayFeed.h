@@ -10,18 +10,18 @@
 
 namespace omnimapper::mapper {
 
-/// A journal that is followed, event by event.
+/// A journal and the position of its replay.
 struct ReplayCursor {
   live::Journal journal;
-  std::size_t next = 0;       ///< event
-  bool has_departed = false;  ///< what the engine did is not what the journal says
+  std::size_t next = 0;       ///< index of the next event
+  bool has_departed = false;  ///< the engine does not act as the journal says any more
 
   bool isNext(live::JournalEvent::Kind kind) const {
     return next < journal.events.size() && journal.events[next].kind == kind;
   }
 };
 
-/// Takes what the journal says was taken. Where the run departs from it, goes on as on a log.
+/// Uses the results of the workers as the journal says. After the run has departed from it, works as on a log.
 class ReplaySchedule : public Schedule {
  public:
   explicit ReplaySchedule(std::shared_ptr<ReplayCursor> cursor) : cursor_(std::move(cursor)) {}
@@ -34,11 +34,11 @@ class ReplaySchedule : public Schedule {
   std::shared_ptr<ReplayCursor> cursor_;
 };
 
-/// What a live run recorded, given to the engine in the order in which it was mapped: the map is the same, byte for
-/// byte.
+/// Passes the recording of a live run to the engine in the order in which it was mapped, so that the map is the same,
+/// byte for byte.
 class ReplayFeed : public Feed {
  public:
-  /// `ini`: the settings of this run, which should be those of the live run.
+  /// `ini` is the text of this run's settings, which should be those of the live run.
   ReplayFeed(std::string journal, std::string ini) : path_(std::move(journal)), ini_(std::move(ini)) {}
 
   std::string title() const override;
@@ -59,13 +59,13 @@ class ReplayFeed : public Feed {
 
   std::string path_, ini_;
   std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();
-  std::size_t file_ = 0;    // that is read
-  std::uint64_t next_ = 0;  // observation to be read
-  std::uint64_t told_ = 0;  // the first of which the journal has said nothing yet
-  // What is usable is judged over the whole recording, as it was live.
+  std::size_t file_ = 0;                 // index of the rawlog being read
+  std::uint64_t next_ = 0;               // number of the next observation to read
+  std::uint64_t first_unmentioned_ = 0;  // number of the first observation that no event so far has mentioned
+  // Unusable observations are found over the whole recording, as in the live run.
   std::shared_ptr<source::ObservationGate> gate_ = std::make_shared<source::ObservationGate>();
-  std::optional<source::ReadAhead> log_;  // of that file
-  source::SourceReport of_earlier_;       // files
+  std::optional<source::ReadAhead> log_;  // the rawlog file_
+  source::SourceReport of_earlier_;       // report on the files before file_
   bool ended_early_ = false;
 };
 

@@ -9,7 +9,7 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// The most first; empty without landmarks.
+// Counts of landmarks, the largest first; empty without landmarks.
 std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
   std::vector<std::pair<std::string, std::size_t>> rows(counts.begin(), counts.end());
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -18,7 +18,7 @@ std::string landmarkLine(const std::map<std::string, std::size_t>& counts) {
   return text.empty() ? "" : "landmarks         " + text + "\n";
 }
 
-// What is in the output folder beside the outputs; empty without any.
+// The files in the output folder that are not outputs; empty without any.
 std::string foreignLine(const std::vector<std::string>& files) {
   constexpr std::size_t kMost = 4;
   if (files.empty()) return "";
@@ -27,11 +27,11 @@ std::string foreignLine(const std::vector<std::string>& files) {
   if (files.size() > kMost) names += " and " + std::to_string(files.size() - kMost) + " more";
   const bool was_renamed =
       std::any_of(files.begin(), files.end(), [](const auto& name) { return name.find('~') != std::string::npos; });
-  return "also there        " + names + " (of no run; left there" + (was_renamed ? ", NAME~ is what was NAME" : "") +
-         ")\n";
+  return "other files       " + names + " (not written by a run; kept" +
+         (was_renamed ? "; NAME~ was NAME before" : "") + ")\n";
 }
 
-// Of a run on sensors: how they were, what became of their observations, and what was recorded.
+// Lines of a live run: its sensors, the counts of their observations, and the recording.
 std::string liveLines(const LiveMetrics& live) {
   std::string sensors;
   for (const auto& sensor : live.sensors) {
@@ -42,9 +42,8 @@ std::string liveLines(const LiveMetrics& live) {
   const double megabytes = static_cast<double>(live.recorded_bytes) / kMegabyte;
   char text[512];
   std::snprintf(text, sizeof text,
-                "observations      %llu arrived: %llu mapped, %llu dropped for newer frames, %llu lost as the disk was "
-                "too slow, %llu unusable\n"
-                "latency           %.2f s from stamp to map, 99 %% below %.2f s\n",
+                "observations      %llu arrived: %llu mapped, %llu dropped for newer frames, %llu lost because the "
+                "disk was too slow, %llu unusable\nlatency           %.2f s from stamp to map, 99 %% below %.2f s\n",
                 static_cast<unsigned long long>(live.arrived), static_cast<unsigned long long>(live.given),
                 static_cast<unsigned long long>(live.dropped), static_cast<unsigned long long>(live.not_kept),
                 static_cast<unsigned long long>(live.unusable), live.latency_median, live.latency_99);
@@ -56,7 +55,7 @@ std::string liveLines(const LiveMetrics& live) {
   return lines + text;
 }
 
-// A robot may be located by landmarks alone: nothing is said of closures then.
+// Empty if a robot was located by landmarks alone, without closures.
 std::string closureLine(const RunResult& result, const std::string& scope) {
   if (result.localized > 0 && result.closures + result.refused_closures == 0 && !result.landmarks.empty()) return "";
   const std::string head = result.localized > 0 ? "matches with map  " : "loop closures     ";
@@ -76,12 +75,13 @@ std::string toText(const RunResult& result) {
     sessions = located;
   } else if (result.sessions.size() > 1) {
     const auto& session = result.sessions.back();
-    sessions = "sessions          " + std::to_string(result.sessions.size()) + ", of " +
-               std::to_string(result.new_key_frames) + " key frames the new one; " + joinedText(session) + "\n";
+    sessions = "sessions          " + std::to_string(result.sessions.size()) + ", the new one with " +
+               std::to_string(result.new_key_frames) + " key frames; " + joinedText(session) + "\n";
   }
   const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
-  const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which stays as it is)" : "";
-  // A key frame that was located takes its factors with it when it leaves the window: their count would tell nothing.
+  const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which is not changed)" : "";
+  // In a run that localizes, the factors of a key frame are removed when it leaves the window: their number would mean
+  // nothing.
   const std::string factors = result.localized > 0 ? "" : "factors           " + std::to_string(result.factors) + "\n";
   const char* scope = result.localized == 0 && result.sessions.size() > 1 ? " in the new session" : "";
   char text[512];
@@ -99,8 +99,7 @@ std::string toText(const RunResult& result) {
   const std::string level = result.level ? "level             " + sentenceOf(*result.level) + "\n" : "";
   return sessions + text + (result.live ? liveLines(*result.live) : "") + landmarkLine(result.landmarks) + level +
          verdict + "outputs           " + result.output_folder +
-         (result.took_place ? " (in the place of the run that was there)" : "") + "\n" +
-         foreignLine(result.foreign_files);
+         (result.took_place ? " (replaced those of an earlier run)" : "") + "\n" + foreignLine(result.foreign_files);
 }
 
 }  // namespace omnimapper::mapper

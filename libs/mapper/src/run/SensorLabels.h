@@ -9,10 +9,10 @@
 
 namespace omnimapper::mapper {
 
-/// Sensor labels that an INI names and that no observation of the run had, a sentence each with the labels that there
-/// are. `sections` are those of plugins and sensors; their keys `label`, `labels` and `odometry_label` count, [mapper]
-/// reference_sensor and [source] labels. `map` knows the labels of what extractors made: only its newest session
-/// counts.
+/// Sensor labels that an INI names and that no observation of the run had: a sentence for each, with the existing
+/// labels. `sections` are those of plugins and sensors. Checked are their keys `label`, `labels` and `odometry_label`,
+/// [mapper] reference_sensor and [source] labels. The labels of derived observations are taken from the newest session
+/// of `map`.
 std::vector<std::string> unknownLabels(const base::Config& config, const std::vector<std::string>& sections,
                                        const source::SourceReport& report, const map::Map& map);
 

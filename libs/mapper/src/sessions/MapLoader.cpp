@@ -14,7 +14,7 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// Zeros that nobody wrote are no pose.
+// A start pose that is not given must not silently be zero.
 void refuseStartWithoutPose(const SessionOptions& session, const base::Config& config) {
   if (session.start != SessionOptions::Start::pose) return;
   for (const char* key : {"start_x_m", "start_y_m", "start_yaw_deg"}) {
@@ -23,7 +23,7 @@ void refuseStartWithoutPose(const SessionOptions& session, const base::Config& c
   }
   throw base::Error(base::ExitCode::out_of_range, config.placeOf("session", "start") +
                                                       ": [session] start = pose needs start_x_m, start_y_m and "
-                                                      "start_yaw_deg; for the map's own origin say start = origin");
+                                                      "start_yaw_deg; for the map's own origin use start = origin");
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ void loadMapInto(const RunRequest& request, const SessionOptions& session, const
     const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
     throw base::Error(base::ExitCode::unreadable_input,
                       path + ": the map is " + of_map + ", which [mapper] motion of " + config.file() +
-                          " is not: go on from it with motion = " + of_map + ", or map its log again");
+                          " is not: continue it with motion = " + of_map + ", or map its log again");
   }
   refuseStartWithoutPose(session, config);
   const auto start = session.startOn(saved.map);
@@ -48,9 +48,10 @@ void loadMapInto(const RunRequest& request, const SessionOptions& session, const
     throw;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& error) {  // parts that do not belong together, such as a landmark of another kind
-    throw base::Error(base::ExitCode::unreadable_input, path + ": the map cannot be gone on from (" + error.what() +
-                                                            "): damaged. Take another copy of it.");
+  } catch (
+      const std::exception& error) {  // the parts of the map do not fit together, such as a landmark of another kind
+    throw base::Error(base::ExitCode::unreadable_input,
+                      path + ": the map cannot be continued (" + error.what() + "): damaged. Use another copy of it.");
   }
 }
 
@@ -63,9 +64,10 @@ void checkRequest(const RunRequest& request) {
   }
   std::error_code error;
   if (fs::exists(fs::path(request.output_folder) / "map.omnimap", error)) {
-    throw base::Error(base::ExitCode::command_line,
-                      "-o " + request.output_folder +
-                          " is the folder of a map, whose trajectory and report would be lost: give another");
+    throw base::Error(
+        base::ExitCode::command_line,
+        "-o " + request.output_folder +
+            " is the folder of a map, whose trajectory and report would be replaced: give another folder");
   }
 }
 

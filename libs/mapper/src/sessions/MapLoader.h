@@ -9,13 +9,13 @@
 
 namespace omnimapper::mapper {
 
-/// Gives the engine the saved map that the request goes on from or localizes in, if it names one. `ini` names the INI
-/// in errors. Throws Error(unreadable_input) as readMap(), and if the map is not of that motion.
+/// Loads into the engine the saved map that the request continues or localizes in, if it names one. Throws
+/// Error(unreadable_input) as readMap(), and if the map has another motion.
 void loadMapInto(const RunRequest& request, const SessionOptions& session, const base::Config& config, Motion motion,
                  Engine& engine);
 
-/// Throws Error(command_line) if both are asked for, or if the outputs of a run that localizes would take the place of
-/// those of a map.
+/// Throws Error(command_line) if the request both continues and localizes, or if the outputs of a run that localizes
+/// would replace those of a map.
 void checkRequest(const RunRequest& request);
 
 }  // namespace omnimapper::mapper

@@ -21,7 +21,8 @@ namespace omnimapper::mapper {
 namespace {
 
 constexpr std::uint32_t kGraphVersion = 1;
-// Those that are not kept as they are: read here, or, as "places", written anew by whoever writes the map.
+// Sections that are not kept unchanged: they are read here or, like "places", computed again by the program that writes
+// the map.
 const std::array<std::string, 6> kOwnSections{"graph", "frames", "landmarks", "sessions", "level", map::kPlacesSection};
 
 [[noreturn]] void refuse(const std::string& reason) {
@@ -36,7 +37,7 @@ const map::MapSection& needed(const map::MapFile& file, const std::string& name)
 
 graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
   if (section.version > kGraphVersion) {
-    refuse("section \"graph\" is of version " + std::to_string(section.version) + ", and this program reads version " +
+    refuse("section \"graph\" has version " + std::to_string(section.version) + ", and this program reads version " +
            std::to_string(kGraphVersion) + ". Use the OmniMapper that wrote it, or a later one.");
   }
   std::istringstream in(section.bytes);
@@ -45,12 +46,12 @@ graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
   } catch (const base::Error& error) {
     if (error.code() != base::ExitCode::unregistered_class) throw;
     refuse(std::string(error.what()) +
-           ". It is of a plugin that is not loaded: name its library in [mapper] plugin_libraries.");
+           ". It belongs to a plugin that is not loaded: name its library in [mapper] plugin_libraries.");
   }
 }
 
-// MRPT's readers follow corrupt counts wherever they lead: a child process goes first. What observations hold is in the
-// section as it is, so they do not take many times its size.
+// MRPT's readers do not check counts, so a child process reads the section first. Its memory is limited, because
+// observations should not take many times the uncompressed size of the section.
 map::Map framesOf(const map::MapSection& section) {
   const std::uint64_t memory = (std::uint64_t{256} << 20) + 4 * map::uncompressedSize(section);
   const auto end = base::tryInChild([&] { map::framesFromSection(section); }, memory);
@@ -60,14 +61,14 @@ map::Map framesOf(const map::MapSection& section) {
     case base::ChildOutcome::How::threw:
       refuse(end.message);
     case base::ChildOutcome::How::out_of_memory:
-      refuse("section \"frames\" asks for far more memory than its bytes could fill: damaged");
+      refuse("section \"frames\" needs far more memory than its size allows: damaged");
     case base::ChildOutcome::How::crashed:
       refuse("section \"frames\" has an observation that MRPT cannot read: damaged");
   }
   return map::framesFromSection(section);
 }
 
-// Of the directions of all variables, the best known against the worst: the diagonal of the information matrix.
+// Ratio of the largest to the smallest element on the diagonal of the information matrix, over all free variables.
 double spreadOfInformation(const graph::Graph& graph) {
   std::unordered_map<base::VariableId, Eigen::VectorXd> information;
   for (const auto& [id, record] : graph.factors()) {
@@ -88,12 +89,12 @@ double spreadOfInformation(const graph::Graph& graph) {
   return information.empty() ? 1 : most / least;
 }
 
-// Whatever is weighed against a map needs to know how well each of its variables is determined, and goes on to when
-// more is added. Beyond the digits of a number, what one direction has leaves nothing of another's.
+// Later computations need the covariance of every variable of the map, now and after more is added. If the information
+// of two directions differs by more than the precision of a double, the smaller one is lost.
 void expectDetermined(const graph::Graph& graph) {
   const std::string what = "section \"graph\" does not determine the map: damaged";
   if (!(spreadOfInformation(graph) < 1 / std::numeric_limits<double>::epsilon()))
-    refuse(what + " (of two directions in it one is known so well that no digits are left for the other)");
+    refuse(what + " (the information of two of its directions differs by more than the precision of a double)");
   try {
     const graph::Marginals marginals(graph);
   } catch (const base::Error& error) {
@@ -105,33 +106,33 @@ void expectWhole(const map::Landmark& landmark, const SavedMap& saved) {
   const std::string what = "landmark " + toString(landmark.id);
   if (landmark.state == map::Landmark::State::merged) {
     if (!saved.map.landmarks.find(landmark.merged_into))
-      refuse(what + " is merged into one that is not there: damaged");
+      refuse(what + " is merged into one that does not exist: damaged");
     return;
   }
   std::vector<std::string_view> kinds;
   for (const auto variable : landmark.variables) {
     if (!saved.graph.contains(variable))
-      refuse(what + " speaks of variable " + toString(variable) + ", which the graph has not: damaged");
+      refuse(what + " refers to variable " + toString(variable) + ", which is not in the graph: damaged");
     kinds.push_back(saved.graph.variable(variable).kind->kind());
   }
   if (!landmark.payload) return;
   if (!landmark.payload->fits(kinds)) refuse(what + " has variables that are not of its kind: damaged");
   for (const auto frame : landmark.payload->keyFrames()) {
     if (!saved.map.key_frames.find(frame))
-      refuse(what + " was seen from key frame " + toString(frame) + ", which the map has not: damaged");
+      refuse(what + " was seen from key frame " + toString(frame) + ", which is not in the map: damaged");
   }
 }
 
-// What stands in one section about another.
+// Checks that the sections agree with each other.
 void expectWhole(const SavedMap& saved) {
   const auto& [map, graph, sections] = saved;
   const auto known = [&graph = graph](base::VariableId id, const std::string& what) {
     if (!graph.contains(id))
-      refuse(what + " speaks of variable " + toString(id) + ", which the graph has not: damaged");
+      refuse(what + " refers to variable " + toString(id) + ", which is not in the graph: damaged");
   };
-  if (map.key_frames.empty()) refuse("holds no key frame: there is nothing to go on from");
+  if (map.key_frames.empty()) refuse("holds no key frame: there is nothing to continue");
   if (map.sessions.empty() || map.sessions.back().number + 1 >= Batch::kProvisionalSession) {
-    refuse("has no session, or one of a number out of range: damaged");
+    refuse("has no session, or one whose number is out of range: damaged");
   }
   const auto pose_kind = graph.contains(map.key_frames.front().pose)
                              ? graph.variable(map.key_frames.front().pose).kind->kind()
@@ -145,7 +146,8 @@ void expectWhole(const SavedMap& saved) {
     const bool has_session = std::any_of(map.sessions.begin(), map.sessions.end(),
                                          [&](const auto& session) { return session.number == frame.id.session; });
     if (!has_session || graph.variable(frame.pose).kind->kind() != pose_kind) {
-      refuse("key frame " + toString(frame.id) + " is of no known session, or its pose of another kind: damaged");
+      refuse("key frame " + toString(frame.id) +
+             " belongs to no known session, or its pose is of another kind: damaged");
     }
   }
   for (const auto& session : map.sessions) known(session.anchor, "session " + std::to_string(session.number));
@@ -179,7 +181,7 @@ Motion SavedMap::motion() const {
 }
 
 SavedMap readMap(const std::string& path, const Kinds& kinds) {
-  // After a crash of a live run there is but its checkpoint.
+  // After a crash of a live run there is only its checkpoint.
   const bool is_folder = std::filesystem::is_directory(path);
   const bool has_map = std::filesystem::exists(path + "/map.omnimap");
   const bool is_of_crash = is_folder && !has_map && std::filesystem::exists(path + "/checkpoint.omnimap");

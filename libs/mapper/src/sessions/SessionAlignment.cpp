@@ -17,7 +17,7 @@ std::optional<base::KeyFrameId> frameOf(const graph::FactorRecord& record, std::
   return std::nullopt;
 }
 
-// How two landmarks stand to each other says nothing of where a session is.
+// A factor between landmarks alone does not determine where a session lies.
 bool bindsPose(const graph::FactorRecord& record, const graph::Graph& graph, std::optional<std::uint16_t> session) {
   return std::any_of(record.variables.begin(), record.variables.end(), [&](base::VariableId id) {
     const auto kind = graph.variable(id).kind->kind();
@@ -30,7 +30,7 @@ bool bindsPose(const graph::FactorRecord& record, const graph::Graph& graph, std
 void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
   if (map.sessions.size() < 2) return;
   const std::uint16_t first = map.sessions.front().number;
-  std::map<std::uint16_t, std::uint16_t> group;  // sessions tied to each other have one number
+  std::map<std::uint16_t, std::uint16_t> group;  // sessions that are tied to each other have the same number
   for (auto& session : map.sessions) {
     group[session.number] = session.number;
     session.joined = session.number == first;

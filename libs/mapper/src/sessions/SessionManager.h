@@ -11,20 +11,20 @@
 
 namespace omnimapper::mapper {
 
-/// Begins the session that a run is: the first of a map, one more of a map that was saved, or one that is only
-/// localized in it.
+/// Begins the session of a run: the first one of a new map, another one of a saved map, or one that is only localized
+/// in a saved map.
 class SessionManager {
  public:
-  /// Begins the first session of a new map, with that title. Back end and state stay the caller's.
+  /// Begins the first session of a new map, with that title. The caller owns `back_end` and `state`.
   SessionManager(const std::string& title, BackEnd& back_end, RunState& state) : back_end_(back_end), state_(state) {
     back_end_.beginSession({0, title, {}, true}, std::nullopt);
   }
 
-  /// Before the first observation: loads a map as it was saved. The session that was begun becomes a new one of it,
-  /// which begins at `start`. Throws Error(unreadable_input) if a plugin cannot make use of its section.
+  /// Must be called before the first observation: loads a saved map. The session becomes a new session of it, which
+  /// begins at `start`. Throws Error(unreadable_input) if a plugin cannot use its section.
   void continueFrom(SavedMap saved, const SessionStart& start);
-  /// As continueFrom(), but the map is held as it is: what follows is only localized in it, and no more than about
-  /// `key_frames` of it are kept free.
+  /// Like continueFrom(), but the map is held fixed: later key frames are only localized in it, and about `key_frames`
+  /// of them are kept free.
   void localizeIn(SavedMap saved, const SessionStart& start, int key_frames);
 
  private:

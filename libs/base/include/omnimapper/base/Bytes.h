@@ -11,7 +11,7 @@
 
 namespace omnimapper::base {
 
-/// The lowest `count` bytes of a number, at most 8, little-endian whatever the machine.
+/// The lowest `count` bytes of a number, at most 8, little-endian on any machine.
 inline void toBytes(std::uint64_t value, int count, char* bytes) {
   for (int i = 0; i < count; ++i) bytes[i] = static_cast<char>((value >> (8 * i)) & 0xff);
 }
@@ -21,7 +21,7 @@ inline std::uint64_t fromBytes(const char* bytes, int count) {
   return value;
 }
 
-/// All bits of a number, and back.
+/// The bits of a number, and the number of given bits.
 inline std::uint64_t bitsOf(double value) {
   std::uint64_t bits;
   std::memcpy(&bits, &value, sizeof bits);
@@ -33,7 +33,7 @@ inline double fromBits(std::uint64_t bits) {
   return value;
 }
 
-/// Appends numbers to bytes, little-endian whatever the machine; doubles keep every bit.
+/// Appends numbers to a byte string, little-endian on any machine; doubles keep every bit.
 class ByteWriter {
  public:
   void uint(std::uint64_t value, int bytes) {
@@ -49,14 +49,14 @@ class ByteWriter {
     raw(bytes);
   }
   const std::string& bytes() const { return bytes_; }
-  /// What was written, and begins anew.
+  /// Returns the bytes written so far and starts with an empty string.
   std::string take() { return std::exchange(bytes_, {}); }
 
  private:
   std::string bytes_;
 };
 
-/// Reads what ByteWriter wrote. Throws Error(unreadable_input) naming `what` where the bytes end early.
+/// Reads the bytes of a ByteWriter. Throws Error(unreadable_input), naming `what`, if they end early.
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
@@ -66,9 +66,9 @@ class ByteReader {
   std::string_view raw(std::uint64_t count) {
     if (count > bytes_.size() - position_) {
       throw Error(ExitCode::unreadable_input, what_ + ": truncated: byte " + std::to_string(position_) +
-                                                  " begins something of " + std::to_string(count) +
-                                                  " bytes, but only " + std::to_string(bytes_.size() - position_) +
-                                                  " are left. Take another copy of the file.");
+                                                  " begins an item of " + std::to_string(count) + " bytes, but only " +
+                                                  std::to_string(bytes_.size() - position_) +
+                                                  " are left. Use another copy of the file.");
     }
     const std::string_view result = bytes_.substr(position_, count);
     position_ += count;
@@ -76,7 +76,7 @@ class ByteReader {
   }
   std::string_view block() { return raw(uint(8)); }
   bool atEnd() const { return position_ == bytes_.size(); }
-  /// Names the place in messages from here on.
+  /// Sets the name of the place for later messages.
   void setWhat(std::string what) { what_ = std::move(what); }
 
  private:

@@ -19,7 +19,7 @@ class ConfigSection {
  public:
   const std::string& name() const { return name_; }
 
-  /// The struct with its defaults overwritten by this section. `also_known` are keys that somebody else reads here.
+  /// The struct with its defaults overwritten by this section. `also_known` are keys that other code reads from it.
   /// Throws Error unknown_key, wrong_type or out_of_range, naming file and line or --set, section, key, value, bounds
   /// and nearest key.
   template <class Struct>
@@ -35,7 +35,7 @@ class ConfigSection {
     return result;
   }
 
-  /// The raw text of a key, if it is there.
+  /// Gets the raw text of a key. Returns false if the section does not have it.
   bool find(const std::string& key, std::string& text) const;
 
  private:
@@ -48,41 +48,44 @@ class ConfigSection {
   std::string name_;
 };
 
-/// First line of an INI that a program of ours wrote by what a log holds.
+/// Beginning of an INI that a program of this project generated from a log.
 inline const std::string kWrittenFromALog = "; Written from a log";
 
-/// An INI file with the settings of the command line on top. Sections are handed out by name; what nobody asked for
-/// is an error at the end, because a misspelt name is otherwise ignored in silence.
+/// An INI file, overridden by settings of the command line. Sections are read by name. A section that was never read is
+/// an error at the end, because a misspelt name would otherwise be ignored silently.
 class Config {
  public:
-  /// Throws Error(unreadable_input) if the file cannot be read, Error(unknown_key) if a key or section comes twice.
+  /// Throws Error(unreadable_input) if the file cannot be read, and Error(unknown_key) if a key or section occurs
+  /// twice.
   static Config fromFile(const std::string& path);
-  /// Several files, each over those before it: what it sets counts. Without any, an empty one. Throws as fromFile().
+  /// Reads several files, of which each overrides those before it. Without any, the result is empty. Throws as
+  /// fromFile().
   static Config fromFiles(const std::vector<std::string>& paths);
   static Config fromText(const std::string& text, const std::string& name_for_messages);
 
-  /// "section.key=value", as after --set. Throws Error(command_line) if it is not of that form.
+  /// Sets "section.key=value", as given with --set. Throws Error(command_line) if it does not have that form.
   void set(const std::string& assignment);
 
   bool has(const std::string& section) const;
-  /// The section, empty if the file has none of that name: all its options keep their defaults.
+  /// The section; if the file does not have it, it is empty and all its options keep their defaults.
   ConfigSection section(const std::string& name) const;
-  /// Throws Error(unknown_key) if the file holds a section that section() was never asked for. Two kinds pass: sections
-  /// of rawlog-grabber's form (with a "driver" key), which are another program's, and switchedOffPlugins().
+  /// Throws Error(unknown_key) if the file has a section that section() was never called for. Allowed are sections of
+  /// rawlog-grabber's form (with a "driver" key), which are for another program, and switchedOffPlugins().
   void refuseUnreadSections() const;
-  /// Sections of plugins (with a "class" key) that section() was never asked for.
+  /// Sections of plugins (with a "class" key) that section() was never called for.
   std::vector<std::string> switchedOffPlugins() const;
 
   const std::string& file() const { return file_; }
-  /// Where a key, or without one a section, was set: "office.ini:12", "--set planes.max_depth_m"; else file().
+  /// The place where a key, or without a key the section, was set: "office.ini:12" or "--set planes.max_depth_m"; else
+  /// file().
   std::string placeOf(const std::string& section, const std::string& key = "") const;
   /// Path of the first file; empty if there is none.
   const std::string& firstFile() const { return first_file_; }
   bool isFromCommandLine(const std::string& section, const std::string& key) const;
-  /// Whether the user wrote this key himself: it stands in the first file or was set on the command line. Later files
-  /// may come from anywhere, as may a first one that begins with kWrittenFromALog. True for what is not set at all.
+  /// Whether the user set this key deliberately: in the first file or on the command line. Later files may come from
+  /// anywhere, and so may a first file that begins with kWrittenFromALog. True for a key that is not set at all.
   bool isTrusted(const std::string& section, const std::string& key) const;
-  /// The INI as read, settings of the command line included.
+  /// The INI text as it is used, including the settings of the command line.
   std::string text() const { return ini_.getContent(); }
 
  private:
@@ -92,14 +95,14 @@ class Config {
 
   mrpt::config::CConfigFileMemory ini_;
   std::string file_, first_file_;
-  bool is_written_from_a_log_ = false;                        // the first file
-  using SectionAndKey = std::pair<std::string, std::string>;  // in lower case; no key: the section itself
+  bool is_written_from_a_log_ = false;                        // the first file begins with kWrittenFromALog
+  using SectionAndKey = std::pair<std::string, std::string>;  // in lower case; an empty key means the section itself
   std::map<SectionAndKey, std::string> places_;
   std::set<SectionAndKey> from_later_files_;
   mutable std::set<std::string> asked_;
 };
 
-/// The candidate nearest to a misspelt name by edit distance; empty if none is near.
+/// The candidate nearest to a misspelt name by edit distance; empty if none is close.
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace omnimapper::base

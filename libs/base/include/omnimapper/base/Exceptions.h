@@ -5,7 +5,7 @@
 
 namespace omnimapper::base {
 
-/// What an exception says; of one of MRPT's the sentence alone, without its place in the source and the call stack.
+/// The message of an exception; for one of MRPT only the sentence, without source location and call stack.
 std::string sentenceOf(const std::exception& error);
 
 }  // namespace omnimapper::base

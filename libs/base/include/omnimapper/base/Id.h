@@ -8,8 +8,8 @@
 
 namespace omnimapper::base {
 
-/// Name of one thing in a map: the session that made it and its running number there.
-/// Ids of different things are different types. They order by session, then index, which is the order of commit.
+/// Identifies an object in a map by the session that created it and its index within that session. Ids of different
+/// kinds of objects are different types. They are ordered by session, then index, which is the order of creation.
 template <class Tag>
 struct Id {
   std::uint16_t session = 0;

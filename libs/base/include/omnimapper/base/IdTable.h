@@ -13,10 +13,10 @@
 
 namespace omnimapper::base {
 
-/// Things by their id. Look-up, insertion and removal take constant time; iteration is in the order of ids; an index is
-/// never given twice, and where many were removed their room is free again. A copy shares what it holds until one of
-/// the two changes it, chunk by chunk: copying costs a pointer for every 64 things. A copy may be read in another
-/// thread while the original changes, as long as the thread that changes it is the one that destroys the copy.
+/// A table of values by id. Look-up, insertion and removal take constant time; iteration is in the order of ids. An
+/// index is never used twice, and chunks without values are freed. A copy shares its content with the original until
+/// one of them changes it, chunk by chunk: copying costs one pointer for every 64 values. A copy may be read in another
+/// thread while the original changes, as long as the thread that changes the original also destroys the copy.
 template <class IdType, class Value>
 class IdTable {
   static constexpr std::uint32_t kChunkSize = 64;
@@ -24,7 +24,7 @@ class IdTable {
   struct Session {
     std::vector<std::shared_ptr<Chunk>> chunks;  // null where all 64 are holes
     std::uint32_t next = 0;
-    // Null if there is none.
+    // Null if there is no value.
     const Value* at(std::uint32_t index) const {
       const auto& chunk = chunks[index / kChunkSize];
       if (!chunk) return nullptr;
@@ -35,7 +35,7 @@ class IdTable {
   using Sessions = std::map<std::uint16_t, Session>;
 
  public:
-  /// Steps over what is there; *it is {id, value}.
+  /// Iterates over the existing values; *it is {id, value}.
   class Iterator {
    public:
     std::pair<IdType, const Value&> operator*() const {
@@ -78,14 +78,14 @@ class IdTable {
     const auto found = sessions_.find(session);
     return {session, found == sessions_.end() ? 0 : found->second.next};
   }
-  /// Gives it the session's next index.
+  /// Adds a value with the session's next index.
   IdType add(std::uint16_t session, Value value) {
     const std::uint32_t index = skip(session);
     ownChunk(sessions_[session], index)[index % kChunkSize] = std::move(value);
     ++size_;
     return {session, index};
   }
-  /// False, and nothing done, if there is no such id.
+  /// Removes a value. Returns false if there is no such id.
   bool erase(IdType id) {
     if (!find(id)) return false;
     Session& session = sessions_[id.session];
@@ -101,19 +101,19 @@ class IdTable {
     if (session == sessions_.end() || id.index >= session->second.next) return nullptr;
     return session->second.at(id.index);
   }
-  /// To change it: until the table is copied again. Null if there is no such id.
+  /// The value for editing; the pointer is valid until the table is copied. Null if there is no such id.
   Value* edit(IdType id) {
     if (!find(id)) return nullptr;
     return &*ownChunk(sessions_[id.session], id.index)[id.index % kChunkSize];
   }
 
-  /// The index that add() will give next, of every session that ever had one.
+  /// The index that add() will use next, for every session that ever had one.
   std::map<std::uint16_t, std::uint32_t> nextIndices() const {
     std::map<std::uint16_t, std::uint32_t> next;
     for (const auto& [number, session] : sessions_) next[number] = session.next;
     return next;
   }
-  /// Leaves a hole where add() would have put something; how a table is rebuilt with the ids it had.
+  /// Skips an index without adding a value; used to rebuild a table with its former ids.
   std::uint32_t skip(std::uint16_t session) {
     Session& values = sessions_[session];
     if (values.next % kChunkSize == 0) values.chunks.push_back(nullptr);

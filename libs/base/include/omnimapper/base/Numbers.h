@@ -7,7 +7,7 @@
 
 namespace omnimapper::base {
 
-/// Decimal text with that many decimals, whatever the locale; nothing but zeros has no sign.
+/// The number with that many decimals, whatever the locale; zero has no sign.
 inline std::string fixed(double value, int decimals) {
   char text[512];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
@@ -15,7 +15,7 @@ inline std::string fixed(double value, int decimals) {
   return {zero && text[0] == '-' ? text + 1 : text, end};
 }
 
-/// Decimal text with so many significant digits, as short as that allows.
+/// The number with that many significant digits, as short as possible.
 inline std::string brief(double value, int digits = 4) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;

@@ -8,15 +8,15 @@
 
 namespace omnimapper::base {
 
-/// The options as a table in Markdown; "No options." without any.
+/// The options as a Markdown table; "No options." if there are none.
 std::string optionsAsMarkdown(const std::vector<OptionSpec>& options);
 
-/// "[section]" with "class = ..." and every option at its default, what it means above it; those named in `decided` are
-/// comments: another option decides their default.
+/// An INI section with "class = ..." and every option at its default, each below its meaning. Options named in
+/// `decided`, whose default depends on another option, are written as comments.
 std::string optionsAsIni(const std::string& section, const std::string& class_name, const std::string& summary,
                          const std::vector<OptionSpec>& options, const std::set<std::string>& decided = {});
 
-/// "LoopClosurePlugin" as the name of a section: "loop_closure" where `endings` has "_plugin".
+/// The section name for a class: "loop_closure" for "LoopClosurePlugin" if `endings` contains "_plugin".
 std::string sectionNameFor(const std::string& class_name, const std::vector<std::string>& endings);
 
 }  // namespace omnimapper::base

@@ -7,48 +7,49 @@
 namespace omnimapper::base {
 
 /// The folder of a run's outputs, whose files are replaced all together or not at all. They are written into a staging
-/// folder inside of it. commit() first notes, in one step, that the new ones count, and then moves them to their
-/// places. Who was killed before that note has changed nothing; what was killed after it is finished by whoever next
-/// opens the folder for writing, or one of its files with openInput().
+/// folder inside of it. commit() first records, in one step, that the new files are valid, and then moves them to their
+/// places. If the process is killed before this record, nothing has changed; if after it, the next program that opens
+/// the folder for writing, or one of its files with openInput(), finishes the move.
 ///
-/// A hidden folder ".omnimapper" holds the staging folder, the lock, and the list of the files of the run, by which a
-/// later run tells its own kind from what somebody else put there. That stays, and if a new file has its name it
-/// becomes NAME~.
+/// A hidden folder ".omnimapper" holds the staging folder, the lock, and the list of the run's files, by which a later
+/// run distinguishes them from files of others. Those are kept; if a new file has the same name, the old one is renamed
+/// to NAME~.
 class OutputFolder {
  public:
-  /// Touches nothing yet.
+  /// Does not access the disk yet.
   explicit OutputFolder(const std::string& folder);
-  /// What was not committed goes, and so does the folder if open() made it and nothing is in it.
+  /// Removes files that were not committed, and the folder if open() created it and it is empty.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Makes the folder and its staging folder, and locks it until this object goes. Throws Error(unwritable_output) if
-  /// that fails, or another process has locked it, and Error(disk_full) if there is not even room to note a commit.
+  /// Creates the folder and its staging folder and locks it for the lifetime of this object. Throws
+  /// Error(unwritable_output) if that fails or another process holds the lock, and Error(disk_full) if there is not
+  /// even room for the record of a commit.
   void open();
-  /// Where the files are to be written; there from open() on. Folders in it become folders of the same name.
+  /// The folder to write the files into; it exists after open(). Folders in it become folders of the same name.
   const std::string& staging() const { return staging_; }
   const std::string& folder() const { return folder_; }
-  /// A file of the run before, by its path in the folder, that commit() is to leave there where no new one has its
-  /// name.
+  /// Keeps a file of the previous run, given by its path in the folder, unless a new file has its name.
   void keep(const std::string& name) { kept_.insert(name); }
-  /// Whether a run's files are there already; of a folder from before there were lists, a map.
+  /// Whether the folder has files of a run; if it has no list of files, whether it has a map.
   bool holdsRun() const;
 
-  /// Replaces the files of the run before by those that were staged. A file of that run which somebody has changed
-  /// since stays, unless a new one has its name, and so does what InputsKept protects. Throws Error(unwritable_output),
-  /// or Error(disk_full), and, if a protected file would be replaced, Error(command_line); isCommitted() tells whether
-  /// the new files count all the same.
+  /// Replaces the files of the previous run by the staged ones. Files of that run that were changed by others since are
+  /// kept unless a new file has their name, and so are files protected by InputsKept. Throws Error(unwritable_output)
+  /// or Error(disk_full), and Error(command_line) if a protected file would be replaced; isCommitted() then says
+  /// whether the new files are valid nevertheless.
   void commit();
-  /// Whether a commit has been noted and not wholly done.
+  /// Whether a commit was recorded but is not finished.
   bool isCommitted() const;
-  /// Moves what is staged into a folder in this one, whose files it replaces as commit() does; these stay.
+  /// Moves the staged files into a subfolder, whose files it replaces as commit() does; the files of this folder are
+  /// kept.
   void commitInto(const std::string& name);
-  /// Removes what commitInto() left in that folder, if anything. What somebody else put there stays.
+  /// Removes the files that commitInto() left in that subfolder, if any. Files of others are kept.
   void removeInner(const std::string& name);
-  /// Names of what is in the folder and no run made, sorted.
+  /// Sorted names of the files and folders in this folder that no run wrote.
   std::vector<std::string> foreignFiles() const;
-  /// A message about a staged file, with the place that it was to have.
+  /// A message about a staged file, with its final path instead of the staged one.
   std::string asTheUserSees(std::string message) const;
 
  private:
@@ -60,8 +61,9 @@ class OutputFolder {
   bool is_new_ = false;
 };
 
-/// Where the bytes of a file are that a run wrote directly in its folder: finishes a commit there of the same user if
-/// that was killed. If the folder may not be written, that is the staged file. Any other path is given back.
+/// The current path of a file that a run wrote directly in its folder. If a commit of the same user was killed, it is
+/// finished first; if the folder is not writable, the path is that of the staged file. Any other path is returned
+/// unchanged.
 std::string committedPath(const std::string& path);
 
 }  // namespace omnimapper::base

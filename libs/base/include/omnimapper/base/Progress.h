@@ -6,23 +6,24 @@
 
 namespace omnimapper::base {
 
-/// Where a long piece of work says how far it is. The default says nothing.
+/// Receives the progress of long work. The default ignores it.
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// `fraction` in [0, 1]; `what` a few words.
+  /// Reports the progress: `fraction` in [0, 1], `what` in a few words.
   virtual void report(double /*fraction*/, const std::string& /*what*/) {}
-  /// How work goes that has no end of its own, in a few words.
+  /// Reports the state of work without a known end, in a few words.
   virtual void reportState(const std::string& /*how*/) {}
-  /// A sentence on something that has just happened.
+  /// Reports an event in a sentence.
   virtual void reportEvent(const std::string& /*sentence*/) {}
 };
 
-/// One line on a terminal, redrawn at most ten times a second, and only for work longer than two seconds. Sentences
-/// have lines of their own, on a pipe or in a file too.
+/// Shows one line on a terminal, redrawn at most ten times a second, and only for work longer than two seconds. Events
+/// get separate lines, which are also written to a pipe or file.
 class TerminalProgress : public Progress {
  public:
-  /// `terminal` is false for a pipe or file: no line is drawn then. `quiet`: no sentences either.
+  /// `terminal` is false for a pipe or file: no progress line is drawn then. With `quiet` events are not written
+  /// either.
   TerminalProgress(std::ostream& out, bool terminal, bool quiet = false)
       : out_(out), terminal_(terminal && !quiet), quiet_(quiet) {}
   ~TerminalProgress() override;

@@ -4,11 +4,11 @@
 
 namespace omnimapper::base {
 
-/// Steele, Lea, Flood: Fast splittable pseudorandom number generators (2014).
+/// Pseudorandom numbers; Steele, Lea, Flood: Fast splittable pseudorandom number generators (2014).
 class SplitMix {
  public:
   explicit SplitMix(std::uint64_t seed) : state_(seed) {}
-  /// Even in [0, count).
+  /// Uniformly distributed in [0, count).
   int below(int count) {
     state_ += 0x9E3779B97F4A7C15ULL;
     std::uint64_t z = state_;

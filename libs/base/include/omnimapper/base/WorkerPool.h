@@ -11,19 +11,19 @@
 
 namespace omnimapper::base {
 
-/// Threads that run tasks in the order they were submitted. What a task gives is fetched by its future, so results do
-/// not depend on the number of threads. They start with the first task: until then the process can be forked without a
-/// lock that one of them might hold.
+/// Threads that run tasks in the order they were submitted. Results are fetched by futures, so they do not depend on
+/// the number of threads. The threads start with the first task: until then the process can be forked without the risk
+/// that one of them holds a lock.
 class WorkerPool {
  public:
-  /// threads >= 1.
+  /// `threads` must be at least 1.
   explicit WorkerPool(int threads) : count_(static_cast<std::size_t>(threads)) {}
-  /// Leaves out what has not begun; its futures throw std::future_error.
+  /// Drops tasks that have not started; their futures throw std::future_error.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// An exception of the task comes out of the future.
+  /// Submits a task. An exception of the task is rethrown by the future.
   template <class Result>
   std::future<Result> submit(std::function<Result()> task) {
     auto packaged = std::make_shared<std::packaged_task<Result()>>(std::move(task));

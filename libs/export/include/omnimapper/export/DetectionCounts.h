@@ -9,13 +9,13 @@
 
 namespace omnimapper::exports {
 
-/// How many planes, lines, things, signs, markers or points perception found, by label.
+/// Counts the planes, lines, objects, signs, markers and points that perception found, by label.
 class DetectionCounts {
  public:
   void add(const std::vector<mrpt::obs::CObservation::Ptr>& derived);
 
-  /// A line for each label: "  kinect.planes: 113 planes in 16 observations". What is of no known class is counted as
-  /// observations alone.
+  /// A line for each label: "  kinect.planes: 113 planes in 16 observations". For other classes only the number of
+  /// observations is given.
   std::string text() const;
 
  private:

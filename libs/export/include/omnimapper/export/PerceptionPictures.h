@@ -8,21 +8,21 @@
 
 namespace omnimapper::exports {
 
-/// Pictures of what perception found, to be looked at: planes, objects, points and markers over the image of a range
-/// camera, markers over that of another camera, lines over a laser scan seen from above. PNG files in one folder, named
-/// after sensor and stamp.
+/// Writes pictures of what perception found: planes, objects, points and markers over the image of a range camera,
+/// markers over that of another camera, lines over a laser scan seen from above. They are PNG files in one folder,
+/// named after sensor and stamp.
 class PerceptionPictures {
  public:
-  /// Of each sensor every so manieth observation, the first included. Makes the folder. Throws
+  /// Draws every `every`-th observation of each sensor, beginning with the first. Creates the folder. Throws
   /// Error(unwritable_output).
   PerceptionPictures(const std::string& folder, int every);
-  /// Leaves no empty folder behind that it made.
+  /// Removes the folder if it was created here and is empty.
   ~PerceptionPictures();
   PerceptionPictures(const PerceptionPictures&) = delete;
   PerceptionPictures& operator=(const PerceptionPictures&) = delete;
 
-  /// What was derived of `raw`. Where that is nothing, or nothing that can be drawn, there is no picture, and it does
-  /// not count.
+  /// Draws the observations `derived` from `raw`. If there are none, or none that can be drawn, no picture is written
+  /// or counted.
   void add(const mrpt::obs::CObservation& raw, const std::vector<mrpt::obs::CObservation::Ptr>& derived);
 
   int count() const { return count_; }
@@ -30,8 +30,8 @@ class PerceptionPictures {
  private:
   std::string folder_;
   int every_, count_ = 0;
-  bool is_new_;                      // the folder
-  std::map<std::string, int> seen_;  // by label
+  bool is_new_;                      // the folder was created here
+  std::map<std::string, int> seen_;  // number of observations by label
 };
 
 }  // namespace omnimapper::exports

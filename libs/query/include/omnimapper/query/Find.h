@@ -14,20 +14,22 @@ struct FoundPlace {
 };
 
 struct Found {
-  /// The best first; all of them fit at the same cost or better than what is not here. Either all are near, or none is.
+  /// The best match first; each match is at least as good as any that is not listed. Either all of them are near
+  /// matches, or none is.
   std::vector<FoundPlace> places;
-  /// Where nothing fits: the names that are least different, the best first.
+  /// The most similar names, the best first, if nothing fits.
   std::vector<std::string> closest;
 
   bool isOnlyNear() const { return !places.empty() && places.front().match.grade == MatchGrade::near; }
 };
 
-/// What a place may be asked by: its caption, its label, and the words of those properties that are no measures.
+/// The names by which a place can be found: its caption, its label, and the texts of its properties that are no
+/// measures.
 std::vector<std::string> namesOf(const map::Place& place);
 
-/// What is called `text`: all places that a name of theirs fits, and only where there are none those whose name is
-/// near. They point into `places`. Throws Error(command_line) if nobody can ask that: an empty or overlong text, one
-/// with control characters or that is no UTF-8.
+/// The places called `text`: all those with a name that fits, or if there are none, those with a near name. They point
+/// into `places`. Throws Error(command_line) for a text that is empty, too long or not UTF-8, or has control
+/// characters.
 Found find(const std::vector<map::Place>& places, const std::string& text);
 
 }  // namespace omnimapper::query

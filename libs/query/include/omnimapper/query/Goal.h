@@ -11,44 +11,45 @@
 namespace omnimapper::query {
 
 struct GoalOptions {
-  double distance = 1;   ///< [m] before the target
-  double radius = 0.25;  ///< [m] of the robot: so far around it all is free
+  double distance = 1;   ///< [m] distance from the target
+  double radius = 0.25;  ///< [m] radius of the robot, within which all cells must be free
 };
 
-/// A pose before a target, facing it. Frame of the map [m] [rad].
+/// A pose in front of a target, facing it. Frame of the map [m] [rad].
 struct Goal {
   double x = 0, y = 0, yaw = 0;
   Eigen::Vector2d edge;       ///< the point of the target that it faces
-  double distance = 0;        ///< [m] to that
-  bool is_connected = false;  ///< to the start, through cells that leave room for the robot
+  double distance = 0;        ///< [m] distance to `edge`
+  bool is_connected = false;  ///< connected to the start by cells that leave room for the robot
 };
 
-/// Where a robot of that size can be in a grid, and which of that it reaches from a start.
+/// The cells of a grid where a robot of that size fits, and those that it reaches from a start.
 class RoomToMove {
  public:
-  /// `grid` outlives this. The start is the free place nearest to `start`, if there is one within half a metre.
+  /// `grid` must outlive this object. The start is the free place nearest to `start`, if there is one within half a
+  /// metre.
   RoomToMove(const GridMap& grid, double radius, const Eigen::Vector2d& start);
 
-  /// Whether the robot's disc around the middle of the cell lies on free cells alone.
+  /// Whether the robot's disc around the centre of the cell covers only free cells.
   bool fits(const Eigen::Vector2i& cell) const;
   bool isStartKnown() const { return is_start_known_; }
   bool isReached(const Eigen::Vector2i& cell) const;
-  /// Whether nothing occupied is between two points but for the last `tolerance` [m] before `to`.
+  /// Whether the line between two points crosses no occupied cell, except in the last `tolerance` [m] before `to`.
   bool isSeen(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double tolerance) const;
 
  private:
   void reach(const Eigen::Vector2i& first);
 
   const GridMap& grid_;
-  std::vector<std::uint16_t> to_blocked_;  // cells to the nearest in the same row that is not free
-  std::vector<int> half_widths_;           // [cells] of the disc in its rows, from the middle up
+  std::vector<std::uint16_t> to_blocked_;  // number of cells to the nearest one in the same row that is not free
+  std::vector<int> half_widths_;           // [cells] half widths of the disc in its rows, from the centre up
   std::vector<bool> reached_;
   bool is_start_known_ = false;
 };
 
-/// The pose that is nearest to `options.distance` before the nearest edge of the target as seen from `start`, straight
-/// before it where its free side is known, with the target in sight. Preferred is what is connected to the start.
-/// Distances from half to twice the one asked for are tried. None if none of these is free.
+/// The pose at the distance nearest to `options.distance` from the target's edge that is nearest to `start`, straight
+/// in front of the free side if that is known, with a line of sight to the target. Poses connected to the start are
+/// preferred. Distances from half to twice the requested one are tried. None if none of these is free.
 std::optional<Goal> goalBefore(const map::Place& target, const Eigen::Vector2d& start, const RoomToMove& room,
                                const GridMap& grid, const GoalOptions& options);
 

@@ -22,16 +22,16 @@ struct GridMap {
   std::size_t indexOf(const Eigen::Vector2i& cell) const {
     return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(cell.x());
   }
-  /// Beyond the grid all is unknown.
+  /// Cells outside the grid are unknown.
   GridCell at(const Eigen::Vector2i& cell) const { return contains(cell) ? cells[indexOf(cell)] : GridCell::unknown; }
-  /// The cell that a point lies in; one far beyond the grid for points that are farther than numbers of cells reach.
+  /// The cell that contains a point; for points too far away for an integer, a cell far outside the grid.
   Eigen::Vector2i cellOf(const Eigen::Vector2d& point) const;
   Eigen::Vector2d middleOf(const Eigen::Vector2i& cell) const;
 };
 
-/// Reads grid.yaml and the 8-bit binary PGM that it names from a map's folder, in the form of ROS map_server (its mode
-/// trinary). Throws Error(unreadable_input) that names file, place and remedy for what is missing, damaged, of another
-/// form, turned, or larger than 400 million cells.
+/// Reads grid.yaml and the 8-bit binary PGM that it names from a map's folder, in the format of ROS map_server (mode
+/// trinary). Throws Error(unreadable_input), naming file, place and remedy, if a file is missing, damaged or in another
+/// format, or the grid is rotated or larger than 400 million cells.
 GridMap readGrid(const std::string& folder);
 
 }  // namespace omnimapper::query

@@ -6,15 +6,15 @@
 
 namespace omnimapper::query {
 
-/// What of a map is loaded to answer queries: its places alone, however large the map is.
+/// The part of a map that is loaded to answer queries: only its places, however large the map is.
 struct MapToAsk {
   std::string file;    ///< the map file
-  std::string folder;  ///< that it lies in: there is its occupancy grid, too
+  std::string folder;  ///< the folder of the map file, which also has the occupancy grid
   map::Places places;
 };
 
-/// `path`: a map file or the folder of one. Throws Error(unreadable_input), naming the file and the remedy, if it is
-/// missing, damaged, of a later version, or has no places because an earlier OmniMapper wrote it.
+/// Opens a map; `path` is a map file or its folder. Throws Error(unreadable_input), naming the file and the remedy, if
+/// it is missing, damaged, of a later version, or has no places because an earlier OmniMapper wrote it.
 MapToAsk openMap(const std::string& path);
 
 }  // namespace omnimapper::query
