@@ -9,15 +9,15 @@
 
 namespace omnimapper::sim {
 
-/// A small world, a robot and a sensor in it, by hand. Cameras look along the map's x to begin with.
+/// A small world with a robot and a sensor, made by hand. At first cameras look along the map's x.
 class CameraFixture {
  public:
-  /// A rectangle of a surface of its own, upright, facing -x, its middle at (x, y, z) [m].
+  /// Adds an upright rectangle as a new surface that faces -x, with its centre at (x, y, z) [m].
   void addBoard(const std::string& name, double x, double y, double z, double width, double height,
                 const Material& material = {}) {
     addFacing(name, SurfaceKind::wall, {Eigen::Quaterniond::Identity(), {x, y, z}}, width, height, material);
   }
-  /// The same at a pose of its middle: it faces the pose's -x.
+  /// Adds the same with its centre at a pose, facing the pose's -x.
   void addFacing(const std::string& name, SurfaceKind kind, const geometry::Se3& map_from_middle, double width,
                  double height, const Material& material = {}) {
     MeshBuilder builder(name, Track(map_from_middle));
@@ -27,7 +27,7 @@ class CameraFixture {
     world.bodies.push_back(builder.build());
   }
 
-  /// The sensor of section [camera]; `ini` begins with its class.
+  /// Makes the sensor of section [camera]; `ini` begins with its class.
   std::unique_ptr<Sensor> make(const std::string& ini) {
     scenes = std::make_unique<Scenes>(world);
     SensorContext context;

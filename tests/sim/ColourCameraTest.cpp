@@ -25,7 +25,7 @@ double brightness(const mrpt::img::CImage& image, int column, int row) {
   return image.getAsFloat(column, row);
 }
 
-// Mean of the squared difference of pixels that far apart.
+// Mean squared difference of pixels at this distance.
 double contrast(const mrpt::img::CImage& image, int dx, int dy) {
   double sum = 0;
   int count = 0;
@@ -53,7 +53,7 @@ TEST(ColourCamera, thePanTiltAimsAndMarkersHaveTheirTrueCorners) {
   white.colour.setConstant(0.9f);
   black.colour.setConstant(0.02f);
   const geometry::Se3 aside{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 4, Eigen::Vector3d::UnitZ())), {2, 2, 1}};
-  // The marker's frame: x to the reader's right, y up, z to the reader; the board's faces -x of its own.
+  // The marker's frame: x to the reader's right, y up, z to the reader. The board faces -x of its own frame.
   Eigen::Matrix3d axes;
   axes << 0, 0, -1, -1, 0, 0, 0, 1, 0;
   const geometry::Se3 map_from_marker = aside * geometry::Se3{Eigen::Quaterniond(axes), Eigen::Vector3d::Zero()};
@@ -84,7 +84,7 @@ TEST(ColourCamera, thePanTiltAimsAndMarkersHaveTheirTrueCorners) {
   EXPECT_LT(brightness(picture->image, 320 + 18, 240 - 18), 0.3);
   EXPECT_GT(brightness(picture->image, 320 + 25, 240), 0.6);
   EXPECT_GT(brightness(picture->image, 320, 240 + 25), 0.6);
-  // The pose that MRPT is told looks along z: the marker lies straight ahead.
+  // The pose that MRPT gets looks along z: the marker lies straight ahead.
   const auto ahead = picture->cameraPose.inverseComposePoint({2, 2, 1});
   EXPECT_NEAR(ahead.x, 0, 1e-9);
   EXPECT_NEAR(ahead.y, 0, 1e-9);
@@ -122,7 +122,7 @@ TEST(ColourCamera, opencvFindsMarkersWhereTruthHasThem) {
   for (const auto& seen : truth["markers"]) {
     const auto at = std::find(ids.begin(), ids.end(), seen["id"].get<int>()) - ids.begin();
     ASSERT_LT(at, 3);
-    // White runs over into the black square, in the lens and by the sRGB curve: each corner is found a little inside.
+    // White spreads into the black square, in the lens and by the sRGB curve, so each corner is found a little inside.
     double mean_x = 0, mean_y = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const double dx = corners[at][corner].x - seen["corners"][corner][0].get<double>(),
@@ -157,7 +157,7 @@ TEST(ColourCamera, signsTellTheirTextAndWhatHidesThem) {
   EXPECT_TRUE(behind["signs"].empty());
 }
 
-// What it sees follows from where it looks, without a picture; noise of the angles that are told is not in it.
+// The view follows from the camera's true pose, without a picture; the noise of the reported angles is not in it.
 TEST(ColourCamera, theViewOfAPictureIsTheTruthOfIt) {
   CameraFixture fixture;
   fixture.addBoard("wall", 2, 0, 0, 9, 9);
@@ -186,7 +186,7 @@ TEST(ColourCamera, sweepsAndTellsItsAnglesWithNoiseAndBias) {
     const auto measurement = camera->measure(k);
     const auto truth = nlohmann::json::parse(measurement.truth);
     EXPECT_NEAR(truth["pan_deg"], 40 * std::sin(2 * M_PI * camera->timeOf(k) / 4), 1e-9);
-    // The way the camera is told to look, in the base.
+    // The reported direction of the camera in the base.
     const auto ahead = pictureOf(measurement)->cameraPose.composePoint({0, 0, 1});
     const double error = std::atan2(ahead.y, ahead.x) * 180 / M_PI - truth["pan_deg"].get<double>();
     sum += error;

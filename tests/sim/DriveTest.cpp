@@ -37,7 +37,7 @@ double distanceToObstacle(const sim::World& world, const Eigen::Vector2d& point)
   return nearest;
 }
 
-// Room of 8 x 8 m with boxes that the seed puts somewhere.
+// A room of 8 x 8 m with boxes at places that the seed determines.
 sim::World cluttered(std::uint64_t seed) {
   sim::World world = oneRoom(8, 8);
   sim::Random random(seed, {1});
@@ -49,7 +49,7 @@ sim::World cluttered(std::uint64_t seed) {
   return world;
 }
 
-/// What a track does at most, by differences.
+/// Largest velocities and accelerations of a track, by differences.
 struct Extremes {
   double speed = 0, turn = 0, acceleration = 0, turn_acceleration = 0, sideways = 0;
 };
@@ -172,7 +172,7 @@ TEST(Drive, whatCannotBeReachedIsRefusedWithPlaceAndRemedy) {
   for (const char* part : {"test.ini: [robot] waypoints", "3.9 3.5", "(3.90, 3.50)", "nearest free place is (3.6"})
     EXPECT_NE(in_wall.find(part), std::string::npos) << in_wall;
   const std::string closed = refusal("mode = waypoints\nwaypoints = 1 1, closed", world);
-  for (const char* part : {"waypoints: closed", "no way", "nearest free place is (7.6"})
+  for (const char* part : {"waypoints: closed", "no path", "nearest free place is (7.6"})
     EXPECT_NE(closed.find(part), std::string::npos) << closed;
   EXPECT_NE(refusal("mode = waypoints\nwaypoints = lefd", world).find("did you mean 'left'"), std::string::npos);
   EXPECT_NE(refusal("rooms = left closed", world).find("rooms: closed"), std::string::npos);

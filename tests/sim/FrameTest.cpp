@@ -47,7 +47,7 @@ TEST(Frame, aWallAheadHasOneDepthAndTheCosineOfItsRays) {
   for (const auto& pixel : frame.pixels) EXPECT_NEAR(pixel.depth, 2, 1e-12);
 }
 
-// Where a ray in doubles meets a triangle, if it does.
+// The point where a ray meets a triangle, computed in doubles; none if it misses.
 double meet(const sim::Body& body, const sim::Triangle& triangle, const Eigen::Vector3d& eye,
             const Eigen::Vector3d& along) {
   const geometry::Se3 map_from_body = *body.track.at(0);
@@ -108,7 +108,7 @@ TEST(Frame, behindGlassIsSeenWithTheLightThatComesThrough) {
   fixture.addBoard("wall", 3, 0, 0, 9, 9);
   const sim::Scenes scenes(fixture.world);
   const Frame frame = sim::castFrame(scenes, scenes.at(0), Pinhole::centred(33, 3, 20), kLookingAlongX);
-  EXPECT_EQ(frame.at(16, 1).surface, 0);  // labels are of the pane
+  EXPECT_EQ(frame.at(16, 1).surface, 0);  // labels are those of the pane
   EXPECT_EQ(frame.at(0, 1).surface, 1);
   ASSERT_EQ(frame.seen_through.size(), 99u);
   for (const auto& seen : frame.seen_through) {

@@ -32,7 +32,7 @@ TEST(Imu, standingStillItFeelsTheFloorPushUp) {
   const SensorRun level(oneRoom(6, 4), sim::Track(at(2, 2, 0, 1)), exact_imu);
   EXPECT_LT((forceOf(*level.measure<CObservationIMU>(0)) - Eigen::Vector3d(0, 0, 9.80665)).norm(), 1e-9);
   EXPECT_LT(gyroOf(*level.measure<CObservationIMU>(0)).norm(), 1e-12);
-  // Nose down by 90 degrees: what is up is behind.
+  // With the nose down by 90 degrees, up is behind the sensor.
   const SensorRun tilted(oneRoom(6, 4), sim::Track(at(2, 2)), exact_imu + "pitch_deg = 90");
   EXPECT_LT((forceOf(*tilted.measure<CObservationIMU>(0)) - Eigen::Vector3d(-9.80665, 0, 0)).norm(), 1e-9);
 }
@@ -59,7 +59,7 @@ TEST(Imu, withoutNoiseItIntegratesBackToTheWay) {
     const int first = 5;
     const auto place = [&](int k) { return track.at(k * step)->translation; };
     geometry::Se3 pose = *track.at((first - 1) * step);
-    // Means over two steps: the velocity that they begin with is a mean as well.
+    // Means are over two steps; the velocity at their beginning is a mean as well.
     Eigen::Vector3d velocity = (place(first + 1) + place(first) - place(first - 1) - place(first - 2)) / (4 * step);
     double worst_turn = 0, worst_place = 0;
     for (int k = first; k + 3 < run.sensor().count(); ++k) {
@@ -77,7 +77,8 @@ TEST(Imu, withoutNoiseItIntegratesBackToTheWay) {
   }
 }
 
-// Where a drive is cut off in motion, and where somebody who carries it is swaying already, nothing jerks.
+// There is no jerk where a drive is cut off in motion, nor where the person who carries the sensor sways from the
+// start.
 TEST(Imu, atBothEndsItFeelsNoMoreThanOnTheWay) {
   const sim::World world = oneRoom(20, 4);
   const sim::Track cut =

@@ -212,7 +212,7 @@ TEST(Laser2d, darkSurfacesAreSeenFromNearOnly) {
   EXPECT_EQ(rate(0.9f, 7), 1);
   EXPECT_EQ(rate(0.9f, 13), 0);
   EXPECT_NEAR(rate(0.9f, 10), 0.5, 0.15);
-  // A tenth of the light: seen to the root of a tenth of the range.
+  // With a tenth of the light a wall is measured up to the root of a tenth of the range.
   EXPECT_EQ(rate(0.09f, 2.2), 1);
   EXPECT_EQ(rate(0.09f, 4), 0);
 }

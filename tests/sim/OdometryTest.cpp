@@ -27,7 +27,7 @@ sim::Track straight(double length) {
   return {sim::Track::Kind::motion, {{0, at(0, 0)}, {length, at(length, 0)}}};
 }
 
-// On the spot, slowly enough that no two readings are half a turn apart.
+// Turns on the spot, so slowly that consecutive readings differ by less than half a turn.
 sim::Track spinning(int turns) {
   std::vector<sim::Track::Place> places;
   for (int i = 0; i <= 8 * turns; ++i) places.push_back({static_cast<double>(i), at(0, 0, 0, i * M_PI / 4)});
@@ -43,8 +43,8 @@ TEST(Odometry, withoutErrorsIsTheWay) {
   for (int k = 0; k < run.sensor().count(); ++k) {
     const auto reading = run.measure<Reading>(k);
     const geometry::Se2 truth = geometry::project(*track.at(run.sensor().timeOf(k)));
-    const geometry::Se2 told = start * geometry::fromMrpt(reading->odometry);
-    EXPECT_LT(geometry::minus(told, truth).norm(), 1e-6);
+    const geometry::Se2 measured = start * geometry::fromMrpt(reading->odometry);
+    EXPECT_LT(geometry::minus(measured, truth).norm(), 1e-6);
     const auto increment = nlohmann::json::parse(run.truth(k))["increment"];
     summed = summed * geometry::Se2{increment[0], increment[1], increment[2]};
     EXPECT_LT(geometry::minus(summed, truth).norm(), 5e-3);
@@ -60,9 +60,9 @@ TEST(Odometry, velocitiesAreThoseOfTheBase) {
   EXPECT_NEAR(reading->velocityLocal.omega, 0, 1e-9);
 }
 
-/// Variance of the end of a track over seeds, of x and yaw, from the true end.
+/// Variance over seeds of the end of a track, of x and yaw, about the true end.
 struct Spread {
-  double way = 0, yaw = 0;
+  double distance = 0, yaw = 0;
 };
 Spread spreadOver(int seeds, const sim::Track& track, double duration, const std::string& keys) {
   Spread spread;
@@ -71,19 +71,19 @@ Spread spreadOver(int seeds, const sim::Track& track, double duration, const std
     const SensorRun run(oneRoom(6, 4), track, exact + keys, duration, 1000 + seed);
     const auto last = run.measure<Reading>(run.sensor().count() - 1);
     const Eigen::Vector3d error = geometry::minus(geometry::fromMrpt(last->odometry), geometry::inverse(start) * end);
-    spread.way += error.x() * error.x() / seeds;
+    spread.distance += error.x() * error.x() / seeds;
     spread.yaw += error.z() * error.z() / seeds;
   }
   return spread;
 }
 
-// Of 200 seeds: the relative error of a variance has deviation sqrt(2 / 200); 95 % lie within 1.96 of it.
+// With 200 seeds the relative error of a variance has standard deviation sqrt(2 / 200); 95 % lie within 1.96 of that.
 constexpr int kSeeds = 200;
 const double kBound = 1.96 * std::sqrt(2.0 / kSeeds);
 
 TEST(Odometry, slipHasTheVarianceThatItsOptionsClaim) {
   const Spread along = spreadOver(kSeeds, straight(20), 20, "slip_per_root_m = 0.01");
-  EXPECT_NEAR(along.way / (0.01 * 0.01 * 20), 1, kBound);
+  EXPECT_NEAR(along.distance / (0.01 * 0.01 * 20), 1, kBound);
   const Spread aside = spreadOver(kSeeds, straight(20), 20, "turn_slip_per_root_m_deg = 0.5");
   EXPECT_NEAR(aside.yaw / (std::pow(0.5 * M_PI / 180, 2) * 20), 1, kBound);
   const Spread turned = spreadOver(kSeeds, spinning(4), 32, "turn_slip_per_root_turn = 0.02");
@@ -91,7 +91,7 @@ TEST(Odometry, slipHasTheVarianceThatItsOptionsClaim) {
 }
 
 TEST(Odometry, biasGrowsWithTheWayNotItsRoot) {
-  // Way: the mean of two wheels' errors; heading: their difference over the base of 0.5 m.
+  // The distance has the mean of the two wheels' errors, the heading their difference over the base of 0.5 m.
   const Spread bias = spreadOver(kSeeds, straight(4), 4, "radius_bias = 0.01");
   EXPECT_NEAR(bias.yaw / (2 * std::pow(0.01 * 4 / 0.5, 2)), 1, kBound);
   const Spread base = spreadOver(kSeeds, spinning(1), 7, "base_bias = 0.02");

@@ -16,7 +16,7 @@ using Bearings = mrpt::obs::CObservationBearingRange;
 
 const std::string exact = "class = RangeBearing\nsigma_range_m = 0\nsigma_deg = 0\nz_m = 1\n";
 
-// Five points ahead of (1, 2): one behind the box, one behind the sensor; a marker on the east wall.
+// Five points around (1, 2), of which one is behind the box and one behind the sensor, and a marker on the east wall.
 sim::World landmarks() {
   sim::World world = oneRoom(6, 4);
   world.point_landmarks = {{"p0", 10, {3, 2, 1}, ""},
@@ -26,7 +26,7 @@ sim::World landmarks() {
                            {"far", 14, {30, 2, 1}, ""}};
   addBox(world, "box", {2.5, 1.2}, {3, 1.6}, 2);
   addQuad(world, "marker", sim::SurfaceKind::marker, {-0.1, -0.1, 0}, {0.2, 0, 0}, {0, 0.2, 0});
-  // Out of the east wall, towards -x.
+  // Faces out of the east wall, towards -x.
   world.bodies.back().track = sim::Track(
       geometry::Se3{Eigen::Quaterniond(Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitY())), {5.99, 2.5, 1.2}});
   world.markers.push_back({"marker", 7, 0.2});

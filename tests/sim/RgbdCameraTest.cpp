@@ -38,7 +38,7 @@ geometry::Se3 turnedAt(double x, double y, double z, double yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, z}};
 }
 
-// The camera is 1 m up, 0.2 m to the left, looks to the left; the wall is at y = 3.
+// The camera is 1 m up and 0.2 m to the left, and looks to the left; the wall is at y = 3.
 TEST(RgbdCamera, mrptProjectsItsPointsOntoTheTrueWall) {
   for (const std::string model : {"ideal", "kinect"}) {
     CameraFixture fixture;
@@ -88,7 +88,7 @@ TEST(RgbdCamera, noModelTellsDepthsOutOfItsRange) {
   }
 }
 
-// What is seen of a board with a vertical edge at y = 0 lies in depth and picture where each camera has it.
+// A board with a vertical edge at y = 0 lies in depth image and picture where each camera sees it.
 TEST(RgbdCamera, pictureAndDepthAgreeThroughTheirRelativePose) {
   CameraFixture fixture;
   sim::Material white, black;
@@ -129,7 +129,7 @@ TEST(RgbdCamera, kinectHasTheDepthsThatEighthsOfAPixelHave) {
   }
 }
 
-// Standard deviation z^2 / 43.5 * sqrt(0.06^2 + (1/8)^2 / 12), somewhat more where the pattern is weak.
+// The standard deviation is z^2 / 43.5 * sqrt(0.06^2 + (1/8)^2 / 12), and somewhat more where the pattern is weak.
 TEST(RgbdCamera, kinectNoiseGrowsWithTheSquareOfDepth) {
   for (const double distance : {1.0, 2.0, 3.5}) {
     CameraFixture fixture;
@@ -144,9 +144,9 @@ TEST(RgbdCamera, kinectNoiseGrowsWithTheSquareOfDepth) {
         ++count;
       }
     }
-    const double claimed = distance * distance / 43.5 * std::hypot(0.06, 0.125 / std::sqrt(12));
-    EXPECT_GT(std::sqrt(squares / count), 0.8 * claimed) << distance;
-    EXPECT_LT(std::sqrt(squares / count), 1.5 * claimed) << distance;
+    const double expected = distance * distance / 43.5 * std::hypot(0.06, 0.125 / std::sqrt(12));
+    EXPECT_GT(std::sqrt(squares / count), 0.8 * expected) << distance;
+    EXPECT_LT(std::sqrt(squares / count), 1.5 * expected) << distance;
     EXPECT_LT(std::abs(sum / count), 0.7 * distance * distance / 348) << distance;  // within a step
   }
 }
@@ -169,7 +169,7 @@ TEST(RgbdCamera, nothingComesFromBeyondItsRangesFromDarkAndFromGlass) {
   EXPECT_LT(share(glass, 1.5), 0.05);
 }
 
-// Shadow of a board before a wall: rows agree with geometry within what the window closes and frays.
+// The shadow of a board before a wall agrees in all rows with geometry, up to the errors of the window at its edges.
 TEST(RgbdCamera, kinectHasAHoleLeftOfWhatIsNear) {
   CameraFixture fixture;
   fixture.addBoard("board", 0.8, 0, 0, 0.3, 4);

@@ -21,7 +21,7 @@ class SensorRun {
     context.world = &world_;
     context.scenes = &scenes_;
     context.map_from_base = &map_from_base_;
-    // A key that comes twice counts as it comes last.
+    // If a key is given twice, the last value counts.
     std::map<std::string, std::string> values;
     std::istringstream lines(keys);
     for (std::string line; std::getline(lines, line);) {

@@ -1,4 +1,4 @@
-// The places with signs that cameras can read, rawlogs/signs_*.ini: how many are legible how often, by their geometry.
+// How many signs of the places in rawlogs/signs_*.ini are legible to cameras how often, by geometry.
 #include <gtest/gtest.h>
 #include <omnimapper/sim/Simulation.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -14,8 +14,8 @@ using namespace omnimapper;
 struct Place {
   const char* name;
   int signs;          // at least
-  int repeated;       // at least so many bear a text that others bear, too
-  int on_two_visits;  // at least so many are legible on two visits
+  int repeated;       // smallest number of signs whose text other signs bear, too
+  int on_two_visits;  // smallest number of signs that are legible on two visits
 };
 
 class SignPlaces : public ::testing::TestWithParam<Place> {
@@ -72,7 +72,7 @@ class SignPlaces : public ::testing::TestWithParam<Place> {
     EXPECT_GE(announcements, 3);
   }
 
-  // The robot sees people, it does not drive over them.
+  // The robot sees people but does not drive over them.
   void expectPeopleBesideTheRobot() const {
     constexpr double kTouching = 0.3;  // between the robot's middle and a joint [m]
     EXPECT_GE(world().people.size(), 2u);

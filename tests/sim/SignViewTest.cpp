@@ -12,7 +12,7 @@ using sim::SignView;
 
 constexpr double kFocal = 600, kWidth = 0.4, kHeight = 0.2;  // [pixel], [m], [m]
 
-// Signs in sight of a camera of 640 x 480 pixels at the origin that looks along x.
+// Signs in view of a camera of 640 x 480 pixels at the origin that looks along x.
 class SignViews : public ::testing::Test {
  protected:
   /// A sign that faces -x, turned to the left; capitals of 6 cm, and of 2 cm below.
@@ -40,7 +40,8 @@ class SignViews : public ::testing::Test {
   CameraFixture fixture_;
 };
 
-// At 2 m a focal length of 600 shows 6 cm 600 * 0.06 / 2 = 18 pixels high, 2 cm 6; 40 x 20 cm are 120 x 60 pixels.
+// At 2 m and a focal length of 600, 6 cm are 600 * 0.06 / 2 = 18 pixels, 2 cm are 6, and 40 x 20 cm are 120 x 60
+// pixels.
 TEST_F(SignViews, capitalsAndCornersAreThoseOfThePinhole) {
   addSign("ahead", {2, 0, 0});
   const auto signs = seen();
@@ -59,7 +60,7 @@ TEST_F(SignViews, capitalsAndCornersAreThoseOfThePinhole) {
   EXPECT_TRUE(signs[0].corners[3].isApprox(middle + Eigen::Vector2d(-60, 30)));
 }
 
-// The depth of its middle is the same, so the height of its capitals is; beyond 60 deg nobody reads it.
+// The depth of its middle is the same, and so is the height of its capitals; beyond 60 deg it is not legible.
 TEST_F(SignViews, aTurnedSignIsSeenUnderTheAngleItIsTurnedBy) {
   addSign("turned", {2, 0, 0}, 50 * M_PI / 180);
   addSign("slanted", {2, 0, 0.5}, -61 * M_PI / 180);
@@ -83,7 +84,7 @@ TEST_F(SignViews, capitalsOf16PixelsAreLegibleAndSmallerOnesAreNot) {
   EXPECT_FALSE(isLegible(signs[1]));
 }
 
-// Of five columns of rays, at y = 1.16, 1.08, 1, 0.92, 0.84 m, the first two are at -28.5 and -4.5 pixels.
+// The five columns of rays are at y = 1.16, 1.08, 1, 0.92, 0.84 m; the first two are at -28.5 and -4.5 pixels.
 TEST_F(SignViews, whatIsOutOfThePictureIsNotVisible) {
   addSign("aside", {2, 1, 0});
   const auto signs = seen();
@@ -94,7 +95,7 @@ TEST_F(SignViews, whatIsOutOfThePictureIsNotVisible) {
   EXPECT_FALSE(isLegible(signs[0]));
 }
 
-// A board at 1 m from y = 0.02 to 0.2 m hides y = 0.04 to 0.4 m at 2 m: the columns at 0.16 and 0.08 m of five.
+// A board at 1 m from y = 0.02 to 0.2 m hides y = 0.04 to 0.4 m at 2 m, that is, the columns at 0.16 and 0.08 m.
 TEST_F(SignViews, whatStandsBeforeASignHidesItsPart) {
   addSign("sign", {2, 0, 0});
   fixture_.addBoard("post", 1, 0.11, 0, 0.18, 3);

@@ -35,12 +35,12 @@ sim::PersonSpec standing(const std::string& name, double x, double y) {
   return spec;
 }
 
-// Someone two metres before the sensor who points at something else every four seconds.
+// A person two metres before the sensor who points at another target every four seconds.
 sim::World pointing(int acts, bool right_arm) {
   auto spec = standing("anna", 2, 0);
   sim::Random random(5, {});
   for (int i = 0; i < acts; ++i) {
-    // Before and beside who looks at the sensor, as the seven targets of the thesis.
+    // Targets are before and beside the person, who faces the sensor, as the seven targets of the thesis.
     const double azimuth = M_PI + (right_arm ? -1 : 1) * random.uniform(-0.3, 1.5);
     const Vector3d target(2 + 2 * std::cos(azimuth), 2 * std::sin(azimuth), random.uniform(0.5, 1.8));
     spec.acts.push_back({4.0 * i + 1.0, 4.0 * i + 2.5, "cup", target, right_arm});
@@ -68,13 +68,13 @@ struct Row {
   double elbow[4], head[4];  // mu and sigma of theta, then of psi [deg]
 };
 
-// By hand from Tables 12 and 13.
+// Copied by hand from Tables 12 and 13.
 const Row kRows[] = {{"software = ms_sdk", {-11.3, 7.7, 8.5, 4.5}, {-1.1, 8.5, -10.7, 4.8}},
                      {"software = openni", {-11.2, 7.6, 9.6, 6.3}, {-2.4, 9.6, -5.3, 6.4}},
                      {"software = ms_sdk\ntable_target = 7", {-20.8, 3.7, 5.7, 3.4}, {-8.0, 5.5, -15.6, 2.9}},
                      {"software = openni\ntable_target = 4", {-4.0, 4.7, 12.4, 2.5}, {-3.2, 2.5, 1.45, 4.8}}};
 
-// 400 acts, one frame of each: means within four times sigma / sqrt(400), sigmas within four times sigma / sqrt(800).
+// With one frame of each of 400 acts, means are within 4 sigma / sqrt(400) and sigmas within 4 sigma / sqrt(800).
 TEST(SkeletonTracker, raysMissTheirTargetsAsInTheThesisTables) {
   const int acts = 400;
   for (const bool right : {true, false}) {
@@ -106,7 +106,7 @@ TEST(SkeletonTracker, raysMissTheirTargetsAsInTheThesisTables) {
   }
 }
 
-// The table's sigma is that of all acts; within one act a ray wavers by the frame's share of it.
+// The table's sigma is that of all acts; within one act a ray varies by frame_share of the variance.
 TEST(SkeletonTracker, withinAnActRaysAreClustered) {
   const SensorRun run(pointing(1, true), sim::Track(at(0, 0, 1.2)),
                       "class = SkeletonTracker\nrate_hz = 200\nfirst_s = 1\nframe_share = 0.1", 2.5);
@@ -131,7 +131,7 @@ TEST(SkeletonTracker, jointsAreInTheOpticalFrameInMetres) {
   EXPECT_NEAR(skeleton->head.x, 0, 1e-9);
   EXPECT_NEAR(skeleton->head.y, 1.2 - 0.93 * 1.72, 1e-9);
   EXPECT_NEAR(skeleton->head.z, 2, 1e-9);
-  // It faces the sensor, so its left is on the sensor's right.
+  // The person faces the sensor, so its left is on the sensor's right.
   EXPECT_NEAR(skeleton->left_shoulder.x, 0.115 * 1.72, 1e-9);
   EXPECT_EQ(skeleton->head.conf, 1);
   EXPECT_EQ(skeleton->timestamp, base::stampFromUnix(1.6e9));
@@ -168,7 +168,7 @@ TEST(SkeletonTracker, noiseAndBiasAreAsAsked) {
 }
 
 TEST(SkeletonTracker, onlyTheNearestWhoCanBeSeenIsTold) {
-  const auto told = [](const std::vector<sim::PersonSpec>& people, double wall_x) -> std::string {
+  const auto reportedPerson = [](const std::vector<sim::PersonSpec>& people, double wall_x) -> std::string {
     sim::World world;
     for (const auto& spec : people) add(world, spec);
     if (wall_x > 0) {
@@ -178,13 +178,13 @@ TEST(SkeletonTracker, onlyTheNearestWhoCanBeSeenIsTold) {
     if (!run.measure<CObservationSkeleton>(0)) return "nobody";
     return nlohmann::json::parse(run.truth(0))["person"];
   };
-  EXPECT_EQ(told({standing("far", 3, 0.8), standing("near", 2, -0.5)}, 0), "near");
-  EXPECT_EQ(told({standing("far", 3, 0)}, 1.5), "nobody");
-  EXPECT_EQ(told({standing("far", 3, 1.5), standing("hidden", 2, 0)}, 1.5), "far");
-  EXPECT_EQ(told({standing("too_far", 4.2, 0)}, 0), "nobody");
-  EXPECT_EQ(told({standing("too_near", 0.6, 0)}, 0), "nobody");
-  EXPECT_EQ(told({standing("behind", -2, 0)}, 0), "nobody");
-  EXPECT_EQ(told({standing("beside", 1, 2)}, 0), "nobody");
+  EXPECT_EQ(reportedPerson({standing("far", 3, 0.8), standing("near", 2, -0.5)}, 0), "near");
+  EXPECT_EQ(reportedPerson({standing("far", 3, 0)}, 1.5), "nobody");
+  EXPECT_EQ(reportedPerson({standing("far", 3, 1.5), standing("hidden", 2, 0)}, 1.5), "far");
+  EXPECT_EQ(reportedPerson({standing("too_far", 4.2, 0)}, 0), "nobody");
+  EXPECT_EQ(reportedPerson({standing("too_near", 0.6, 0)}, 0), "nobody");
+  EXPECT_EQ(reportedPerson({standing("behind", -2, 0)}, 0), "nobody");
+  EXPECT_EQ(reportedPerson({standing("beside", 1, 2)}, 0), "nobody");
 }
 
 TEST(SkeletonTracker, hiddenJointsAreGuessed) {

@@ -15,7 +15,7 @@ inline geometry::Se3 at(double x, double y, double z = 0, double yaw = 0) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, z}};
 }
 
-/// A parallelogram from a corner along two edges; its normal is that of first x second.
+/// A parallelogram from a corner along two edges; its normal is along first x second.
 inline void addQuad(sim::World& world, const std::string& name, sim::SurfaceKind kind, const Eigen::Vector3d& corner,
                     const Eigen::Vector3d& first, const Eigen::Vector3d& second, const sim::Material& material = {}) {
   sim::Body body;
@@ -30,7 +30,7 @@ inline void addQuad(sim::World& world, const std::string& name, sim::SurfaceKind
   world.bodies.push_back(std::move(body));
 }
 
-/// A wall of no thickness from a to b, its face to the left of the way, with an obstacle of 2 cm around it.
+/// A wall without thickness from a to b that faces right, seen along it, with an obstacle of 2 cm around it.
 inline void addWall(sim::World& world, const std::string& name, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                     const sim::Material& material = {}, double height = 2.5) {
   addQuad(world, name, sim::SurfaceKind::wall, {a.x(), a.y(), 0}, {b.x() - a.x(), b.y() - a.y(), 0}, {0, 0, height},

@@ -1,4 +1,4 @@
-// What a log saw of the flat surfaces of a world.
+// The parts of a world's flat surfaces that a log shows.
 #include <gtest/gtest.h>
 #include <omnimapper/sim/SimulationRun.h>
 #include <omnimapper/sim_world/WorldIni.h>
@@ -24,7 +24,7 @@ geometry::Se3 pose(double x, double y, double z, double yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Vector3d::UnitZ())), {x, y, z}};
 }
 
-/// What the first measurement of a sensor sees of a surface.
+/// The cells of a surface that the first measurement of a sensor sees.
 CellGrid seenOf(CameraFixture& fixture, const std::string& ini, const std::string& name) {
   const auto sensor = fixture.make(ini);
   sim::SurfaceTruth truth(fixture.world);
@@ -88,7 +88,7 @@ TEST(SurfaceTruth, nothingIsSeenFromBeyondFourMetres) {
   CameraFixture far, near;
   far.addBoard("wall", 4.05, 0, 0, 8, 8);
   EXPECT_EQ(seenOf(far, kCamera, "wall").count(), 0u);
-  // The ball of 4 m cuts a disc out of a plane at 3.8 m.
+  // A ball with a radius of 4 m cuts a disc out of a plane at 3.8 m.
   near.addBoard("wall", 3.8, 0, 0, 8, 8);
   const double radius = std::sqrt(4 * 4 - 3.8 * 3.8);
   EXPECT_NEAR(seenOf(near, kCamera, "wall").area(), M_PI * radius * radius, 2 * M_PI * radius * 0.05);
@@ -122,14 +122,14 @@ TEST(SurfaceTruth, ofABodyThatIsCarriedTheyAreInTheBody) {
   builder.addBox(builder.addSurface("", sim::SurfaceKind::object, {}), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   fixture.world.bodies.push_back(builder.build());
   sim::SurfaceTruth truth(fixture.world);
-  // Who looks along y at 6 s hits the side to -x of the body.
+  // A sensor that looks along y at 6 s hits the -x side of the body.
   truth.add({{0, {0.11f, 1.5f, 0.12f}}}, 6);
   int count = 0;
   for (const auto& surface : truth.surfaces("place").surfaces) {
     EXPECT_TRUE(surface.is_moved);
     count += static_cast<int>(surface.seen->count());
     if (surface.seen->count() == 0) continue;
-    // Where it is at time 0.
+    // The surface is given where it is at time 0.
     EXPECT_LT((surface.plane.normal + Vector3d::UnitX()).norm(), 1e-9);
     EXPECT_TRUE(surface.seen->isSet(*surface.seen->cellAt({1.5, -0.11, 0.12})));
   }
@@ -208,7 +208,7 @@ TEST(SurfaceTruth, theMeshHasTheAreaOfTheSurfacesInEachClass) {
     const sim::SurfaceRef ref = refs.at(static_cast<std::size_t>(face.surface) - 1);
     EXPECT_EQ(world.bodies[static_cast<std::size_t>(ref.body)].surfaces[static_cast<std::size_t>(ref.surface)].is, is);
   }
-  // The edges of the door's leaf, of 0.04 m, and the like are in the mesh alone.
+  // Narrow surfaces, as the edges of the door's leaf of 0.04 m, are only in the mesh.
   for (const auto& [is, area] : of_mesh)
     EXPECT_NEAR(of_surfaces[is], area, is == surfaces::SurfaceClass::door ? 0.08 : 1e-4) << surfaces::toString(is);
   EXPECT_NE(mesh.header.find("comment class 4: door frame\n"), std::string::npos) << mesh.header;

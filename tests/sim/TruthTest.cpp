@@ -1,4 +1,4 @@
-// What a user may rely on: ideal measurements lie on the true surfaces, and labels name the surfaces they lie on.
+// Ideal measurements lie on the true surfaces, and labels name the surfaces on which they lie.
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -40,7 +40,7 @@ class Truth : public ::testing::TestWithParam<std::tuple<const char*, int>> {
     throw std::runtime_error("no sensor " + label);
   }
 
-  /// The plane of a flat surface at a time, by its label.
+  /// The plane of the flat surface with a label, at a time.
   std::optional<Plane3> planeInMap(int label, double time) const {
     if (label == 0) return std::nullopt;
     const auto ref = sim::numberSurfaces(simulation_.world()).at(static_cast<std::size_t>(label) - 1);
@@ -51,7 +51,7 @@ class Truth : public ::testing::TestWithParam<std::tuple<const char*, int>> {
     return *map_from_body * face->plane_in_body;
   }
 
-  /// The label image of a measurement, as its file has it.
+  /// The label image of a measurement, read from its file.
   mrpt::img::CImage labelsOf(const sim::Measurement& measurement) {
     const std::string path = scratch_ / "labels.png";
     std::ofstream(path, std::ios::binary) << measurement.truth_files.at(0).bytes;

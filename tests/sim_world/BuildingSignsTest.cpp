@@ -1,4 +1,4 @@
-// What [world] makes of the signs of a generated place: building styles, repeated words, exits, announcements.
+// Keys of [world] for the signs of a generated place: styles, repeated words, exits and announcements.
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/sim_world/Generators.h>
@@ -57,7 +57,7 @@ TEST(BuildingSigns, moreRepeatedSignsThanDoorsAreAllDoors) {
   EXPECT_EQ(titles, (std::set<std::string>{"Storage", "Women", "Men"}));
 }
 
-// Four corridors, clockwise: each ends at the outer wall of the next, at its corner.
+// There are four corridors, clockwise; each ends at the outer wall of the next one, at its corner.
 TEST(BuildingSigns, anExitSignHangsWhereEachCorridorLeadsTo) {
   sim::WorldOptions options;
   options.generator = "laboratory";

@@ -60,7 +60,7 @@ void expectExactPlanes(const sim::World& world) {
 
 TEST(Generators, planesAreExactInEveryPlace) {
   for (const Place& place : kPlaces) {
-    const int seeds = place.length == 0 ? 2 : 1;  // a loop has hundreds of signs to draw
+    const int seeds = place.length == 0 ? 2 : 1;  // a loop has hundreds of signs, which take time to draw
     for (int seed = 1; seed <= seeds; ++seed) {
       SCOPED_TRACE(std::string(place.generator) + " " + std::to_string(seed));
       expectExactPlanes(makePlace(place.generator, seed, place.length));

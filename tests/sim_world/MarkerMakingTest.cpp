@@ -12,7 +12,7 @@ using namespace omnimapper;
 using Eigen::Vector3d;
 using sim::MarkerDictionary;
 
-// Parallel rays from before the marker, one pixel a millimetre; the marker's x is to the right, its y up.
+// A picture by parallel rays from the front of the marker, one pixel a millimetre; its x is to the right, its y up.
 cv::Mat lookAt(const sim::MadeMarker& made, int side) {
   sim::World world;
   world.bodies.push_back(made.body);

@@ -70,7 +70,7 @@ TEST(Triangulate, starsWithHolesKeepTheirArea) {
       const double angle = 2 * M_PI * i / corners, radius = random.uniform(4, 9);
       rings[0].emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
-    // The disc of radius 4 cos(36 deg) is inside of all of them: holes on a raster within 2 m.
+    // The disc of radius 4 cos(36 deg) is inside all of these outlines: holes are on a raster within 2 m.
     for (int x = -2; x <= 1; ++x) {
       for (int y = -2; y <= 1; ++y) {
         if (!random.chance(0.5)) continue;
@@ -120,7 +120,7 @@ TEST(MeshBuilder, shapesHaveTheAreaAndVolumeOfTheirFormulas) {
 TEST(MeshBuilder, aPlaneTellsItsTruthInTheBody) {
   MeshBuilder builder("wall");
   builder.at({Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ())), {5, 0, 0}});
-  // In the part a wall of 4 x 3 m along x that faces -y: in the body along y at x = 5, facing +x.
+  // In the part a wall of 4 x 3 m is along x and faces -y; in the body it is along y at x = 5 and faces +x.
   builder.addPlane("face", sim::SurfaceKind::wall, {}, {{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}},
                    {{{1, 0, 1}, {2, 0, 1}, {2, 0, 2}, {1, 0, 2}}});
   const sim::Body body = builder.build();
@@ -136,7 +136,7 @@ TEST(MeshBuilder, aPlaneTellsItsTruthInTheBody) {
 }
 
 TEST(MeshBuilder, texturesLieUprightForWhoLooks) {
-  // A face that looks to -x: to the right of who looks along +x is -y.
+  // The face looks to -x; -y is to the right of somebody who looks along +x.
   const std::vector<Vector3d> outline{{0, 2, 0}, {0, 0, 0}, {0, 0, 1}, {0, 2, 1}};
   MeshBuilder builder("sign");
   builder.layout(sim::TextureLayout::fitted()).addPlane("", sim::SurfaceKind::sign, {}, outline);

@@ -16,8 +16,8 @@ Place placeOf(const Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-// Edges by the places of their ends, with how often they are gone along; a closed body goes along each as often one
-// way as the other.
+// Number of triangles along each directed edge, by the places of its ends. In a closed body the numbers of both
+// directions are equal.
 std::map<std::pair<Place, Place>, int> edgesOf(const sim::Body& body) {
   std::map<std::pair<Place, Place>, int> edges;
   for (const auto& triangle : body.triangles) {

@@ -1,4 +1,4 @@
-// The flat surfaces of bodies, as their triangles have them, and the openings of buildings.
+// The flat surfaces that the triangles of bodies form, and the openings of buildings.
 #include <gtest/gtest.h>
 #include <omnimapper/sim_world/Furniture.h>
 #include <omnimapper/sim_world/Generators.h>
@@ -196,9 +196,9 @@ TEST(Patches, OpeningsAreRectanglesOnTheWallOfTheirFirstRoom) {
   EXPECT_EQ(door.leaf, Opening::Leaf::open);
   EXPECT_EQ(door.leaf_angle, 1.2);
   EXPECT_EQ(door.leaf_body, "door_leaf");
-  // Who looks along x has greater y to the left.
+  // Looking along x, greater y is to the left.
   const std::array<Vector3d, 4> of_door{{{4, 1.95, 0}, {4, 1.05, 0}, {4, 1.05, 2.05}, {4, 1.95, 2.05}}};
-  // Who looks along y has smaller x to the left.
+  // Looking along y, smaller x is to the left.
   const std::array<Vector3d, 4> of_window{{{1.5, 3, 0.9}, {2.5, 3, 0.9}, {2.5, 3, 2.1}, {1.5, 3, 2.1}}};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_LT((door.rectangle[i] - of_door[i]).norm(), 1e-9) << i << ": " << door.rectangle[i].transpose();

@@ -46,7 +46,7 @@ double distanceOf(const Vector3d& point, const sim::Body& body, double time) {
   return least;
 }
 
-// Walks an L and back, stands for three seconds in between.
+// A person who walks an L and back, and stands for three seconds in between.
 PersonSpec walker(double height = 1.72) {
   PersonSpec spec;
   spec.name = "anna";
@@ -110,7 +110,7 @@ TEST(People, aFootIsOnTheFloorAndStaysWhereItIsUntilItSwings) {
     for (const std::string foot : {"left_foot", "right_foot"}) {
       const bool down = lowestOf(body(made, foot), time) < 0.5 + 1e-9;
       const bool was_down = lowestOf(body(made, foot), time - 0.05) < 0.5 + 1e-9;
-      if (!down || !was_down || (time > 7 && time < 10)) continue;  // there it stands and turns on the spot
+      if (!down || !was_down || (time > 7 && time < 10)) continue;  // here the person stands and turns on the spot
       ++planted;
       EXPECT_LT((joint(made, foot, time) - joint(made, foot, time - 0.05)).norm(), 0.02) << foot << " " << time;
     }
@@ -207,7 +207,7 @@ TEST(People, headAndHandAimAtTheTargetTheElbowAboveAndInwards) {
         EXPECT_LT(inwards, 35 * kDegree) << direction;
         EXPECT_NEAR((hand - shoulder).norm(), 0.995 * 0.376 * 1.72, 1e-9);
       }
-      // Before and after the arm hangs.
+      // Before and after the act the arm hangs.
       EXPECT_LT(joint(made, side + "hand", 2.3).z(), joint(made, side + "shoulder", 2.3).z() - 0.5);
       EXPECT_LT(joint(made, side + "hand", 5.7).z(), joint(made, side + "shoulder", 5.7).z() - 0.5);
     }
@@ -215,7 +215,7 @@ TEST(People, headAndHandAimAtTheTargetTheElbowAboveAndInwards) {
 }
 
 TEST(People, turnsToWhatTheArmCannotReach) {
-  // Looks along x; the target is behind.
+  // The person looks along x; the target is behind it.
   const MadePerson made = sim::makePerson(pointer({-2, 2, 1}, true));
   const Vector3d across = joint(made, "left_shoulder", 4) - joint(made, "right_shoulder", 4);
   const Vector2d ahead(across.y(), -across.x());

@@ -30,7 +30,7 @@ sim::WorldPlan generate(const std::string& generator, int plan_seed, int seed = 
   return sim::generate(options, "test");
 }
 
-// The same, made once for all tests.
+// The plan of a generator and a seed, made once for all tests.
 const sim::WorldPlan& planOf(const std::string& generator, int plan_seed) {
   static std::map<std::pair<std::string, int>, sim::WorldPlan> plans;
   const auto key = std::make_pair(generator, plan_seed);
@@ -39,7 +39,7 @@ const sim::WorldPlan& planOf(const std::string& generator, int plan_seed) {
   return found->second;
 }
 
-// Rooms and openings in every bit.
+// All rooms and openings as a text that is exact in every bit.
 std::string buildingOf(const sim::WorldPlan& plan) {
   std::ostringstream text;
   text.precision(17);
@@ -67,7 +67,7 @@ bool isCorridor(const sim::RoomPlan& room) {
   return room.kind == "corridor" || room.kind == "hallway";
 }
 
-// Sizes of a generator's rooms in its fixed plan, and of those that only drawn plans have.
+// Sizes of a generator's rooms in its fixed plan, and of rooms that only drawn plans have.
 std::map<std::string, Size> nominalSizes(const std::string& generator) {
   std::map<std::string, Size> sizes;
   for (const sim::RoomPlan& room : planOf(generator, 0).rooms) sizes[room.name] = sizeOf(room);
@@ -113,7 +113,7 @@ TEST(PlanSeed, onePlanSeedIsOnePlanAndAnotherAnother) {
     EXPECT_EQ(plans.size(), kSeeds + 1u) << generator;
     const std::string drawing = sim::drawPlan(sim::makeWorld(planOf(generator, 3)));
     EXPECT_EQ(drawing, sim::drawPlan(sim::makeWorld(generate(generator, 3)))) << generator;
-    // The seed of the furniture leaves the building as it is.
+    // The seed of the furniture does not change the building.
     const sim::WorldPlan refurnished = generate(generator, 3, 2);
     EXPECT_EQ(buildingOf(planOf(generator, 3)), buildingOf(refurnished)) << generator;
     EXPECT_NE(drawing, sim::drawPlan(sim::makeWorld(refurnished))) << generator;

@@ -10,7 +10,7 @@ namespace {
 using namespace omnimapper;
 using Eigen::Vector3d;
 
-// Along x, the target 1 m ahead, 0.5 m to the right and 0.2 m below the ray: the ray passes left of and above it.
+// The ray is along x, the target 1 m ahead, 0.5 m to the right and 0.2 m below: the ray passes left of and above it.
 TEST(PointingError, signsAreThoseOfTheThesis) {
   const auto error = sim::pointingErrorOf({1, 1, 1}, {2, 0, 0}, {2, 0.5, 0.8});
   EXPECT_NEAR(error.theta, -std::atan(0.5), 1e-12);

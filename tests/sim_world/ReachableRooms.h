@@ -13,8 +13,8 @@ namespace reachable_rooms {
 using namespace omnimapper;
 using Eigen::Vector2d;
 
-/// Names of the rooms that no disc of 0.3 m radius comes to from the first room, on a grid of 0.1 m; grounds outdoors
-/// do not count.
+/// Names of the rooms that a disc of 0.3 m radius cannot reach from the first room, on a grid of 0.1 m; grounds
+/// outdoors do not count.
 inline std::vector<std::string> unreachableRooms(const sim::World& world) {
   constexpr double kCell = 0.1, kRadius = 0.3;
   Vector2d low = world.rooms[0].outline[0], high = low;
@@ -57,7 +57,7 @@ inline std::vector<std::string> unreachableRooms(const sim::World& world) {
       if (sim::contains(world.rooms[r].outline, middle(cell))) room_of[cell] = static_cast<int>(r);
     }
   }
-  // From the largest free part of the first room.
+  // The search starts in the largest free part of the first room.
   std::vector<char> reached(world.rooms.size(), 0);
   std::size_t best = 0;
   for (int seed = 0; seed < columns * rows; ++seed) {

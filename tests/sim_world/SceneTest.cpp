@@ -38,7 +38,7 @@ TEST(Scene, aHitIsTheNearestAndExact) {
   EXPECT_EQ(hit.surface, 1);
   EXPECT_NEAR(hit.range, (2.0 / 3.0) / direction.x(), 1e-15);
   EXPECT_TRUE(hit.normal_in_map.isApprox(Eigen::Vector3d(-1, 0, 0)));
-  // At y = 0.2 of [-1, 1] and z = -2/15 of [-1, 1].
+  // The hit is at y = 0.2 and z = -2/15 on the square, whose y and z are in [-1, 1].
   EXPECT_NEAR(hit.texture_at.x(), 0.6, 1e-5);
   EXPECT_NEAR(hit.texture_at.y(), 0.5 - 1.0 / 15, 1e-5);
 }

@@ -11,7 +11,7 @@ using namespace omnimapper;
 using Eigen::Vector3d;
 using sim::SignStyle;
 
-// On a wall that looks to -y of the map, at eye height: x_in_sign is the map's x, y is z, z is -y.
+// The sign is on a wall that faces -y of the map, at eye height: x of the sign is x of the map, y is z, and z is -y.
 geometry::Se3 onWall() {
   Eigen::Matrix3d axes;
   axes.col(0) = Vector3d::UnitX(), axes.col(1) = Vector3d::UnitZ(), axes.col(2) = -Vector3d::UnitY();
@@ -28,7 +28,7 @@ sim::SignSpec spec(std::vector<std::string> lines, SignStyle style) {
   return spec;
 }
 
-// What a reader sees of a sign: the brightness at a place of its frame, by a ray from half a metre before it.
+// The brightness that a reader sees at a place in the sign's frame, by a ray from half a metre before it.
 class Reader {
  public:
   explicit Reader(const sim::MadeSign& made) : sign_(made.sign), world_{}, scenes_((addTo(world_, made), world_)) {}

@@ -16,7 +16,7 @@ Texture whitePage(int width, int height) {
   return {width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * height, 255)};
 }
 
-// Rows and columns between which there is ink, the last ones not included.
+// The rows and columns between which there is ink; the last ones are not included.
 struct Ink {
   int left = 1 << 20, top = 1 << 20, right = 0, bottom = 0;
 };

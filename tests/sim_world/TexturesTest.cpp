@@ -17,7 +17,7 @@ double contrastOf(const sim::Texture& texture) {
   return std::sqrt(squares / count - mean * mean) / 255;
 }
 
-// Mean difference of neighbouring pixels along a row of u, from one column to the next.
+// Mean difference between the pixels of a column and the next one.
 double stepBetweenColumns(const sim::Texture& texture, int left, int right) {
   double sum = 0;
   for (int y = 0; y < texture.height; ++y) {

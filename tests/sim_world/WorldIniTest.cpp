@@ -83,7 +83,7 @@ TEST(WorldIni, whatSectionsNameStandsWhereTheySay) {
   EXPECT_TRUE(poseOf("mug", 0)->translation.isApprox(Vector3d(1.2, 2.3, 0.7)));
   EXPECT_TRUE(poseOf("mug", 30)->translation.isApprox(Vector3d(2, 1, 0)));
   EXPECT_FALSE(poseOf("mug", 60));
-  // On the hall's side of the wall, so that it looks to +x.
+  // The sign is on the hall's side of the wall, so it faces +x.
   ASSERT_EQ(world.signs.size(), 1u);
   const geometry::Se3 sign = world.signs[0].map_from_sign;
   EXPECT_NEAR(sign.translation.x(), 4.2, 0.01);

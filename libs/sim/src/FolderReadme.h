@@ -6,10 +6,10 @@
 
 namespace omnimapper::sim {
 
-/// README.md of a run's folder: what is what, and which sensor has which label.
+/// README.md of a run's folder, which describes its files and lists the sensors.
 std::string folderReadme(const Simulation& simulation, const std::string& name, const SimulationResult& result);
 
-/// The name in the first line of such a page; empty if the line is of no such page.
+/// The name of the run in the first line of such a page; empty if the line is not one.
 std::string nameInTitle(const std::string& line);
 
 }  // namespace omnimapper::sim

@@ -36,7 +36,7 @@ class FrameWriter : public LogWriter {
   }
 
  private:
-  // The motion since the last frame, then what was seen meanwhile.
+  // Writes the motion since the last frame, then the observations that arrived meanwhile.
   void flush() {
     mrpt::obs::CActionCollection actions;
     if (newest_) {

@@ -9,17 +9,17 @@
 
 namespace omnimapper::sim {
 
-/// Puts measurements into a rawlog, in one of its two forms.
+/// Writes measurements into a rawlog, in one of its two formats.
 class LogWriter {
  public:
   virtual ~LogWriter() = default;
   virtual void add(const mrpt::obs::CObservation::Ptr& observation) = 0;
-  /// After the last.
+  /// To be called after the last observation.
   virtual void finish() {}
 };
 
-/// In frames, the odometry between two readings is the action, and what arrived between them the frame after it.
-/// Readings that move nothing and see nothing are left out.
+/// With Format::frames, the observations that arrive between two odometry readings form a frame, and the action before
+/// it is the motion since the previous frame. Readings without observations between them are merged.
 std::unique_ptr<LogWriter> makeLogWriter(SimulationOptions::Format format, source::RawlogWriter& rawlog);
 
 }  // namespace omnimapper::sim

@@ -20,9 +20,9 @@ namespace {
 
 using mrpt::img::CImage;
 using mrpt::img::TColor;
-using Pictures = std::vector<std::pair<std::string, CImage>>;  // with what follows the label in their names
+using Pictures = std::vector<std::pair<std::string, CImage>>;  // each with the suffix after the label in its name
 
-constexpr int kSide = 600;  // of a view from above [pixel]
+constexpr int kSide = 600;  // side of a view from above [pixel]
 
 TColor colourOf(double share) {
   float r, g, b;
@@ -31,7 +31,7 @@ TColor colourOf(double share) {
                 static_cast<std::uint8_t>(255 * b));
 }
 
-// Near is blue, the farthest red, nothing black.
+// Near depths are blue, the farthest is red, and pixels without a depth are black.
 CImage depthPicture(const mrpt::obs::CObservation3DRangeScan& scan) {
   const int width = static_cast<int>(scan.rangeImage.cols()), height = static_cast<int>(scan.rangeImage.rows());
   CImage picture(width, height, mrpt::img::CH_RGB);

@@ -7,7 +7,7 @@
 
 namespace omnimapper::sim {
 
-/// Draws what each sensor that sees measured in the middle of the run, into folder/pictures: colour and depth of
+/// Draws the measurement of each camera and laser in the middle of the run into folder/pictures: colour and depth of
 /// cameras, points of lasers from above (1 m squares, sensor in the middle, x to the right). Returns the files' names.
 /// Throws base::Error(disk_full, unwritable_output).
 std::vector<std::string> drawPictures(const Simulation& simulation, const std::string& folder);

@@ -13,9 +13,9 @@ namespace omnimapper::sim {
 
 namespace {
 
-/// What is carried at one time, and the rooms it is taken from and put in.
+/// The objects that are carried at one time, and the rooms that they are taken from and put in.
 struct Carrying {
-  std::set<std::string> things;
+  std::set<std::string> objects;
   std::set<int> rooms;
 };
 
@@ -29,7 +29,7 @@ std::map<double, Carrying> carryingsOf(const World& world, double duration) {
     const auto& places = body.track.places();
     for (std::size_t i = 1; i < places.size() && places[i].time < duration; ++i) {
       Carrying& carrying = carryings[places[i].time];
-      carrying.things.insert(body.name);
+      carrying.objects.insert(body.name);
       for (const auto& place : {places[i - 1], places[i]}) {
         if (!place.map_from_body) continue;
         if (const auto room = roomAt(world.rooms, place.map_from_body->translation.head<2>()))
@@ -59,10 +59,10 @@ std::vector<std::string> seenMoves(const World& world, const Track& map_from_bas
       if (!unseen || distanceTo(visit, time) < distanceTo(*unseen, time)) unseen = &visit;
     }
     if (!now || carrying.rooms.count(now->room) == 0) continue;
-    std::string things;
-    for (const std::string& thing : carrying.things) things += (things.empty() ? "" : ", ") + thing;
-    std::string sentence = "at " + base::fixed(time, 1) + " s things are carried from or to '" +
-                           world.rooms[now->room].name + "', where the robot is then and sees them jump: " + things;
+    std::string objects;
+    for (const std::string& object : carrying.objects) objects += (objects.empty() ? "" : ", ") + object;
+    std::string sentence = "at " + base::fixed(time, 1) + " s objects are carried from or to '" +
+                           world.rooms[now->room].name + "', where the robot is then and sees them jump: " + objects;
     if (unseen) {
       sentence += "; from " + base::fixed(unseen->enter, 1) + " to " + base::fixed(unseen->leave, 1) + " s it is in '" +
                   world.rooms[unseen->room].name + "', where none of them is";

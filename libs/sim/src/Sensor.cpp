@@ -8,7 +8,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-// Streams of one sensor: its measurements, and their arrival.
+// Random streams of one sensor: its measurements and their arrival.
 constexpr std::uint64_t kArrivalStream = 0xA55, kMeasurementStream = 0x3EA;
 
 constexpr double kMostMeasurements = 1e7;
@@ -25,12 +25,12 @@ int countOf(const SensorOptions& options, const SensorContext& context) {
   return std::max(0, static_cast<int>(count));
 }
 
-// Labels name files of truth and of images.
+// Labels are used in the names of truth and image files.
 void refuseBadLabel(const std::string& label, const std::string& place) {
   if (isPlainFileName(label)) return;
   throw base::Error(
       base::ExitCode::out_of_range,
-      place + "label = " + label + ": names files, so it has no '/', does not begin with '.' and is text");
+      place + "label = " + label + ": is used in file names; it must be text without '/' that does not begin with '.'");
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ std::unique_ptr<Sensor> makeSensor(const base::Config& config, const std::string
   }
   const std::string near = base::nearestName(class_name, known);
   throw base::Error(base::ExitCode::unknown_plugin, config.file() + ": [" + name + "] class = " + class_name +
-                                                        ": no sensor is called so" +
+                                                        ": there is no such sensor class" +
                                                         (near.empty() ? "" : "; did you mean '" + near + "'?") +
                                                         " (omnimapper-simulate --list lists them)");
 }

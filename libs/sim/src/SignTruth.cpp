@@ -9,7 +9,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-// A field of a CSV: in quotes if need be, quotes inside doubled.
+// A field of a CSV, quoted if necessary, with quotes inside doubled.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -7,10 +7,10 @@
 
 namespace omnimapper::sim {
 
-/// signs_seen.csv: a line for each sign that a picture of the log shows something of, in the log's order.
+/// signs_seen.csv: a line for each sign that is at least partly visible in a picture of the log, in the log's order.
 /// Columns: stamp (Unix time [s]), sensor (its label), measurement (its number), sign (its name in landmarks.json),
-/// text (lines separated by '|'), x1 y1 to x4 y4 (corners as FaceView has them [pixel]), capitals_px and
-/// least_capitals_px, distance_m, incidence_deg, visible, legible (0 or 1) as isLegible() has it.
+/// text (lines separated by '|'), x1 y1 to x4 y4 (corners as in FaceView [pixel]), capitals_px and least_capitals_px,
+/// distance_m, incidence_deg, visible, legible (0 or 1) as isLegible() decides.
 class SignTruth {
  public:
   explicit SignTruth(const Simulation& simulation);

@@ -12,7 +12,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-// FNV-1a: a sensor's random streams hang on its name, so that another sensor in the list changes none of them.
+// FNV-1a hash. A sensor's random streams depend on its name, so that another sensor in the list changes none of them.
 std::uint64_t hashOf(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
@@ -31,12 +31,12 @@ void refuseDoubleLabels(const base::Config& config, const std::vector<std::uniqu
     const auto [first, is_new] = section_of.emplace(sensors[i]->label(), sections[i]);
     if (is_new) continue;
     throw base::Error(base::ExitCode::out_of_range, config.file() + ": [" + sections[i] +
-                                                        "] label = " + sensors[i]->label() + " is that of [" +
-                                                        first->second + "] too; give each sensor a label of its own");
+                                                        "] label = " + sensors[i]->label() + " is also that of [" +
+                                                        first->second + "]; give each sensor its own label");
   }
 }
 
-// The motion that a frame begins with is told by one odometry.
+// The motion that a frame begins with is measured by one odometry.
 void refuseUnframed(const base::Config& config, const std::vector<std::unique_ptr<Sensor>>& sensors) {
   const auto count = std::count_if(sensors.begin(), sensors.end(),
                                    [](const auto& sensor) { return dynamic_cast<const Odometry*>(sensor.get()); });
@@ -92,8 +92,8 @@ Simulation::Simulation(const base::Config& config)
   if (options_.format == SimulationOptions::Format::frames) refuseUnframed(config, sensors_);
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     if (sensors_[i]->count() == 0)
-      warnings_.push_back(config.file() + ": [" + options_.sensors[i] + "] first_s is after the end of the run, at " +
-                          base::option_text::format(duration_) + " s: it measures nothing");
+      warnings_.push_back(config.file() + ": [" + options_.sensors[i] + "] first_s is after the end of the run at " +
+                          base::option_text::format(duration_) + " s; the sensor measures nothing");
   }
   for (const std::string& seen : seenMoves(world_, map_from_base_, duration_))
     warnings_.push_back(config.file() + ": " + seen);

@@ -29,10 +29,10 @@ namespace omnimapper::sim {
 
 namespace {
 
-// Measurements that are made ahead by each thread: of a camera's there are few among those of quicker sensors.
+// Number of measurements that each thread makes ahead; many, because slow ones of cameras are rare among quick ones.
 constexpr std::size_t kAhead = 32;
-constexpr std::size_t kMostAheadBytes = 256 << 20;  // of all that is made ahead
-constexpr double kPlanStep = 0.25;                  // [s] between points of the way on the plan
+constexpr std::size_t kMostAheadBytes = 256 << 20;  // memory of all measurements that are made ahead
+constexpr double kPlanStep = 0.25;                  // [s] between points of the path on the plan
 
 /// A measurement that arrives in the log.
 struct Arrival {
@@ -60,7 +60,7 @@ std::vector<Arrival> arrivalsOf(const Simulation& simulation, std::vector<Simula
   return arrivals;
 }
 
-/// The measurements of a run, made by several threads, handed out in their order.
+/// Makes the measurements of a run on several threads and returns them in their order.
 class Measurements {
  public:
   using Make = std::function<Measurement(const Arrival&)>;
@@ -72,7 +72,7 @@ class Measurements {
         make_(std::move(make)),
         pool_(threads) {}
 
-  /// How many have been handed out or made ahead.
+  /// Number of measurements that have been returned or are being made ahead.
   std::size_t begun() const { return begun_; }
   Measurement next() {
     while (begun_ < arrivals_.size() && waiting_.size() < ahead_) {
@@ -124,7 +124,7 @@ double travelOf(const Track& track, double until) {
   return travel;
 }
 
-// Of measurements that did not come into the log.
+// Removes the images of measurements that did not come into the log.
 void removeImages(const std::string& folder, const std::vector<std::string>& stems) {
   std::vector<std::filesystem::path> unused;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -183,14 +183,15 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, co
       },
       source::ColourImages::jpeg);
   const std::size_t begun = measurements->begun();
-  measurements.reset();  // waits for those that are being made
+  measurements.reset();  // waits for measurements that are being made
   std::vector<std::string> unused;
   for (; is_external && done < begun; ++done)
     unused.push_back(imageStem(*simulation.sensors()[arrivals[done].sensor], arrivals[done].k));
   if (!unused.empty()) removeImages(images, unused);
 }
 
-// What somebody else put there is not replaced. A folder of ours tells so by its page, too.
+// Refuses folders with files that are not from a simulation, so that they are not replaced. The README.md of a
+// simulated log identifies its folder.
 void refuseForeignFolder(const std::string& folder) {
   namespace fs = std::filesystem;
   if (!fs::is_directory(folder)) return;
@@ -207,7 +208,7 @@ void refuseForeignFolder(const std::string& folder) {
                         "empty it");
 }
 
-// Log, truth and pictures, all in one folder.
+// Writes log, truth and pictures into one folder.
 SimulationResult simulateInto(const std::string& folder, const Simulation& simulation, const SimulationRequest& request,
                               base::Progress& progress, const std::function<bool()>& stop) {
   SimulationResult result;
@@ -252,7 +253,7 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
   if (!isPlainFileName(request.name)) {
     throw base::Error(
         base::ExitCode::command_line,
-        "--name " + request.name + ": names files, so it has no '/', does not begin with '.' and is text");
+        "--name " + request.name + ": is used in file names; it must be text without '/' that does not begin with '.'");
   }
   refuseForeignFolder(request.folder);
   base::OutputFolder outputs(request.folder);
@@ -275,7 +276,7 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
 
 std::string toText(const SimulationResult& result, const std::string& folder) {
   std::ostringstream out;
-  out << "simulated: " << base::fixed(result.duration, 1) << " s, " << base::fixed(result.travel, 1) << " m of way"
+  out << "simulated: " << base::fixed(result.duration, 1) << " s, " << base::fixed(result.travel, 1) << " m travelled"
       << (result.code == base::ExitCode::interrupted ? " (interrupted)" : "") << "\n";
   for (const auto& sensor : result.sensors) {
     out << "  " << sensor.label << ": " << sensor.measured << " measurements";

@@ -12,7 +12,7 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr double kCell = 0.05;      // [m]
-constexpr double kOnPlane = 0.001;  // [m] points come in single precision
+constexpr double kOnPlane = 0.001;  // [m] distance of a point from its plane; points are in single precision
 
 template <class Number>
 void put(std::ostream& out, Number number) {

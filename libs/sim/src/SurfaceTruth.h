@@ -10,29 +10,29 @@
 
 namespace omnimapper::sim {
 
-/// The true surfaces of a world and what of them the measurements of a log have shown: surfaces.json and world.ply.
+/// The true surfaces of a world with the parts that the measurements of a log show: surfaces.json and world.ply.
 class SurfaceTruth {
  public:
   /// `world` must outlive it.
   explicit SurfaceTruth(const World& world);
 
-  /// Points of a measurement in the log, taken at that time [s].
+  /// Adds the points of a measurement of the log, which was taken at `time` [s].
   void add(const std::vector<SeenPoint>& seen, double time);
 
-  /// Patches over 0.05 m^2 where they are at time 0, each with the cells of 5 cm that were seen, or no cells where
-  /// nobody saw any; those of bodies that are nowhere then are left out. Openings.
+  /// Patches over 0.05 m^2 at their places at time 0, each with the cells of 5 cm that were seen, if any, and openings.
+  /// Patches of bodies that are not in the world at time 0 are left out.
   surfaces::SurfaceSet surfaces(const std::string& title) const;
 
  private:
   const World& world_;
   std::vector<Patch> patches_;
-  std::vector<surfaces::CellGrid> seen_;            // of each patch, in the frame of its body
-  std::vector<std::vector<std::size_t>> patch_of_;  // by the number of a surface
-  std::vector<int> body_of_;                        // the same
+  std::vector<surfaces::CellGrid> seen_;            // seen cells of each patch, in the frame of its body
+  std::vector<std::vector<std::size_t>> patch_of_;  // indices of the patches of each surface, by its number
+  std::vector<int> body_of_;                        // index of the body of each surface, by its number
 };
 
-/// Binary PLY of all triangles at time 0, in the map [m]: "surface" of a face is the label of landmarks.json, "class"
-/// the place of its class in surfaces::allSurfaceClasses(), which comments name.
+/// Writes all triangles at time 0 as a binary PLY, in the map [m]. "surface" of a face is its label in landmarks.json,
+/// "class" the index of its class in surfaces::allSurfaceClasses(), which comments in the file list.
 void writeMesh(std::ostream& out, const World& world);
 
 }  // namespace omnimapper::sim

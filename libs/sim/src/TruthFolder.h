@@ -9,18 +9,18 @@
 
 namespace omnimapper::sim {
 
-/// The folder truth/ of a run while it is filled.
+/// Writes the folder truth/ of a run.
 class TruthFolder {
  public:
-  /// `folder` exists. Throws Error(unwritable_output).
+  /// `folder` must exist.
   explicit TruthFolder(const std::string& folder) : folder_(folder) {}
 
-  /// Throws Error(disk_full).
+  /// Throws Error(unwritable_output) or Error(disk_full).
   void add(const Sensor& sensor, int k, const Measurement& measurement);
-  /// After the last. Throws Error(disk_full).
+  /// To be called after the last measurement. Throws Error(disk_full).
   void close();
 
-  /// Relative to the folder, sorted; folders of many files end in a slash.
+  /// Names relative to the folder, each kind sorted; folders of many files end in a slash.
   std::vector<std::string> files() const;
 
  private:
@@ -29,7 +29,7 @@ class TruthFolder {
   std::string folder_;
   std::map<std::string, std::ofstream> lines_;  // by label
   std::vector<std::string> labels_;
-  std::map<std::string, int> folders_;  // of files of their own, with how many
+  std::map<std::string, int> folders_;  // folders of separate files, with the number of files
 };
 
 }  // namespace omnimapper::sim

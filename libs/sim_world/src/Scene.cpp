@@ -12,9 +12,9 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr int kPacket = 8;
-constexpr double kEdgeOn = 1e-3;  // by how much ranges in single precision may be off [m]
+constexpr double kEdgeOn = 1e-3;  // largest error of ranges in single precision [m]
 
-// One device for all scenes of the process: it holds no state of ours.
+// All scenes of the process share one device, which holds no state of theirs.
 RTCDevice device() {
   static const RTCDevice instance = rtcNewDevice("threads=1,set_affinity=0");
   return instance;
@@ -22,7 +22,7 @@ RTCDevice device() {
 
 }  // namespace
 
-/// The bodies that share a moment, built for casting.
+/// Bodies at one time, built for ray casting.
 class Scene::Part {
  public:
   Part() : scene_(rtcNewScene(device())) { rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST); }
@@ -65,13 +65,14 @@ class Scene::Part {
   bool isEmpty() const { return placed_.empty(); }
   RTCScene handle() const { return scene_; }
 
-  /// What the ray meets on that triangle, in doubles: Embree says which triangle, its own range is single precision.
+  /// Takes the hit of a ray on a triangle that Embree found, if it is the nearest. The range is computed in doubles,
+  /// because Embree's own range is in single precision.
   void take(const Ray& ray, unsigned triangle, float u, float v, Hit& hit) const {
     const Placed& placed = placed_[triangle];
     const double along = placed.normal.dot(ray.direction_in_map);
     if (along == 0) return;
     const double range = placed.normal.dot(placed.corner - ray.origin_in_map) / along;
-    // Seen edge-on a triangle may be met in single precision and be missed in doubles.
+    // A triangle that is met edge-on may be hit in single precision and missed in doubles.
     if (range < ray.near || range > ray.far + kEdgeOn || range >= hit.range) return;
     hit.range = range;
     hit.surface = placed.surface;
@@ -94,7 +95,7 @@ class Scene::Part {
 
 namespace {
 
-// Rays first to first + kPacket of a list, in Embree's layout. Lanes beyond the list are off.
+// Loads rays first to first + kPacket of a list in Embree's layout. Lanes beyond the list are off.
 template <class Packet>
 void load(const Ray* rays, std::size_t count, std::size_t first, Packet& packet, int* valid) {
   for (int lane = 0; lane < kPacket; ++lane) {
@@ -171,24 +172,25 @@ void Scene::findBlocked(const Ray* rays, std::size_t count, char* blocked) const
       load(rays, count, first, packet, valid);
       rtcOccluded8(valid, part->handle(), &context, &packet);
       for (int lane = 0; lane < kPacket && valid[lane]; ++lane) {
-        if (packet.tfar[lane] < 0) blocked[first + lane] = 1;  // Embree's sign of a ray that is blocked: -infinity
+        if (packet.tfar[lane] < 0) blocked[first + lane] = 1;  // Embree marks a blocked ray by -infinity
       }
     }
   }
 }
 
-/// Scenes of what stands still, by the moment since when it does, and what moves, where it was last.
+/// Parts of the bodies that stand still, by the time since when they do, and the part of the bodies that move at their
+/// last poses.
 struct Scenes::Cache {
   std::set<double> changes;  // times at which something that is carried changes its place [s]
   std::mutex mutex;
   std::map<double, std::shared_ptr<const Scene::Part>> standing;
-  std::vector<double> moving_poses;  // numbers of the poses of all bodies in `moving`
+  std::vector<double> moving_poses;  // parameters of the poses of all bodies in `moving`
   std::shared_ptr<const Scene::Part> moving;
 };
 
 namespace {
 
-// People stand more often than they walk: then all of these are what they were.
+// Parameters of the poses of all moving bodies. People stand more often than they walk, and then these do not change.
 std::vector<double> posesOfMoving(const World& world, double time) {
   std::vector<double> numbers;
   for (const Body& body : world.bodies) {
@@ -235,7 +237,7 @@ Scene Scenes::at(double time) const {
     auto& cached = cache_->standing[since];
     if (!cached) cached = build(Track::Kind::steps);
     standing = cached;
-    // The run goes forward: what stood two changes ago is not asked for again soon.
+    // A run goes forward in time, so parts of more than two changes ago are not needed again soon.
     while (cache_->standing.size() > 3) cache_->standing.erase(cache_->standing.begin());
   }
   std::shared_ptr<const Scene::Part> moving;

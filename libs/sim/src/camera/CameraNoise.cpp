@@ -7,7 +7,8 @@ namespace omnimapper::sim {
 
 namespace {
 
-// Replaces each value by the sum of `reach` values from it on along its row; those at the row's end are used up.
+// Replaces each value by the sum of the `reach` values of its row from it on; the last reach - 1 of a row are not valid
+// then.
 void sumAlongRows(std::vector<float>& grid, int width, int height, int reach) {
   for (int row = 0; row < height; ++row) {
     float* line = &grid[static_cast<std::size_t>(row) * width];
@@ -20,7 +21,7 @@ void sumAlongRows(std::vector<float>& grid, int width, int height, int reach) {
   }
 }
 
-// The same down the columns, all of them at once.
+// Does the same down the columns, all of them at once.
 void sumDownColumns(std::vector<float>& grid, int width, int height, int reach) {
   std::vector<float> sums(width, 0.0f);
   const auto line = [&](int row) { return &grid[static_cast<std::size_t>(row) * width]; };

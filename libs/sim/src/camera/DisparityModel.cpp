@@ -9,11 +9,11 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr float kSameDepth = 1.0f;  // disparities that far apart or less match in one window [pixel]
+constexpr float kSameDepth = 1.0f;  // largest difference of disparities that match in one window [pixel]
 
 constexpr float kNoDisparity = -1e6f;  // far from every other
 
-/// Disparities on a grid of pixels; kNoDisparity: nothing that could be matched.
+/// Disparities on a grid of pixels; kNoDisparity where nothing can be matched.
 struct Disparities {
   int width, height;
   std::vector<float> values;
@@ -47,7 +47,7 @@ class WindowExtremes {
       }
     }
   }
-  /// Nothing is missing in the window, and all of it matches at once.
+  /// Whether no value is missing in the window and all of them match.
   bool isSmooth(std::size_t pixel) const { return low_[pixel] > 0 && high_[pixel] - low_[pixel] <= kSameDepth; }
   float highest(std::size_t pixel) const { return high_[pixel]; }
 
@@ -55,7 +55,7 @@ class WindowExtremes {
   std::vector<float> low_, high_;
 };
 
-/// The square around a pixel, as far as it is in the picture.
+/// The square window around a pixel, as far as it is in the picture.
 class Window {
  public:
   Window(const Disparities& disparities, int column, int row, int half)
@@ -101,8 +101,8 @@ class Window {
   int left_, right_, top_, bottom_;
 };
 
-/// What a window at an edge agrees on: the depth of its middle if enough of it is there, else the nearest, else the
-/// farthest that is, else nothing. So edges grow by a few pixels here, lose some there, and narrow shadows close.
+/// The disparity that a window at a depth edge matches: that of its middle if enough of the window has it, else the
+/// nearest, else the farthest, else 0. So edges move by a few pixels to either side, and narrow shadows close.
 float matchAtEdge(const Disparities& disparities, int column, int row, int half, float nearest, double need) {
   const Window window(disparities, column, row, half);
   const double enough = need * window.size();
@@ -114,7 +114,8 @@ float matchAtEdge(const Disparities& disparities, int column, int row, int half,
   return 0;
 }
 
-// What each pixel's ray meets that both eyes see, where the signal suffices. Weak signals fail in patches, not in dots.
+// Disparities of the pixels that both eyes see, where the signal suffices. Weak signals fail in patches, not in single
+// pixels.
 Disparities visibleDisparities(const Frame& frame, const Scene& scene, const std::vector<float>& signal,
                                const DisparitySettings& settings, Random& random) {
   const Pinhole& camera = frame.camera;
@@ -151,7 +152,7 @@ std::vector<float> textureSignal(const std::vector<Eigen::Vector3f>& colours, in
   std::vector<float> grey(colours.size());
   for (std::size_t i = 0; i < grey.size(); ++i)
     grey[i] = std::sqrt(std::max(0.0f, colours[i].dot(Eigen::Vector3f(0.21f, 0.72f, 0.07f))));
-  // Sums over the window by a table of sums from the upper left.
+  // Sums over the window come from an integral image.
   std::vector<double> sums(static_cast<std::size_t>(width + 1) * (height + 1), 0.0);
   const auto sum = [&](int column, int row) -> double& {
     return sums[static_cast<std::size_t>(row) * (width + 1) + column];
@@ -195,7 +196,7 @@ std::vector<float> senseDepth(const Frame& frame, const Scene& scene, const std:
                                 ? disparities.values[i]
                                 : matchAtEdge(disparities, column, row, half, extremes.highest(i), need);
       if (matched <= 0) continue;
-      // Near the floor of the signal the errors double.
+      // Near the signal floor the errors double.
       const double weakness = signal[i] > 0 ? std::min(1.0, settings.signal_floor / signal[i]) : 1.0;
       double disparity = matched + settings.sigma * (1 + weakness) * error[i];
       if (settings.step > 0) disparity = settings.step * std::round(disparity / settings.step);

@@ -10,7 +10,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr int kSamples = 5;  // along each side of a face, to see what hides it
+constexpr int kSamples = 5;  // rays along each side of a face, to find what hides it
 
 /// Rays to points of the face that lie in the picture.
 std::vector<Ray> raysTo(const Eye& eye, const Face& face) {
@@ -32,13 +32,13 @@ double visiblePart(const Eye& eye, const Face& face) {
   const std::vector<Ray> rays = raysTo(eye, face);
   std::vector<Hit> hits;
   eye.scene.cast(rays, hits);
-  int seen = 0;
+  int visible = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const bool is_glass = hits[i].isHit() && eye.scenes.material(hits[i].surface).transmission > 0;
     const Hit hit = is_glass ? castThroughGlass(eye.scenes, eye.scene, rays[i]).first : hits[i];
-    seen += hit.surface >= face.first_surface && hit.surface < face.past;
+    visible += hit.surface >= face.first_surface && hit.surface < face.past;
   }
-  return static_cast<double>(seen) / (kSamples * kSamples);
+  return static_cast<double>(visible) / (kSamples * kSamples);
 }
 
 }  // namespace
@@ -46,23 +46,23 @@ double visiblePart(const Eye& eye, const Face& face) {
 std::optional<FaceView> viewOf(const Eye& eye, const Face& face) {
   const geometry::Se3 optical_from_face = geometry::inverse(eye.view.map_from_optical) * face.map_from_face;
   const Eigen::Vector3d normal = optical_from_face.rotation * Eigen::Vector3d::UnitZ();
-  FaceView seen;
-  seen.distance = optical_from_face.translation.norm();
-  const double cosine = -normal.dot(optical_from_face.translation) / seen.distance;
+  FaceView face_view;
+  face_view.distance = optical_from_face.translation.norm();
+  const double cosine = -normal.dot(optical_from_face.translation) / face_view.distance;
   if (!(cosine > 0)) return {};
-  seen.incidence = std::acos(std::min(1.0, cosine));
-  seen.is_whole = true;
+  face_view.incidence = std::acos(std::min(1.0, cosine));
+  face_view.is_whole = true;
   std::size_t corner = 0;
   for (const auto& [x, y] : {std::pair{-0.5, 0.5}, {0.5, 0.5}, {0.5, -0.5}, {-0.5, -0.5}}) {
     const Eigen::Vector3d in_face(x * face.width, y * face.height, 0);
     const auto pixel = eye.view.camera.project(optical_from_face * in_face);
     if (!pixel) return {};
-    seen.corners[corner++] = *pixel;
-    seen.is_whole = seen.is_whole && eye.view.camera.contains(*pixel);
+    face_view.corners[corner++] = *pixel;
+    face_view.is_whole = face_view.is_whole && eye.view.camera.contains(*pixel);
   }
-  seen.visible = visiblePart(eye, face);
-  if (seen.visible <= 0) return {};
-  return seen;
+  face_view.visible = visiblePart(eye, face);
+  if (face_view.visible <= 0) return {};
+  return face_view;
 }
 
 std::map<std::string, BodyAt> bodiesByName(const World& world) {

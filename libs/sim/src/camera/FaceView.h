@@ -12,20 +12,20 @@ namespace omnimapper::sim {
 struct Face {
   geometry::Se3 map_from_face;
   double width, height;     // [m]
-  int first_surface, past;  // numbers of the surfaces of its body
+  int first_surface, past;  // surface numbers of its body: from first_surface to before past
 };
 
-/// Who looks.
+/// A camera that looks at a scene.
 struct Eye {
   const Scenes& scenes;
   const Scene& scene;
   const CameraView& view;
 };
 
-/// None if nothing of it is seen.
+/// How the camera sees a face; none if nothing of it is visible.
 std::optional<FaceView> viewOf(const Eye& eye, const Face& face);
 
-/// Bodies by name, with the numbers of their surfaces: from first_surface to before past.
+/// A body with the numbers of its surfaces: from first_surface to before past.
 struct BodyAt {
   const Body* body;
   int first_surface, past;

@@ -10,10 +10,11 @@ namespace omnimapper::sim {
 
 namespace {
 
-// Rays of a square of pixels are cast in one call; packets of eight are blocks of 4 x 2 pixels, whose ways agree.
+// Rays of a square of pixels are cast in one call; packets of eight are blocks of 4 x 2 pixels, whose rays take similar
+// paths.
 constexpr int kTile = 16, kBlockWidth = 4, kBlockHeight = 2;
 constexpr double kBehindGlass = 1e-4;  // how far behind a pane the next ray begins [m]
-constexpr int kPanes = 6;              // more of them in a row are taken for a wall
+constexpr int kPanes = 6;              // a further pane in a row counts as a wall
 
 template <class Visit>
 void forEachOfTile(const Pinhole& camera, int left, int top, Visit visit) {
@@ -46,7 +47,7 @@ PixelHit pixelHit(const Hit& hit, const Eigen::Vector3d& direction_in_map, doubl
   return pixel;
 }
 
-/// Directions of a camera's pixels in the map: they are linear in the pixel.
+/// Directions of a camera's pixels in the map, which are linear in the pixel's coordinates.
 class Directions {
  public:
   Directions(const Pinhole& camera, const geometry::Se3& map_from_optical) {
@@ -55,7 +56,7 @@ class Directions {
     down_ = map_from.col(1) / camera.fy;
     first_ = map_from * camera.through(0, 0);
   }
-  /// Of the point at depth 1.
+  /// Vector from the camera to the pixel's point at depth 1.
   Eigen::Vector3d at(int column, int row) const { return first_ + column * right_ + row * down_; }
 
  private:
@@ -121,7 +122,7 @@ std::pair<Hit, float> castThroughGlass(const Scenes& scenes, const Scene& scene,
 }
 
 std::vector<char> findShadow(const Frame& frame, const Scene& scene, const Eigen::Vector3d& other_in_optical) {
-  constexpr double kSkin = 1e-3;  // a ray ends this far before what it is cast at, which would block it else [m]
+  constexpr double kSkin = 1e-3;  // a ray ends this far before its target, which would otherwise block it [m]
   const Pinhole& camera = frame.camera;
   std::vector<char> shadow(camera.count(), 0);
   const Directions directions(camera, frame.map_from_optical);
@@ -134,16 +135,17 @@ std::vector<char> findShadow(const Frame& frame, const Scene& scene, const Eigen
     forEachOfTile(camera, left, top, [&](int column, int row) {
       const PixelHit& pixel = frame.at(column, row);
       if (pixel.depth <= 0) return;
-      const Eigen::Vector3d way = frame.map_from_optical.translation + pixel.depth * directions.at(column, row) - other;
-      const double length = way.norm();
-      // A side that only the camera sees is dark too: the skin must not hide that.
-      const bool turned_away = way.dot(pixel.normal_in_map.cast<double>()) > 0;
+      const Eigen::Vector3d to_point =
+          frame.map_from_optical.translation + pixel.depth * directions.at(column, row) - other;
+      const double length = to_point.norm();
+      // A side that faces away from the other point is dark too, which rays that end before it would not find.
+      const bool faces_away = to_point.dot(pixel.normal_in_map.cast<double>()) > 0;
       numbers[count] = static_cast<std::size_t>(row) * camera.width + column;
-      if (turned_away || length <= kSkin) {
-        shadow[numbers[count]] = turned_away;
+      if (faces_away || length <= kSkin) {
+        shadow[numbers[count]] = faces_away;
         return;
       }
-      rays[count++] = {other, way / length, 0, length - kSkin};
+      rays[count++] = {other, to_point / length, 0, length - kSkin};
     });
     scene.findBlocked(rays.data(), count, blocked.data());
     for (std::size_t i = 0; i < count; ++i) shadow[numbers[i]] = blocked[i];

@@ -8,7 +8,7 @@
 
 namespace omnimapper::sim {
 
-/// What the ray through the middle of a pixel meets first.
+/// The first surface on the ray through the centre of a pixel.
 struct PixelHit {
   double depth = 0;  ///< along the optical axis, exact; 0: nothing is there [m]
   int surface = -1;  ///< number as numberSurfaces() counts; -1: nothing
@@ -17,14 +17,14 @@ struct PixelHit {
   Eigen::Vector2f texture_at = Eigen::Vector2f::Zero();
 };
 
-/// What is seen through glass.
+/// What a pixel shows through glass.
 struct SeenThrough {
   int pixel = 0;           ///< its number, row by row
-  float transmission = 1;  ///< part of the light that comes through, once
-  PixelHit hit;            ///< the first thing that is not glass; depth 0: nothing
+  float transmission = 1;  ///< part of the light that passes the panes in one direction
+  PixelHit hit;            ///< the first surface that is not glass; depth 0: none
 };
 
-/// A pinhole image of hits: geometry, before any sensor.
+/// A pinhole image of hits: exact geometry, without a sensor model.
 struct Frame {
   Pinhole camera;
   geometry::Se3 map_from_optical;
@@ -39,10 +39,10 @@ struct Frame {
 /// Casts one ray for each pixel, and further ones through glass.
 Frame castFrame(const Scenes& scenes, const Scene& scene, const Pinhole& camera, const geometry::Se3& map_from_optical);
 
-/// The first thing on a ray that is not glass, with the part of the light that gets there.
+/// The first hit on a ray that is not glass, with the part of the light that gets there.
 std::pair<Hit, float> castThroughGlass(const Scenes& scenes, const Scene& scene, Ray ray);
 
-/// For each pixel with a depth: whether something stands between what it sees and a point beside the camera.
+/// For each pixel with a depth: whether something stands between its point and another one beside the camera.
 std::vector<char> findShadow(const Frame& frame, const Scene& scene, const Eigen::Vector3d& other_in_optical);
 
 /// Surface numbers plus one, row by row; 0: nothing. Throws base::Error(out_of_range) above 65534 surfaces.

@@ -11,11 +11,11 @@ namespace omnimapper::sim {
 namespace {
 
 using Picture = std::vector<Eigen::Vector3f>;
-constexpr float kReadNoise = 0.25f;  // part of the noise at full white that is there in the dark too
+constexpr float kReadNoise = 0.25f;  // noise in the dark, as a part of that at full white
 constexpr int kMostTaps = 15;
-constexpr float kFarAway = 100;  // where nothing is seen, the motion is that of something as far as this [m]
+constexpr float kFarAway = 100;  // distance assumed for the motion of pixels that see nothing [m]
 
-/// How far the point of a pixel went in the picture while it was exposed.
+/// Motion of a pixel's point in the picture during the exposure.
 class Smear {
  public:
   Smear(const Frame& frame, const geometry::Se3& map_from_begin, const geometry::Se3& map_from_end)
@@ -27,15 +27,15 @@ class Smear {
   }
 
   Eigen::Vector2f at(int column, int row) const {
-    const auto seen = static_cast<float>(frame_.at(column, row).depth);
-    const float depth = seen > 0 ? seen : kFarAway;
+    const auto hit_depth = static_cast<float>(frame_.at(column, row).depth);
+    const float depth = hit_depth > 0 ? hit_depth : kFarAway;
     const Eigen::Vector3f point = depth * Eigen::Vector3f(first_.x() + column * step_x_, first_.y() + row * step_y_, 1);
     const Eigen::Vector3f begin = begin_.project * point + begin_.shift, end = end_.project * point + end_.shift;
     if (begin.z() < kNear || end.z() < kNear) return Eigen::Vector2f::Zero();
     return end.head<2>() / end.z() - begin.head<2>() / begin.z();
   }
 
-  /// The longest on a coarse grid [pixel].
+  /// Length of the longest motion on a coarse grid [pixel].
   float longest() const {
     float most = 0;
     for (int row = 0; row < frame_.camera.height; row += 16) {
@@ -45,7 +45,7 @@ class Smear {
   }
 
  private:
-  static constexpr float kNear = 1e-3f;  // behind it nothing is projected [m]
+  static constexpr float kNear = 1e-3f;  // points nearer than this are not projected [m]
   /// From the optical frame to a picture's homogeneous pixels.
   struct Projection {
     Projection(const Frame& frame, const geometry::Se3& map_from_other) {
@@ -72,13 +72,13 @@ Picture smeared(const Picture& sharp, const Pinhole& camera, const Smear& smear)
   const auto nearest = [](float at, int size) { return std::clamp(static_cast<int>(at + 0.5f), 0, size - 1); };
   for (int row = 0; row < camera.height; ++row) {
     for (int column = 0; column < camera.width; ++column) {
-      const Eigen::Vector2f way = smear.at(column, row);
-      const int taps = std::min(static_cast<int>(way.norm()) + 1, kMostTaps);
+      const Eigen::Vector2f motion = smear.at(column, row);
+      const int taps = std::min(static_cast<int>(motion.norm()) + 1, kMostTaps);
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       for (int tap = 0; tap < taps; ++tap) {
         const float share = (tap + 0.5f) / taps - 0.5f;
-        const int x = nearest(column + share * way.x(), camera.width),
-                  y = nearest(row + share * way.y(), camera.height);
+        const int x = nearest(column + share * motion.x(), camera.width),
+                  y = nearest(row + share * motion.y(), camera.height);
         sum += sharp[static_cast<std::size_t>(y) * camera.width + x];
       }
       picture[static_cast<std::size_t>(row) * camera.width + column] = sum / static_cast<float>(taps);
@@ -87,7 +87,7 @@ Picture smeared(const Picture& sharp, const Pinhole& camera, const Smear& smear)
   return picture;
 }
 
-// The lens: a point lights its neighbours too, by weights 1 4 1 along each axis.
+// Blur of the lens: a point also lights its neighbours, with weights 1 4 1 along each axis.
 void soften(Picture& picture, int width, int height) {
   for (int row = 0; row < height; ++row) {
     Eigen::Vector3f* line = &picture[static_cast<std::size_t>(row) * width];
@@ -145,7 +145,7 @@ mrpt::img::CImage photograph(const Frame& frame, std::vector<Eigen::Vector3f> co
       const float dx = column - 0.5f * (camera.width - 1), light = gain * (1 - loss * (dx * dx + dy * dy));
       const Eigen::Vector3f value = light * colours[static_cast<std::size_t>(row) * camera.width + column];
       const std::array<float, 3> errors = quickGaussians(random);
-      for (int channel = 0; channel < 3; ++channel) {  // the file's order is blue, green, red
+      for (int channel = 0; channel < 3; ++channel) {  // the image's order is blue, green, red
         const float v = value[2 - channel];
         const float sigma = noise * (kReadNoise + (1 - kReadNoise) * std::sqrt(std::max(v, 0.0f)));
         *out++ = coded(v + sigma * errors[channel]);

@@ -17,7 +17,7 @@ struct Lamp {
   Eigen::Vector3f colour;
 };
 
-// Two banks of lamps and the light that the floor throws back.
+// Two banks of lamps and the light that the floor reflects.
 const std::array<Lamp, 3>& lamps() {
   static const std::array<Lamp, 3> list{
       Lamp{Eigen::Vector3f(0.35f, 0.20f, 0.90f).normalized(), Eigen::Vector3f(0.44f, 0.43f, 0.40f)},
@@ -46,7 +46,7 @@ Shader::Shader(const World& world, const Scenes& scenes) : scenes_(scenes), wear
   }
 }
 
-// How many texels a pixel covers: from the neighbours on the same surface, on whichever side the texture is smooth.
+// Number of texels that a pixel covers, from its neighbours on the same surface, on the side where it is smaller.
 float Shader::footprint(const Frame& frame, int column, int row, const TexturePyramid& texture) const {
   const PixelHit& here = frame.at(column, row);
   const auto step = [&](int dx, int dy) {
@@ -59,7 +59,7 @@ float Shader::footprint(const Frame& frame, int column, int row, const TexturePy
   };
   const float across = std::min(step(1, 0), step(-1, 0)), down = std::min(step(0, 1), step(0, -1));
   if (across >= 1e9f || down >= 1e9f) return std::min({across, down, 1e3f});
-  return std::sqrt(across * down);  // at a slant: between blurred and flickering
+  return std::sqrt(across * down);  // on slanted surfaces a compromise between blur and flicker
 }
 
 Eigen::Vector3f Shader::colourOf(const PixelHit& hit, const Eigen::Vector3f& along, const Eigen::Vector3f& eye,

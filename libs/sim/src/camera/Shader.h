@@ -11,8 +11,9 @@ namespace omnimapper::sim {
 
 /// Colours of what a frame sees, by texture, material and the light of the world. Immutable, thread-safe.
 ///
-/// The light is that of a building whose lamps hang on a grid below the ceilings: a part from all around, more of it
-/// from above, and three far lamps without shadows, together brighter below the grid's lamps than between them.
+/// The light is that of a building whose lamps hang on a grid below the ceilings: light from all around, more of it
+/// from above, and three far lamps without shadows. All of it is brighter below the lamps of the grid than between
+/// them.
 class Shader {
  public:
   /// `scenes` must outlive it.
@@ -21,8 +22,8 @@ class Shader {
   std::vector<Eigen::Vector3f> shade(const Frame& frame) const;
 
  private:
-  /// `along`: the point at depth 1 from the eye, in the map; a pixel there is `pixel_side` wide [m], and covers
-  /// `footprint` texels.
+  /// `along` is the vector from the eye to the pixel's point at depth 1, in the map. There the pixel is `pixel_side`
+  /// wide [m]; it covers `footprint` texels.
   Eigen::Vector3f colourOf(const PixelHit& hit, const Eigen::Vector3f& along, const Eigen::Vector3f& eye,
                            float pixel_side, float footprint) const;
   float footprint(const Frame& frame, int column, int row, const TexturePyramid& texture) const;

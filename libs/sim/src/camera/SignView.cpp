@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kVisitGap = 30;  // [s]
 
-// How high the picture shows an upright length in the middle of a sign [pixel].
+// Height in the picture of an upright length in the middle of a sign [pixel].
 double heightInPicture(const CameraView& view, const geometry::Se3& map_from_sign, double length) {
   const geometry::Se3 optical_from_sign = geometry::inverse(view.map_from_optical) * map_from_sign;
   const auto top = view.camera.project(optical_from_sign * Eigen::Vector3d(0, length / 2, 0)),
@@ -38,14 +38,14 @@ std::vector<SignView> signsInView(const World& world, const Scenes& scenes, cons
     const auto face =
         viewOf({scenes, scene, view}, {sign.map_from_sign, sign.width, sign.height, at.first_surface, at.past});
     if (!face) continue;
-    SignView seen{*face};
-    seen.sign = static_cast<int>(i);
+    SignView sign_view{*face};
+    sign_view.sign = static_cast<int>(i);
     if (!sign.capitals.empty()) {
-      seen.capitals = heightInPicture(view, sign.map_from_sign, sign.capitals.front());
-      seen.least_capitals =
+      sign_view.capitals = heightInPicture(view, sign.map_from_sign, sign.capitals.front());
+      sign_view.least_capitals =
           heightInPicture(view, sign.map_from_sign, *std::min_element(sign.capitals.begin(), sign.capitals.end()));
     }
-    views.push_back(seen);
+    views.push_back(sign_view);
   }
   return views;
 }

@@ -4,7 +4,7 @@
 
 namespace omnimapper::sim {
 
-/// The transfer curve of IEC 61966-2-1, both ways; values in [0, 1].
+/// The transfer curve of IEC 61966-2-1, in both directions; values in [0, 1].
 inline double linearFromSrgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }

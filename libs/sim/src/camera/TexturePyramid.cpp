@@ -19,7 +19,7 @@ const std::array<std::uint16_t, 256>& linearTable() {
   return table;
 }
 
-// std::floor is a call on the oldest processors of this kind.
+// Replaces std::floor, which is a function call on the oldest processors of this architecture.
 int floorOf(float value) {
   const int cut = static_cast<int>(value);
   return cut - (value < static_cast<float>(cut));

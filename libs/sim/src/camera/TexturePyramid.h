@@ -8,8 +8,8 @@
 
 namespace omnimapper::sim {
 
-/// A texture as a camera looks at it: its sRGB values made linear, and averaged over squares of 1, 2, 4, ... texels, so
-/// that a texture seen from afar does not flicker.
+/// A texture for cameras: its sRGB values are made linear and averaged over squares of 1, 2, 4, ... texels, so that a
+/// texture seen from afar does not flicker.
 class TexturePyramid {
  public:
   explicit TexturePyramid(const Texture& texture);

@@ -28,21 +28,21 @@ nlohmann::ordered_json facesInView(const World& world, const Scenes& scenes, con
     const BodyAt& at = bodies.at(marker.name);
     const auto map_from_body = at.body->track.at(view.time);
     if (!map_from_body) continue;
-    const auto seen =
+    const auto face_view =
         viewOf({scenes, scene, view}, {*map_from_body, marker.side, marker.side, at.first_surface, at.past});
-    if (!seen) continue;
-    faces["markers"].push_back(toJson(*seen));
+    if (!face_view) continue;
+    faces["markers"].push_back(toJson(*face_view));
     faces["markers"].back()["name"] = marker.name;
     faces["markers"].back()["id"] = marker.id;
   }
-  for (const SignView& seen : signs) {
-    const Sign& sign = world.signs[static_cast<std::size_t>(seen.sign)];
-    nlohmann::ordered_json json = toJson(seen);
+  for (const SignView& sign_view : signs) {
+    const Sign& sign = world.signs[static_cast<std::size_t>(sign_view.sign)];
+    nlohmann::ordered_json json = toJson(sign_view);
     json["name"] = sign.name;
     json["room"] = sign.room;
     json["lines"] = sign.lines;
-    json["capitals_px"] = seen.capitals;
-    json["least_capitals_px"] = seen.least_capitals;
+    json["capitals_px"] = sign_view.capitals;
+    json["least_capitals_px"] = sign_view.least_capitals;
     faces["signs"].push_back(std::move(json));
   }
   return faces;

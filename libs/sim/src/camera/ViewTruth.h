@@ -7,10 +7,10 @@
 
 namespace omnimapper::sim {
 
-/// What a picture shows of the markers and signs of the world, for the record of truth:
+/// The markers and signs of the world that a picture shows, for its line of truth:
 /// {"markers": [{"corners", "distance_m", "incidence_deg", "visible", "name", "id"}],
 ///  "signs": [{..., "name", "room", "lines", "capitals_px", "least_capitals_px"}]}
-/// as FaceView and SignView; `signs` are signsInView() of the same view.
+/// with the values of FaceView and SignView. `signs` are those of signsInView() for the same view.
 nlohmann::ordered_json facesInView(const World& world, const Scenes& scenes, const Scene& scene, const CameraView& view,
                                    const std::vector<SignView>& signs);
 

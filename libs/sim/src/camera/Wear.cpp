@@ -12,12 +12,12 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr float kLargestPatch = 0.64f;  // [m]
-constexpr int kSizes = 7;               // each half of the one before
+constexpr int kSizes = 7;               // of patches, each half of the one before
 // Standard deviation of smoothNoise() over all places.
 constexpr float kNoiseSigma = 0.37f;
 constexpr std::uint64_t kStream = 0x3ea2;
 
-// In [-1, 1], a number for each corner of a grid.
+// Pseudo-random number in [-1, 1] for a corner of a grid.
 float valueAt(int x, int y, int z) {
   std::uint32_t bits = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
                        static_cast<std::uint32_t>(z) * 0xcb1ab31fu;
@@ -42,7 +42,7 @@ float smoothNoise(const Eigen::Vector3f& at) {
   return sum;
 }
 
-// Walls and floors lie along the map's axes, and would cut the grid along its planes.
+// The grid is rotated, because walls and floors along the map's axes would cut it along its planes.
 const Eigen::Matrix3f& gridFromMap() {
   static const Eigen::Matrix3f rotation =
       (Eigen::AngleAxisf(0.7f, Eigen::Vector3f::UnitX()) * Eigen::AngleAxisf(0.5f, Eigen::Vector3f::UnitY()) *
@@ -73,8 +73,8 @@ float Wear::factorAt(int surface, const Eigen::Vector3f& in_map, float pixel_sid
   const Eigen::Vector3f in_grid = gridFromMap() * in_map;
   float sum = 0, patch = kLargestPatch;
   for (int size = 0; size < kSizes && patch > pixel_side; ++size, patch /= 2) {
-    const float seen = std::min(1.0f, patch / pixel_side - 1);  // patches of one pixel are averaged away
-    sum += seen * smoothNoise(in_grid / patch + static_cast<float>(size + 1) * origin_);
+    const float visibility = std::min(1.0f, patch / pixel_side - 1);  // patches of one pixel are averaged away
+    sum += visibility * smoothNoise(in_grid / patch + static_cast<float>(size + 1) * origin_);
   }
   return std::max(0.0f, 1 + amplitude_ * sum);
 }

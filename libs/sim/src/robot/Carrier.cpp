@@ -14,14 +14,15 @@ namespace {
 
 constexpr std::uint64_t kHandStream = 0x4A2D;
 
-/// Height of the base, pitch (nose down positive) and roll (left side up positive), as yaw, pitch and roll turn them.
+/// Height of the base, pitch (nose down positive) and roll (left side up positive), applied in the order yaw, pitch,
+/// roll.
 using Attitude = std::array<double, 3>;
 
-// Mean over a window around each place, shorter at the ends.
+// Replaces each value by the mean over a window around it, which is shorter at the ends.
 void smooth(std::vector<Attitude>& values, int half_width) {
   std::vector<Attitude> sums(values.size() + 1, Attitude{});
   for (std::size_t i = 0; i < values.size(); ++i) {
-    // Differences to the first one: where nothing changes, sums stay exactly zero.
+    // Sums are of differences to the first value, so that they stay exactly zero where nothing changes.
     for (int a = 0; a < 3; ++a) sums[i + 1][a] = sums[i][a] + (values[i][a] - values[0][a]);
   }
   const Attitude origin = values[0];
@@ -32,7 +33,7 @@ void smooth(std::vector<Attitude>& values, int half_width) {
   }
 }
 
-/// A sum of sines of frequencies in a band; its amplitude is what most of it stays within.
+/// A sum of sines with frequencies in a band, which mostly stays within its amplitude.
 class Wander {
  public:
   Wander(double amplitude, double low, double high, Random& random) {
@@ -57,7 +58,7 @@ class Wander {
 }  // namespace
 
 std::vector<geometry::Se3> poseOnGround(const std::vector<geometry::Se2>& motion, const World& world, double radius) {
-  constexpr int kSmoothing = kDriveRate / 10;  // half of the window, three times: a bell of 0.2 s
+  constexpr int kSmoothing = kDriveRate / 10;  // half of the window; three passes make a bell curve of 0.2 s
   const Ground ground(world);
   std::vector<Attitude> attitudes;
   for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -88,7 +89,7 @@ std::vector<geometry::Se3> poseOnGround(const std::vector<geometry::Se2>& motion
 
 void carryByHand(std::vector<geometry::Se3>& poses, const DriveOptions& options, std::uint64_t seed) {
   Random random(seed, {kHandStream});
-  // A step takes about half a second: up and down with each, left and right with every second one.
+  // A step takes about half a second. The body goes up and down with each, left and right with every second one.
   const auto sway = [&](double factor, double low, double high) {
     return Wander(factor * options.sway, low, high, random);
   };

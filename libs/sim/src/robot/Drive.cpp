@@ -78,7 +78,7 @@ class Places {
   Places(const base::Config& config, const World& world, const RobotSpace& plan, double radius)
       : file_(config.file()), world_(world), plan_(plan), radius_(radius) {}
 
-  /// At least one, unless the text is empty.
+  /// Reads a list of places: at least one, unless the text is empty.
   std::vector<Stop> read(const std::string& key, const std::string& text) const {
     std::vector<Stop> stops;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -92,7 +92,7 @@ class Places {
     return stops;
   }
 
-  /// None if the text is empty.
+  /// Reads one place; none if the text is empty.
   std::optional<Stop> readSingle(const std::string& key, const std::string& text) const {
     const auto stops = read(key, text);
     if (stops.empty()) return {};
@@ -114,7 +114,7 @@ class Places {
 
   void needReach(const std::string& key, const Stop& from, const Stop& to) const {
     if (plan_.canReach(from.in_map, to.in_map)) return;
-    refuse(key, to, "no way leads there from " + format(from.in_map) + " that is wide enough for radius_m",
+    refuse(key, to, "no path leads there from " + format(from.in_map) + " that is wide enough for radius_m",
            plan_.nearestFree(to.in_map, from.in_map));
   }
 
@@ -145,7 +145,7 @@ class Places {
     if (plan_.isFree(stop.in_map)) return stop;
     char radius[32];
     std::snprintf(radius, sizeof radius, "%.2f", radius_);
-    refuse(key, stop, std::string("it is in a wall or another thing, or nearer to one than radius_m = ") + radius,
+    refuse(key, stop, std::string("it is in a wall or another obstacle, or nearer to one than radius_m = ") + radius,
            plan_.nearestFree(stop.in_map));
   }
 
@@ -163,7 +163,7 @@ class Places {
   double radius_;
 };
 
-/// Puts the motion together.
+/// Composes the motion of a drive.
 class Planner {
  public:
   Planner(const DriveOptions& options, const base::Config& config, const World& world)
@@ -203,7 +203,9 @@ class Planner {
       places_.fail(base::ExitCode::out_of_range, "mode", "tour", "no room has a free place that can be reached");
     for (const std::string& name : options_.rooms) {
       const bool seen = std::any_of(stops.begin(), stops.end(), [&](const Stop& stop) { return stop.name == name; });
-      if (!seen) places_.fail(base::ExitCode::out_of_range, "rooms", name, "no way for radius_m leads into that room");
+      if (!seen)
+        places_.fail(base::ExitCode::out_of_range, "rooms", name,
+                     "no path that is wide enough for radius_m leads into that room");
     }
     return stops;
   }
@@ -231,26 +233,26 @@ class Planner {
   }
 
   void goAlong(DrivenMotion& motion, const std::vector<Stop>& stops) const {
-    std::map<std::pair<std::size_t, std::size_t>, Polyline> known;  // ways from stop to stop
-    Polyline travel{motion.end().translation()};
+    std::map<std::pair<std::size_t, std::size_t>, Polyline> known;  // paths from stop to stop
+    Polyline path{motion.end().translation()};
     std::optional<std::size_t> from;
-    // What is still to be driven takes at least its length at full speed; rounded corners are up to 30 % shorter.
+    // The rest of the path takes at least its length at full speed; rounded corners make it up to 30 % shorter.
     const auto isDone = [&] {
       double length = 0;
-      for (std::size_t i = 1; i < travel.size(); ++i) length += (travel[i] - travel[i - 1]).norm();
+      for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
       return options_.duration > 0 && motion.duration() + 0.7 * length / options_.max_speed >= options_.duration;
     };
     const auto flush = [&] {
-      motion.follow(travel, plan_);
-      travel.assign(1, motion.end().translation());
+      motion.follow(path, plan_);
+      path.assign(1, motion.end().translation());
     };
     for (int round = 0; options_.duration > 0 ? !isDone() : round < options_.repeat; ++round) {
       const double before = motion.duration();
-      const std::size_t corners = travel.size();
+      const std::size_t corners = path.size();
       for (std::size_t i = 0; i < stops.size() && !isDone(); ++i) {
         Polyline leg =
-            from && known.count({*from, i}) ? known[{*from, i}] : *plan_.findPath(travel.back(), stops[i].in_map);
-        travel.insert(travel.end(), leg.begin() + 1, leg.end());
+            from && known.count({*from, i}) ? known[{*from, i}] : *plan_.findPath(path.back(), stops[i].in_map);
+        path.insert(path.end(), leg.begin() + 1, leg.end());
         if (from) known[{*from, i}] = std::move(leg);
         from = i;
         if (!isStop(stops[i])) continue;
@@ -260,7 +262,7 @@ class Planner {
         motion.wait(options_.pause);
         refuseTooLong(motion);
       }
-      const bool moved = motion.duration() > before || travel.size() > corners;
+      const bool moved = motion.duration() > before || path.size() > corners;
       if (options_.duration > 0 && (!moved || stops.size() < 2)) {
         flush();
         motion.wait(options_.duration - motion.duration());
@@ -270,11 +272,11 @@ class Planner {
     refuseTooLong(motion);
   }
 
-  // Where duration_s cuts a drive off, what comes after does not count.
+  // Where duration_s cuts a drive off, the rest of it does not count.
   void refuseTooLong(const DrivenMotion& motion) const {
     if (options_.duration > 0 || motion.duration() <= kLongestRun) return;
     places_.fail(base::ExitCode::out_of_range, "duration_s", "0",
-                 "the whole way takes more than " + base::option_text::format(kLongestRun) +
+                 "the whole drive takes more than " + base::option_text::format(kLongestRun) +
                      " s: set duration_s, make it shorter or the robot faster");
   }
 

@@ -7,17 +7,17 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kLargestBlend = 1.0;      // [m] a corner is rounded from so far before it to so far behind it
-constexpr double kSharpest = 10.0;         // [rad/m] angle over blend: sharper corners are turned in place
-constexpr double kLargestCorner = 2.0;     // [rad] beyond it the robot turns in place
+constexpr double kLargestBlend = 1.0;  // [m] largest distance before and behind a corner over which it is rounded
+constexpr double kSharpest = 10.0;  // [rad/m] angle over length of a blend; at sharper corners the robot turns in place
+constexpr double kLargestCorner = 2.0;     // [rad] at larger corners the robot turns in place
 constexpr double kKnotSpacing = 0.005;     // [m] on a blend
 constexpr double kLineKnotSpacing = 0.05;  // [m] on a straight line
 
-/// Rounds a corner: a Bezier curve of degree 5 whose curvature is 0 at both ends.
+/// The rounding of a corner: a Bezier curve of degree 5 whose curvature is 0 at both ends.
 class Blend {
  public:
   Blend(const Eigen::Vector2d& corner, const Eigen::Vector2d& into, const Eigen::Vector2d& out_of, double size) {
-    constexpr double kOuter = 0.6, kInner = 0.3;  // flat curvature for corners of 30 to 110 degrees
+    constexpr double kOuter = 0.6, kInner = 0.3;  // gives an even curvature for corners of 30 to 110 degrees
     points_ = {corner - size * into,
                corner - kOuter * size * into,
                corner - kInner * size * into,
@@ -52,7 +52,7 @@ double yawOf(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-// The largest rounding of the corner that is free, if one is large enough to be driven.
+// The largest rounding of the corner that is free of obstacles; none if it would be too small to be driven.
 std::optional<Blend> roundedCorner(const Eigen::Vector2d& before, const Eigen::Vector2d& corner,
                                    const Eigen::Vector2d& after, const RobotSpace& plan) {
   const Eigen::Vector2d into = (corner - before).normalized(), out_of = (after - corner).normalized();
@@ -70,13 +70,13 @@ std::optional<Blend> roundedCorner(const Eigen::Vector2d& before, const Eigen::V
   return std::nullopt;
 }
 
-// Knots at rest: curvature, way and limits come later.
+// Adds knots on a straight line; drive() sets their speeds and times.
 template <class Knot>
 void addLine(std::vector<Knot>& knots, const Eigen::Vector2d& to, double yaw) {
   const Eigen::Vector2d from = knots.back().position;
   const double length = (to - from).norm(), travel = knots.back().travel;
   if (length == 0) return;
-  // A way from rest to rest needs a knot between them at which it moves.
+  // A path from rest to rest needs a knot in between at which the robot moves.
   const int count = std::max(2, static_cast<int>(std::ceil(length / kLineKnotSpacing)));
   for (int i = 1; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;
@@ -90,7 +90,7 @@ void addBlend(std::vector<Knot>& knots, const Blend& blend) {
   const int count = std::max(8, static_cast<int>(std::ceil(chord / kKnotSpacing)));
   for (int i = 1; i <= count; ++i) {
     const double from = (i - 1.0) / count, to = static_cast<double>(i) / count;
-    // Length by Gauss and Legendre's three points.
+    // Length by Gauss-Legendre quadrature with three points.
     const double middle = 0.5 * (from + to), offset = 0.5 * (to - from) * std::sqrt(0.6);
     const double length = (to - from) / 18 *
                           (5 * blend.first(middle - offset).norm() + 8 * blend.first(middle).norm() +
@@ -127,50 +127,51 @@ void DrivenMotion::turnTo(double yaw) {
 }
 
 void DrivenMotion::follow(const Polyline& corners, const RobotSpace& plan) {
-  Polyline travel;
+  Polyline path;
   for (const Eigen::Vector2d& corner : corners) {
-    if (travel.empty() || (corner - travel.back()).norm() > 1e-6) travel.push_back(corner);
+    if (path.empty() || (corner - path.back()).norm() > 1e-6) path.push_back(corner);
   }
-  if (travel.size() < 2) return;
+  if (path.size() < 2) return;
   const auto startLeg = [&](std::size_t i) {
-    turnTo(yawOf(travel[i + 1] - travel[i]));
-    return std::vector<Knot>{{travel[i], yawOf(travel[i + 1] - travel[i]), 0, 0, 0, 0}};
+    turnTo(yawOf(path[i + 1] - path[i]));
+    return std::vector<Knot>{{path[i], yawOf(path[i + 1] - path[i]), 0, 0, 0, 0}};
   };
   std::vector<Knot> knots = startLeg(0);
-  for (std::size_t i = 1; i < travel.size(); ++i) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
     const double yaw = knots.back().yaw;
-    if (i + 1 == travel.size()) {
-      addLine(knots, travel[i], yaw);
+    if (i + 1 == path.size()) {
+      addLine(knots, path[i], yaw);
       drive(std::move(knots));
-    } else if (const auto blend = roundedCorner(travel[i - 1], travel[i], travel[i + 1], plan)) {
+    } else if (const auto blend = roundedCorner(path[i - 1], path[i], path[i + 1], plan)) {
       addLine(knots, blend->begin(), yaw);
       addBlend(knots, *blend);
     } else {
-      addLine(knots, travel[i], yaw);
+      addLine(knots, path[i], yaw);
       drive(std::move(knots));
       knots = startLeg(i);
     }
   }
 }
 
-// The fastest speeds within the limits: those of each knot, then what can be reached from the one before and after.
+// Finds the fastest speeds within the limits: those of each knot, then those that can be reached from the knots before
+// and after it.
 void DrivenMotion::drive(std::vector<Knot> knots) {
   const std::size_t count = knots.size();
   std::vector<double> acceleration(count, limits_.acceleration);
   for (std::size_t i = 0; i < count; ++i) {
-    double steepest = 0;  // change of curvature along the way [1/m^2]
+    double steepest = 0;  // change of curvature along the path [1/m^2]
     for (const std::size_t j : {i, i + 1}) {
       if (j == 0 || j >= count) continue;
       const double travel = std::max(knots[j].travel - knots[j - 1].travel, 1e-9);
       steepest = std::max(steepest, std::abs(knots[j].curvature - knots[j - 1].curvature) / travel);
     }
-    const double bend = std::abs(knots[i].curvature);
-    // Turn acceleration = speed^2 * steepness + acceleration * curvature: half of it for each.
+    const double curvature = std::abs(knots[i].curvature);
+    // Turn acceleration = speed^2 * steepness + acceleration * curvature, of which each term may use half of the limit.
     double speed = limits_.speed;
     if (steepest > 0) speed = std::min(speed, std::sqrt(0.5 * limits_.turn_acceleration / steepest));
-    if (bend > 0) {
-      speed = std::min({speed, limits_.turn / bend, std::sqrt(limits_.acceleration / bend)});
-      acceleration[i] = std::min(acceleration[i], 0.5 * limits_.turn_acceleration / bend);
+    if (curvature > 0) {
+      speed = std::min({speed, limits_.turn / curvature, std::sqrt(limits_.acceleration / curvature)});
+      acceleration[i] = std::min(acceleration[i], 0.5 * limits_.turn_acceleration / curvature);
     }
     knots[i].speed = i == 0 || i + 1 == count ? 0 : speed;
   }
@@ -195,7 +196,7 @@ void DrivenMotion::drive(std::vector<Knot> knots) {
 geometry::Se2 DrivenMotion::poseIn(const Leg& leg, double time) const {
   if (leg.knots.empty()) {
     const Turn& turn = leg.turn;
-    // Speeds up, goes on, slows down; by symmetry the second half is the first one backwards.
+    // The turn speeds up, goes on and slows down; by symmetry its second half is the first one backwards.
     const double limit = limits_.turn_acceleration, elapsed = std::clamp(time - turn.begin, 0.0, turn.duration);
     const double early = std::min(elapsed, turn.duration - elapsed);
     const double ramp = std::min(0.5 * turn.duration, limits_.turn / limit);
@@ -211,7 +212,7 @@ geometry::Se2 DrivenMotion::poseIn(const Leg& leg, double time) const {
   if (span <= 0) return {to.position.x(), to.position.y(), geometry::wrapToPi(to.yaw)};
   const double elapsed = std::clamp(time - from.time, 0.0, span);
   const double travel = from.speed * elapsed + 0.5 * (to.speed - from.speed) / span * elapsed * elapsed;
-  // Cubic between the knots, with their directions and curvatures.
+  // Cubic interpolation between the knots, with their directions and curvatures.
   const double s = travel / length, s2 = s * s, s3 = s2 * s;
   const double h0 = 2 * s3 - 3 * s2 + 1, h1 = s3 - 2 * s2 + s, h2 = 3 * s2 - 2 * s3, h3 = s3 - s2;
   const Eigen::Vector2d from_heading(std::cos(from.yaw), std::sin(from.yaw)),

@@ -8,33 +8,33 @@
 
 namespace omnimapper::sim {
 
-/// What the drives can do.
+/// Limits of the robot's drives.
 struct MotionLimits {
   double speed, turn;                      ///< [m/s], [rad/s]
   double acceleration, turn_acceleration;  ///< [m/s^2], [rad/s^2]
 };
 
-/// A motion of the plane over time, put together from what a robot with two driven wheels can do, each from rest to
+/// A motion in the plane over time, composed of what a robot with two driven wheels can do. Each part goes from rest to
 /// rest.
 class DrivenMotion {
  public:
   DrivenMotion(const geometry::Se2& start, const MotionLimits& limits);
 
   void wait(double seconds);
-  /// By this much, in place; any sign, more than a turn too [rad].
+  /// Turns in place by this angle, of any sign and also more than a full turn [rad].
   void turn(double angle);
   void turnTo(double yaw);
-  /// Along a polyline that begins where the motion ends: corners are rounded where the plan leaves room, driven with a
-  /// stop and a turn in place where not.
+  /// Drives along a polyline that begins where the motion ends. Corners are rounded where the plan leaves room; at
+  /// other corners the robot stops and turns in place.
   void follow(const Polyline& corners, const RobotSpace& plan);
 
   double duration() const { return duration_; }
   const geometry::Se2& end() const { return end_; }
-  /// Poses at 0, step, 2 step, ... until the end is reached.
+  /// Poses at 0, step, 2 step, ... until the end of the motion or the time `until` is reached [s].
   std::vector<geometry::Se2> sampled(double step, double until) const;
 
  private:
-  /// A place on a path. Between two of them acceleration along the path is constant.
+  /// A point on a path. Between two knots the acceleration along the path is constant.
   struct Knot {
     Eigen::Vector2d position;
     double yaw, curvature;       // [rad], not wrapped; [1/m], to the left
@@ -46,7 +46,7 @@ class DrivenMotion {
   };
   struct Leg {
     double begin;
-    std::vector<Knot> knots;  // none: a turn
+    std::vector<Knot> knots;  // empty: the leg is a turn
     Turn turn;
   };
 

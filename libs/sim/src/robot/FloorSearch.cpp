@@ -1,4 +1,4 @@
-// Lines and ways on a RobotSpace.
+// Lines and paths in a RobotSpace.
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -9,8 +9,8 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kOutsideFactor = 3.0;  // a way outside of the rooms costs so much more
-constexpr double kTightFactor = 4.0;    // and one that only just fits
+constexpr double kOutsideFactor = 3.0;  // factor on the cost of a path outside the rooms
+constexpr double kTightFactor = 4.0;    // relative extra cost of a path that only just fits
 
 template <class Visit>
 void forEachSample(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double step, const Visit& visit) {
@@ -49,13 +49,14 @@ double RobotSpace::costOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to
   return sum / count * (to - from).norm();
 }
 
-// Best first over the free cells; ends when `arrived(cell, cost)` says so. Ties go by the cell's number.
+// Best-first search over the free cells; it ends when `arrived(cell, cost)` returns true. The cell's number breaks
+// ties.
 template <class Estimate, class Arrived>
 void RobotSpace::grow(int from, const Estimate& estimate, const Arrived& arrived) const {
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   auto& [cost, closed, came_from, touched] = scratch_;
-  // Most searches see little of a large plan: only what the last one touched is made new.
+  // Most searches visit a small part of a large plan, so only the cells that the last one touched are reset.
   cost.resize(clearance_.size(), std::numeric_limits<float>::infinity());
   closed.resize(clearance_.size(), 0);
   came_from.resize(clearance_.size(), -1);
@@ -107,7 +108,7 @@ std::optional<Polyline> RobotSpace::findPath(const Eigen::Vector2d& from, const 
   return shortened(path);
 }
 
-// Leaves out corners where the straight line costs no more than the way around.
+// Leaves out corners where the straight line costs no more than the path around.
 Polyline RobotSpace::shortened(const Polyline& path) const {
   constexpr double kSlack = 1.02;
   std::vector<double> so_far{0};
@@ -116,7 +117,7 @@ Polyline RobotSpace::shortened(const Polyline& path) const {
   std::size_t at = 0;
   while (at + 1 < path.size()) {
     std::size_t next = at + 1;
-    // Doubling, then halving: long straight ways need few tests.
+    // The stride is doubled, then halved, so that long straight paths need few tests.
     for (std::size_t stride = 1; stride > 0;) {
       const std::size_t candidate = std::min(next + stride, path.size() - 1);
       const bool fits =

@@ -6,20 +6,20 @@
 
 namespace omnimapper::sim {
 
-/// What wheels stand on: surfaces of kind floor, road and kerb of bodies that stand still.
+/// The ground under the wheels: surfaces of kind floor, road and kerb of all bodies but those in motion.
 class Ground {
  public:
   explicit Ground(const World& world);
   ~Ground();
-  /// Height [m]: of the highest such surface below (x, y); where there is none, the floor of the room or of the
-  /// nearest.
+  /// Height of the highest such surface at (x, y) [m]; where there is none, that of the room's floor or, outside of
+  /// rooms, of the nearest room's.
   double heightAt(const Eigen::Vector2d& point) const;
 
  private:
   const World& world_;
   World ground_;
   std::unique_ptr<Scenes> scenes_;
-  double above_ = 0;  // [m] higher than all of it
+  double above_ = 0;  // [m] a height above all of the ground
 };
 
 }  // namespace omnimapper::sim

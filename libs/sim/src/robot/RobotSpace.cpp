@@ -7,7 +7,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kDoorway = 0.6;  // [m] beyond its rooms the plan goes so far: thick walls have doors
+constexpr double kDoorway = 0.6;  // [m] distance that the plan extends beyond the rooms, because thick walls have doors
 
 template <class Visit>
 void forEachEdge(const Polyline& polygon, const Visit& visit) {

@@ -10,42 +10,44 @@ namespace omnimapper::sim {
 
 using Polyline = std::vector<Eigen::Vector2d>;
 
-/// Where a round robot may be on the floor: a grid over the rooms with the distance of each cell to what stands there.
-/// One thread at a time: searches share their memory.
+/// The places where a round robot may be on the floor: a grid over the rooms with the distance of each cell to the
+/// nearest obstacle. Only one thread may use it at a time, because searches share their memory.
 class RobotSpace {
  public:
   static constexpr double kCell = 0.05;  ///< [m]
 
   RobotSpace(const World& world, double radius);
 
-  /// May the robot's middle be here? Never true where it would touch an obstacle.
+  /// Whether the robot's centre may be here. Never true where the robot would touch an obstacle.
   bool isFree(const Eigen::Vector2d& point) const;
-  /// Is the whole line free?
+  /// Whether the whole line is free.
   bool isFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
-  /// Is there nothing that stands between the two? Distances of the robot do not matter.
+  /// Whether no obstacle stands between the two points. The robot's radius does not matter.
   bool isSeen(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
-  /// Distance to the nearest obstacle, of the cell's middle [m]; not above radius + kComfort.
+  /// Distance from the centre of the point's cell to the nearest obstacle, at most radius + kComfort [m]; negative
+  /// where the point is not on the plan.
   double clearance(const Eigen::Vector2d& point) const;
-  /// Nearest place that is free, and can be reached from `from` if that is given.
+  /// Nearest free place that can be reached from `from`, or, without `from`, that is in the largest connected part.
   std::optional<Eigen::Vector2d> nearestFree(const Eigen::Vector2d& point,
                                              const std::optional<Eigen::Vector2d>& from = {}) const;
   bool canReach(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
-  /// Is it in the part of the free floor that is the largest?
+  /// Whether the point is in the largest connected part of the free floor.
   bool isInLargestPart(const Eigen::Vector2d& point) const;
-  /// A short and comfortable way, corners only, with both ends. None if there is none.
+  /// The corners, with both ends, of a short path that keeps a comfortable distance to obstacles. None if there is no
+  /// path.
   std::optional<Polyline> findPath(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 
-  /// A target among others, as a tour chooses the next.
+  /// One of the targets among which a tour chooses the next.
   struct Target {
     Eigen::Vector2d point;
-    double extra = 0;  ///< added to the cost of the way there [m]
+    double extra = 0;  ///< added to the cost of the path there [m]
   };
-  /// The target of the least cost; -1 if none can be reached.
+  /// Index of the target with the least cost; -1 if none can be reached.
   int nearest(const Eigen::Vector2d& from, const std::vector<Target>& targets) const;
 
  private:
-  static constexpr double kComfort = 0.4;  // [m] beyond the radius: nearer to things costs more
-  static constexpr double kStep = 0.02;    // [m] of samples along a line
+  static constexpr double kComfort = 0.4;  // [m] beyond the radius: a path nearer to obstacles costs more
+  static constexpr double kStep = 0.02;    // [m] between samples along a line
   static constexpr double kHalfDiagonal = 0.70710678118654752 * kCell;  // of a cell [m]
 
   int cellOf(const Eigen::Vector2d& point) const;  // -1: outside
@@ -70,7 +72,7 @@ class RobotSpace {
   std::vector<char> is_in_room_;
   std::vector<int> part_;  // connected parts of the free cells; -1: not free
   int largest_part_ = -1;
-  /// What grow() works on, by cell; kept from search to search.
+  /// Working memory of grow(), by cell; it is kept from search to search.
   struct Scratch {
     std::vector<float> cost;
     std::vector<char> closed;

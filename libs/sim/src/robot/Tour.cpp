@@ -10,12 +10,12 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kViewSpacing = 0.5;   // [m] of places to look from, at least
-constexpr double kSeenSpacing = 0.25;  // [m] of places that are to be seen, at least
-constexpr double kLeaveRoom = 8.0;     // [m] a way into another room counts as so much longer
-constexpr double kEnoughSeen = 0.98;   // part of a room that is to be seen
+constexpr double kViewSpacing = 0.5;   // [m] smallest distance between places to look from
+constexpr double kSeenSpacing = 0.25;  // [m] smallest distance between points that are to be seen
+constexpr double kLeaveRoom = 8.0;     // [m] added to the cost of a path into another room
+constexpr double kEnoughSeen = 0.98;   // part of the visible points that is to be seen
 
-// A lattice over the room's inside, row by row.
+// A lattice of points inside a room, row by row.
 class Lattice {
  public:
   Lattice(const Room& room, double spacing) {
@@ -38,7 +38,7 @@ class Lattice {
 
   const std::vector<Eigen::Vector2d>& points() const { return points_; }
 
-  /// Calls `visit` with the numbers of the points within a distance, in order.
+  /// Calls `visit` with the indices of the points within a distance of `middle`, in order.
   template <class Visit>
   void forEachNear(const Eigen::Vector2d& middle, double distance, const Visit& visit) const {
     const int rows = static_cast<int>(begin_of_row_.size()) - 1;
@@ -57,11 +57,11 @@ class Lattice {
 
  private:
   std::vector<Eigen::Vector2d> points_;
-  std::vector<std::ptrdiff_t> begin_of_row_;  // and the end of the last
+  std::vector<std::ptrdiff_t> begin_of_row_;  // and, as the last, the end of the last row
   double low_y_ = 0, step_y_ = 1;
 };
 
-// Greedy cover: again and again the place that sees most of what has not been seen.
+// Greedy cover: repeatedly takes the place that sees most of what has not been seen yet.
 std::vector<Eigen::Vector2d> placesToSee(const Room& room, const RobotSpace& plan, const Eigen::Vector2d& start,
                                          double reach) {
   const Lattice to_see(room, std::max(kSeenSpacing, reach / 12));
@@ -82,11 +82,11 @@ std::vector<Eigen::Vector2d> placesToSee(const Room& room, const RobotSpace& pla
   const auto gainOf = [&](int i) {
     double gain = 0;
     for (const int j : sees[i]) gain += open[j];
-    // Of two that see as much, the roomier one.
+    // Of two places that see equally much, the roomier one is better.
     return gain + 0.5 * plan.clearance(places[i]);
   };
-  // What a place adds only shrinks: it is worked out anew when it seems to be the most.
-  using Candidate = std::pair<double, int>;  // gain, and minus the number: of equals the first
+  // The gain of a place can only shrink, so it is computed again only when it seems to be the largest.
+  using Candidate = std::pair<double, int>;  // gain and minus the number, so that of equals the first is taken
   std::priority_queue<Candidate> candidates;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) candidates.emplace(gainOf(i), -i);
   const auto visible = static_cast<double>(std::count(open.begin(), open.end(), 1));

@@ -10,16 +10,16 @@ namespace omnimapper::sim {
 /// A place that a robot is sent to.
 struct Stop {
   Eigen::Vector2d in_map;
-  std::optional<double> yaw;  ///< to which it turns there [rad]
-  std::string name;           ///< as the INI wrote it
+  std::optional<double> yaw;  ///< heading to which the robot turns there [rad]
+  std::string name;           ///< as in the INI, or the room's name
 };
 
-/// A place well inside of a room: as far from everything as there is, and near its middle.
+/// A place well inside a room: far from obstacles and near the room's middle.
 std::optional<Eigen::Vector2d> goodPlaceIn(const Room& room, const RobotSpace& plan);
 
-/// Places from which all of the rooms' free floor that can be seen is seen from within `reach` [m], ordered by a short
-/// way from `start` (or the first room's good place) that finishes a room before it goes on. Rooms that cannot be
-/// reached from there have none. `rooms` are numbers of the world's rooms.
+/// Places from which all floor of the rooms that can be seen is seen from within `reach` [m]. They are in the order of
+/// a short path from `start` (or the first room's good place) that finishes a room before it goes on. Rooms that cannot
+/// be reached from there have no places. `rooms` are indices into world.rooms.
 std::vector<Stop> planTour(const World& world, const std::vector<int>& rooms, const RobotSpace& plan,
                            const std::optional<Eigen::Vector2d>& start, double reach);
 

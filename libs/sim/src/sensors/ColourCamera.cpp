@@ -95,13 +95,13 @@ Measurement ColourCamera::measure(int k) const {
   const CameraView view = *pictureView(k);
   const Frame frame = castFrame(*context().scenes, scene, camera_, view.map_from_optical);
   Random random = randomOf(k, kPoseStream);
-  const double told_pan = angles.pan + o.pan_bias + random.gaussian(o.pan_sigma);
-  const double told_tilt = angles.tilt + o.tilt_bias + random.gaussian(o.tilt_sigma);
+  const double reported_pan = angles.pan + o.pan_bias + random.gaussian(o.pan_sigma);
+  const double reported_tilt = angles.tilt + o.tilt_bias + random.gaussian(o.tilt_sigma);
 
   auto picture = mrpt::obs::CObservationImage::Create();
   stamp(*picture, k);
   picture->cameraParams = camera_.toMrpt();
-  picture->cameraPose = geometry::toMrpt(baseFromCamera({told_pan, told_tilt}));
+  picture->cameraPose = geometry::toMrpt(baseFromCamera({reported_pan, reported_tilt}));
   picture->image = photograph(frame, shader_.shade(frame), mapFromCamera(time - half), mapFromCamera(time + half),
                               {o.gain, o.exposure, o.noise, o.vignetting}, randomOf(k, kPictureStream));
 

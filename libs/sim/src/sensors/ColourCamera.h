@@ -10,26 +10,27 @@ namespace omnimapper::sim {
 /// Options of ColourCamera.
 struct ColourCameraOptions {
   int width = 640, height = 480;             ///< [pixel]
-  double focal = 600;                        ///< at 640 pixels of width, in proportion else [pixel]
-  double pan = 0, tilt = 0;                  ///< the middle of its sweeps: to the left, down [rad]
-  double pan_sweep = 0, tilt_sweep = 0;      ///< to either side [rad]
+  double focal = 600;                        ///< at a width of 640 pixels, in proportion at other widths [pixel]
+  double pan = 0, tilt = 0;                  ///< centre of the sweeps, positive to the left and down [rad]
+  double pan_sweep = 0, tilt_sweep = 0;      ///< amplitude to either side [rad]
   double pan_period = 10, tilt_period = 17;  ///< [s]
-  double arm = 0;                            ///< from the crossing of the axes forward to the camera [m]
-  double pan_sigma = 0, tilt_sigma = 0;      ///< standard deviation of what is told of each [rad]
-  double pan_bias = 0, tilt_bias = 0;        ///< what is told less what is true [rad]
-  double gain = 1;                           ///< times the light
+  double arm = 0;                            ///< distance of the camera in front of the point where the axes cross [m]
+  double pan_sigma = 0, tilt_sigma = 0;      ///< standard deviation of the reported angles [rad]
+  double pan_bias = 0, tilt_bias = 0;        ///< reported minus true angles [rad]
+  double gain = 1;                           ///< factor on the light
   double exposure = 0.01;                    ///< [s]
-  double noise = 0.012;                      ///< part of full white
+  double noise = 0.012;                      ///< standard deviation, as a part of full white
   double vignetting = 0.2;                   ///< part of the light lost in the corners
-  bool labels = false;                       ///< truth: a picture of surface numbers for each frame
+  bool labels = false;                       ///< the truth contains an image of surface numbers for each frame
   static const base::OptionTable<ColourCameraOptions>& table();
 };
 
-/// A colour camera on a pan-tilt: mrpt::obs::CObservationImage. The mount of the INI is that of the pan-tilt, x along
-/// its middle; the observation's cameraPose is the optical frame, which looks along z, as the pan-tilt tells it.
+/// A colour camera on a pan-tilt unit: mrpt::obs::CObservationImage. The pose in the INI is that of the unit, with x
+/// along the camera's axis at zero angles. The observation's cameraPose is that of the optical frame, which looks along
+/// z, computed from the reported angles.
 ///
-/// Truth: k, stamp, time_s, pan_deg, tilt_deg, base_from_camera and map_from_camera (optical frame), faces in the
-/// picture (facesInView()); files labels/.
+/// Truth: k, stamp, time_s, pan_deg, tilt_deg, base_from_camera and map_from_camera (optical frame), and faces in the
+/// picture (facesInView()); images in labels/.
 class ColourCamera : public Sensor {
  public:
   ColourCamera(const ColourCameraOptions& options, const SensorOptions& mount, const SensorContext& context);

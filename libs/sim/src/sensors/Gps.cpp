@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t kErrorStream = 1;
 
-// The inverse of geodeticToENU_WGS84, which readers of logs use, by Newton's method on a sphere's derivative: MRPT's
-// own way back (ENUToGeocentric, geocentricToGeodetic) is off by 0.2 m of height.
+// The inverse of geodeticToENU_WGS84, which readers of logs use, by Newton's method with the derivative of a sphere.
+// MRPT's own inverse (ENUToGeocentric, geocentricToGeodetic) is wrong by 0.2 m of height.
 mrpt::topography::TGeodeticCoords geodeticFromEnu(const Eigen::Vector3d& in_enu,
                                                   const mrpt::topography::TGeodeticCoords& origin) {
   constexpr double kEarthRadius = 6.371e6;  // [m]
@@ -68,8 +68,8 @@ Gps::Gps(const GpsOptions& options, const SensorOptions& mount, const SensorCont
     Random random = randomOf(k, kErrorStream);
     const double fresh = options.sigma * (k == 0 ? 1 : std::sqrt(1 - kept * kept));
     const double east = random.gaussian(fresh), north = random.gaussian(fresh);
-    const Eigen::Vector3d news(east, north, random.gaussian(fresh * options.up_factor));
-    errors_in_enu_.push_back(k == 0 ? news : Eigen::Vector3d(kept * errors_in_enu_.back() + news));
+    const Eigen::Vector3d driving_noise(east, north, random.gaussian(fresh * options.up_factor));
+    errors_in_enu_.push_back(k == 0 ? driving_noise : Eigen::Vector3d(kept * errors_in_enu_.back() + driving_noise));
   }
 }
 

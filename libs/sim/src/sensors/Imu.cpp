@@ -68,7 +68,7 @@ Imu::Rates Imu::ratesAt(double time) const {
   const auto& places = context().map_from_base->places();
   const double begin = places.front().time, end = places.back().time;
   if (end - begin < 2 * span_ || time > end) return {Eigen::Vector3d::Zero(), map_from_sensor.transpose() * up};
-  // The track says nothing of what was before its begin and after its end.
+  // The track does not describe the motion before its begin and after its end.
   const double middle = std::clamp(time, begin + span_, end - span_);
   const geometry::Se3 before = mapFromSensor(middle - 0.5 * span_), after = mapFromSensor(middle + 0.5 * span_);
   const Eigen::Vector3d early = mapFromSensor(middle - span_).translation, now = mapFromSensor(middle).translation,

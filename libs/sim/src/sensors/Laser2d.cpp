@@ -14,8 +14,8 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
-constexpr std::uint64_t kBeamStreams2d = 0x100;  // and one for each beam above it
-constexpr double kSweepAge = 0.005;              // [s] of a sweep in which people may be taken as standing
+constexpr std::uint64_t kBeamStreams2d = 0x100;  // of the first beam; the others have the numbers after it
+constexpr double kSweepAge = 0.005;              // [s] part of a sweep during which people count as standing still
 
 bool somethingMoves(const World& world) {
   return std::any_of(world.bodies.begin(), world.bodies.end(),
@@ -29,7 +29,7 @@ Laser2dOptions::Laser2dOptions() {
 }
 
 // Apertures, times and ranges are those of the makers' data sheets; noise, mixing and losses of the SICK are tuned to
-// recordings (doc/results/simulator.md), those of the Hokuyos are their data sheets' and Kneip et al.,
+// recordings (doc/results/simulator.md), those of the Hokuyos are from their data sheets and Kneip et al.,
 // "Characterization of the compact Hokuyo URG-04LX 2D laser range scanner", ICRA 2009.
 Laser2dOptions Laser2dOptions::ofModel(Laser2dModel model) {
   Laser2dOptions o{std::in_place};
@@ -43,7 +43,7 @@ Laser2dOptions Laser2dOptions::ofModel(Laser2dModel model) {
       o.mixing_gap = 4, o.mixing = 0.5, o.lost = 0.0005, o.glass_angle = 6 * kDegree;
       break;
     case Laser2dModel::sick_pls:
-      // The older one, with steps of 5 cm to 50 m, as the ranges of ACES are. 25 turns in a second.
+      // The older model, with ranges of up to 50 m in steps of 5 cm, as in the log ACES. 25 turns in a second.
       o.beams = 180, o.aperture = 179 * kDegree, o.sweep = 0.5 / 25;
       o.min_range = 0.05, o.max_range = 50, o.white_range = 55, o.divergence = 0.7 * kDegree;
       o.noise = 0.016, o.noise_per_metre = 0.0003, o.step = 0.05;
@@ -101,7 +101,7 @@ Laser2d::Laser2d(const Laser2dOptions& options, const SensorOptions& mount, cons
 }
 
 std::vector<Echo> Laser2d::echoes(int k) const {
-  // MRPT keeps the aperture in single precision: the beams are those that a reader of the log will assume.
+  // MRPT keeps the aperture in single precision; beams are cast at the angles that a reader of the log will assume.
   const double aperture = static_cast<double>(static_cast<float>(options_.aperture));
   const double sign = options_.counter_clockwise ? 1 : -1;
   const int slices = options_.sweep > kSweepAge && somethingMoves(*context().world)
@@ -160,7 +160,7 @@ SensorClass laser2dClass() {
     std::vector<std::string> others{"class"};
     for (const auto& spec : SensorOptions::table().specs()) others.push_back(spec.key);
     const auto& specs = Laser2dOptions::table().specs();
-    // read() checks all; what was given is then put over the model's figures.
+    // read() checks all keys; those that are given then replace the values of the model.
     Laser2dOptions options = Laser2dOptions::ofModel(section.read<Laser2dOptions>(others).model);
     for (std::size_t i = 0; i < specs.size(); ++i) {
       std::string text;

@@ -14,10 +14,10 @@ namespace omnimapper::sim {
 
 namespace {
 constexpr std::uint64_t kBeamStreams3d = 0x100;
-constexpr double kSliceAge = 0.01;  // [s] in which people may be taken as standing
+constexpr double kSliceAge = 0.01;  // [s] during which people count as standing still
 }  // namespace
 
-// Of the data sheet of the Velodyne VLP-16 (range 100 m, 3 cm typical accuracy, 2 mm steps, beam of 3 mrad).
+// Values from the data sheet of the Velodyne VLP-16 (range 100 m, 3 cm typical accuracy, 2 mm steps, beam of 3 mrad).
 Laser3dOptions::Laser3dOptions() {
   min_range = 0.4, max_range = 100, white_range = 110, divergence = 0.003;
   noise = 0.012, noise_per_metre = 0.0003, step = 0.002;

@@ -8,9 +8,9 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kWhite = 0.9;        // what white_range is for
-constexpr int kMostPanes = 6;         // a beam passes at most
-constexpr double kPast = 1e-3;        // [m] behind a pane the beam goes on from
+constexpr double kWhite = 0.9;        // reflection of the wall of white_range
+constexpr int kMostPanes = 6;         // largest number of panes that a beam passes
+constexpr double kPast = 1e-3;        // [m] distance behind a pane from which the beam goes on
 constexpr double kSpeckle = 0.15;     // standard deviation of the power's logarithm
 constexpr double kGlassIndex = 1.52;  // window glass
 
@@ -24,12 +24,13 @@ double paneReflection(double cosine) {
   return 2 * face / (1 + face);
 }
 
-// Chance that a pane's own echo is taken: a bell over the angle of incidence.
+// Probability that the echo of a pane itself is measured: a bell curve over the angle of incidence.
 double visibilityOfPane(double cosine, double glass_angle) {
   return glass_angle > 0 ? std::exp(-0.5 * std::pow(std::acos(cosine) / glass_angle, 2)) : 0;
 }
 
-// Light goes there and back: what comes back by the mirror against what comes back through the pane.
+// Part of the returning light that was mirrored, as opposed to that which came through the pane. Light meets the pane
+// twice, going and coming back, hence the squares.
 double partMirrored(double reflection, double through) {
   return reflection * reflection / (reflection * reflection + through * through);
 }
@@ -39,7 +40,7 @@ Eigen::Vector3d perpendicular(const Eigen::Vector3d& direction) {
   return direction.cross(up).normalized();
 }
 
-/// A ray within the beam, by its offset from the middle in parts of the cone's half angle.
+/// A ray within the beam, at an offset from its axis in units of the cone's half angle.
 Beam within(const Beam& beam, double half_angle, double aside, double up) {
   const Eigen::Vector3d side = perpendicular(beam.direction_in_map), top = side.cross(beam.direction_in_map);
   const double tangent = std::tan(half_angle);
@@ -48,13 +49,13 @@ Beam within(const Beam& beam, double half_angle, double aside, double up) {
 
 }  // namespace
 
-/// What a ray met that scatters.
+/// The surface that a ray met and that scattered it back.
 struct LaserOptics::Return {
   double range = std::numeric_limits<double>::infinity();
   int surface = -1;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double cosine = 0;     // of incidence
-  double reflected = 0;  // infrared times cosine times what panes let through
+  double reflected = 0;  // infrared reflection times cosine times the part that panes let through
   bool is_mirrored = false;
   double power() const { return surface < 0 ? 0 : reflected / std::max(0.01, range * range); }
   bool isSameAs(const Return& other) const {
@@ -62,7 +63,7 @@ struct LaserOptics::Return {
   }
 };
 
-/// How a beam's dice fall at the panes on its way: the same for all of its rays.
+/// Random numbers that decide what a beam does at the panes it meets; all of its rays share them.
 struct LaserOptics::Fate {
   std::array<double, kMostPanes> at_pane;
 };
@@ -119,12 +120,12 @@ std::vector<LaserOptics::Return> LaserOptics::cast(const Scene& scene, const std
       }
       const double reflection = paneReflection(cosine);
       const double through = (1 - reflection) * static_cast<double>(material.transmission);
-      const double seen = visibilityOfPane(cosine, options_.glass_angle);
+      const double visibility = visibilityOfPane(cosine, options_.glass_angle);
       const double mirrored = partMirrored(reflection, through);
       const double die = fates[beam_of[i]].at_pane[pane];
-      if (die < seen) {
+      if (die < visibility) {
         takeEcho(0.8);
-      } else if (options_.glass_angle > 0 && die < seen + (1 - seen) * mirrored) {
+      } else if (options_.glass_angle > 0 && die < visibility + (1 - visibility) * mirrored) {
         const Eigen::Vector3d at = ray.origin_in_map + hits[j].range * ray.direction_in_map;
         const Eigen::Vector3d away =
             ray.direction_in_map - 2 * ray.direction_in_map.dot(hits[j].normal_in_map) * hits[j].normal_in_map;
@@ -150,7 +151,7 @@ Echo LaserOptics::noisy(Echo echo, double power, Random& random) const {
   double sigma = options_.noise + options_.noise_per_metre * echo.range;
   bool is_strong = true;
   if (options_.white_range > 0) {
-    // 1 where it can only just be measured; noise grows where little comes back.
+    // The signal is 1 where an echo can only just be measured; noise grows as the signal falls.
     const double signal = power / (kWhite / (options_.white_range * options_.white_range));
     is_strong = signal * std::exp(speckle) >= 1;
     sigma *= std::sqrt(1 + 1 / std::max(signal, 1.0));
@@ -162,7 +163,8 @@ Echo LaserOptics::noisy(Echo echo, double power, Random& random) const {
   return echo;
 }
 
-// The surfaces in a beam, nearest first, each with its power; then what the electronics make of the first two.
+// Collects the surfaces in a beam, each with its power, and then finds the range that the electronics report: that of
+// the strongest surface, or a mean of several.
 Echo LaserOptics::combine(const std::vector<Return>& returns, Random& random) const {
   struct Part {
     Return first;
@@ -184,7 +186,7 @@ Echo LaserOptics::combine(const std::vector<Return>& returns, Random& random) co
   }
   const double die = random.uniform();
   if (parts.empty()) return noisy({}, 0, random);
-  // The beam's middle is the first ray: the part it lies in has its range, the others the mean of theirs.
+  // The first ray is the beam's axis. The part it lies in has its range, the others have the mean of their rays.
   for (Part& part : parts) {
     const bool has_middle = returns.front().surface >= 0 && part.first.isSameAs(returns.front());
     if (!has_middle && part.power > 0) part.range = part.share / part.power;
@@ -230,7 +232,8 @@ std::vector<Echo> LaserOptics::measure(const Scene& scene, const std::vector<Bea
   if (half > 0) {
     std::vector<char> is_edge(count, 0);
     for (std::size_t j = 1; j < rays.size(); ++j) {
-      // Scouts stand in the order middle, left, right: what the beam sees, then what its neighbour's middle does.
+      // Scout rays are in the order axis, left, right. Each is compared with the one before it, an axis with that of
+      // the neighbouring beam.
       const std::size_t other = beam_of[j] == beam_of[j - 1] ? j - 1 : j - scouts_;
       if (!scouted[j].isSameAs(scouted[other])) is_edge[beam_of[j]] = is_edge[beam_of[other]] = 1;
     }
@@ -248,7 +251,7 @@ std::vector<Echo> LaserOptics::measure(const Scene& scene, const std::vector<Bea
   }
   std::vector<Echo> echoes;
   for (int i = 0; i < count; ++i) {
-    // Scouts at the sides look for edges; where the cone is filled they would weigh its rim twice.
+    // Scout rays at the sides only look for edges; in a filled cone they would count its rim twice.
     if (static_cast<int>(returns[i].size()) > scouts_ && scouts_ > 1)
       returns[i].erase(returns[i].begin() + 1, returns[i].begin() + scouts_);
     echoes.push_back(combine(returns[i], randoms[i]));

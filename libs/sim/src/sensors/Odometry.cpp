@@ -58,13 +58,14 @@ Odometry::Odometry(const OdometryOptions& options, const SensorOptions& mount, c
     const double along = truth.x + slip.gaussian(options.slip_per_root_m * std::sqrt(travel));
     const double turned = truth.yaw + slip.gaussian(std::hypot(options.turn_slip_per_root_m * std::sqrt(travel),
                                                                options.turn_slip_per_root_turn * std::sqrt(turn)));
-    // What the wheels did, and what a reader makes of it who takes radius and base for right.
+    // The distances that the wheels measure, and the motion that follows from them with the assumed radius and base.
     const double left = bias_.left * (along - 0.5 * base * turned), right = bias_.right * (along + 0.5 * base * turned);
-    const double told_left = ticked(reading.left + left) - ticked(reading.left);
-    const double told_right = ticked(reading.right + right) - ticked(reading.right);
+    const double measured_left = ticked(reading.left + left) - ticked(reading.left);
+    const double measured_right = ticked(reading.right + right) - ticked(reading.right);
     reading.left += left, reading.right += right;
-    const geometry::Se2 told{0.5 * (told_left + told_right), truth.y, bias_.base * (told_right - told_left) / base};
-    reading.odom_from_base = reading.odom_from_base * told;
+    const geometry::Se2 measured{0.5 * (measured_left + measured_right), truth.y,
+                                 bias_.base * (measured_right - measured_left) / base};
+    reading.odom_from_base = reading.odom_from_base * measured;
     readings_.push_back(reading);
   }
 }

@@ -4,8 +4,8 @@
 
 namespace omnimapper::sim {
 
-/// Throws base::Error(out_of_range) unless low < high, naming both keys. `place` begins the message, as
-/// SensorContext::place().
+/// Throws base::Error(out_of_range) unless low < high, naming both keys. The message begins with `place`, which is that
+/// of SensorContext::place().
 void requireBelow(const std::string& place, const std::string& low_key, double low, const std::string& high_key,
                   double high);
 

@@ -13,11 +13,11 @@ namespace omnimapper::sim {
 
 namespace {
 
-constexpr double kOnSurface = 0.02;   // [m] a landmark may lie so deep in what it is fixed to
-constexpr double kMarkerAngle = 1.3;  // [rad] from a marker's normal: flatter ones are not made out
+constexpr double kOnSurface = 0.02;   // [m] largest depth of a landmark in the body it is fixed to
+constexpr double kMarkerAngle = 1.3;  // [rad] largest angle from its normal at which a marker is measured
 constexpr std::uint64_t kFalseStream = 1;
 
-// Knuth's way: the number of uniform numbers whose product stays above e^-mean.
+// Knuth's method: the number of uniform numbers whose product stays above e^-mean.
 int poisson(double mean, Random& random) {
   int count = 0;
   for (double product = random.uniform(); product > std::exp(-mean); product *= random.uniform()) ++count;
@@ -48,7 +48,7 @@ const base::OptionTable<RangeBearingOptions>& RangeBearingOptions::table() {
           .number("missed", &Options::missed, {0, 1}, "Fraction of the visible landmarks that are not reported.")
           .number("false_alarms", &Options::false_alarms, {0, 100},
                   "Mean number of false measurements in an observation.")
-          .flag("occlusion", &Options::occlusion, "Things that stand in front of a landmark hide it.");
+          .flag("occlusion", &Options::occlusion, "Landmarks behind other objects are hidden.");
   return table;
 }
 
@@ -71,7 +71,7 @@ RangeBearing::RangeBearing(const RangeBearingOptions& options, const SensorOptio
   requireBelow(context.place(), "min_range_m", options.min_range, "max_range_m", options.max_range);
 }
 
-// MRPT keeps no observation in which an id stands twice.
+// MRPT does not accept an observation that contains an id twice.
 void RangeBearing::refuseDoubleIds() const {
   std::map<int, std::string> names;
   for (const auto& landmark : landmarks_) {
@@ -92,8 +92,8 @@ std::vector<RangeBearing::Landmark> RangeBearing::visible(int k, std::vector<Eig
   for (const Landmark& landmark : landmarks_) {
     const auto map_from_body = landmark.map_from_body ? landmark.map_from_body->at(time) : geometry::Se3{};
     if (!map_from_body) continue;
-    const Eigen::Vector3d in_map = *map_from_body * landmark.in_body, seen = sensor_from_map * in_map;
-    const double range = seen.norm(), yaw = std::atan2(seen.y(), seen.x()), pitch = std::asin(-seen.z() / range);
+    const Eigen::Vector3d in_map = *map_from_body * landmark.in_body, point = sensor_from_map * in_map;
+    const double range = point.norm(), yaw = std::atan2(point.y(), point.x()), pitch = std::asin(-point.z() / range);
     if (!(range >= options_.min_range && range <= options_.max_range) || std::abs(yaw) > 0.5 * options_.fov_yaw ||
         std::abs(pitch) > 0.5 * options_.fov_pitch)
       continue;
@@ -102,7 +102,7 @@ std::vector<RangeBearing::Landmark> RangeBearing::visible(int k, std::vector<Eig
         -(map_from_body->rotation * Eigen::Vector3d::UnitZ()).dot(direction) < std::cos(kMarkerAngle))
       continue;
     found.push_back(landmark);
-    in_sensor.push_back(seen);
+    in_sensor.push_back(point);
     rays.push_back({map_from_sensor.translation, direction, 0, std::max(0.0, range - kOnSurface)});
   }
   if (!options_.occlusion || rays.empty()) return found;
@@ -126,17 +126,18 @@ Measurement RangeBearing::measure(int k) const {
     std::string name;
   };
   std::vector<Eigen::Vector3d> in_sensor;
-  const std::vector<Landmark> seen = visible(k, in_sensor);
+  const std::vector<Landmark> landmarks = visible(k, in_sensor);
   std::vector<One> all;
   Random random = randomOf(k);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const Eigen::Vector3d& p = in_sensor[i];
     const double noise_range = random.gaussian(options_.sigma_range), noise_yaw = random.gaussian(options_.sigma_angle);
     const double noise_pitch = random.gaussian(options_.sigma_angle);
     if (random.chance(options_.missed)) continue;
     const double range = options_.planar ? p.head<2>().norm() : p.norm();
     const double pitch = options_.planar ? 0 : std::asin(-p.z() / p.norm()) + noise_pitch;
-    all.push_back({range + noise_range, std::atan2(p.y(), p.x()) + noise_yaw, pitch, seen[i].id, seen[i].name});
+    all.push_back(
+        {range + noise_range, std::atan2(p.y(), p.x()) + noise_yaw, pitch, landmarks[i].id, landmarks[i].name});
   }
   Random ghosts = randomOf(k, kFalseStream);
   for (int i = poisson(options_.false_alarms, ghosts); i > 0; --i) {
@@ -146,7 +147,7 @@ Measurement RangeBearing::measure(int k) const {
     all.push_back({range, yaw, pitch, -1, ""});
   }
   if (all.empty()) return {};
-  // The order must not tell which is which.
+  // The order must not reveal which landmark a measurement is of.
   for (int i = static_cast<int>(all.size()) - 1; i > 0; --i) std::swap(all[i], all[ghosts.integer(0, i)]);
 
   auto observation = mrpt::obs::CObservationBearingRange::Create();

@@ -24,7 +24,7 @@ constexpr std::uint64_t kDepthStream = 1, kColourStream = 2;
 struct RgbdCamera::Pictures {
   double time, colour_time;         // [s]
   Frame depth;                      // of the depth camera
-  std::optional<Frame> colour;      // of the picture; none: the depth camera's serves
+  std::optional<Frame> colour;      // of the picture; none: the depth camera's frame serves for both
   std::optional<Frame> handed_out;  // of the range image, if that is neither
   const Frame& picture() const { return colour ? *colour : depth; }
 };
@@ -107,10 +107,11 @@ void RgbdCamera::fillColour(const Pictures& pictures, int k, mrpt::obs::CObserva
                  mapFromColour(pictures.colour_time + half), settings_.photograph, randomOf(k, kColourStream));
 }
 
-// Of pixels 2.5 cm apart at 4 m that are in the range image. What is measured through glass is not the glass.
+// Points of pixels that are 2.5 cm apart at 4 m and in the range image. A depth measured through glass does not show
+// the glass.
 std::vector<SeenPoint> RgbdCamera::seenPoints(const Frame& frame, const std::vector<float>& depths) const {
   constexpr double kGap = 0.025 / 4;  // between pixels, at 1 m [m]
-  constexpr double kSame = 0.3;       // a Kinect is not off by more at 4 m [m]
+  constexpr double kSame = 0.3;       // largest error of a Kinect at 4 m [m]
   const Pinhole& camera = frame.camera;
   const int step = std::max(1, static_cast<int>(kGap * camera.fx));
   std::vector<SeenPoint> points;
@@ -138,7 +139,7 @@ std::optional<CameraView> RgbdCamera::pictureView(int k) const {
 }
 
 std::size_t RgbdCamera::sizeOfMeasurement() const {
-  constexpr std::size_t kBytesOfPixel = 10;  // depth, colour, labels, one of nine as seen
+  constexpr std::size_t kBytesOfPixel = 10;  // depth, colour, labels, and a seen point for one of nine pixels
   return kBytesOfPixel * static_cast<std::size_t>(options_of_camera_.width) *
          static_cast<std::size_t>(options_of_camera_.height);
 }

@@ -7,10 +7,10 @@
 
 namespace omnimapper::sim {
 
-/// A camera of depth and colour: mrpt::obs::CObservation3DRangeScan. The mount of the INI is that of the depth camera,
-/// which looks along x; the observation's sensorPose too, or, where depth is registered, that of the colour camera.
-/// Truth: k, stamp, time_s, picture_time_s, map_from_sensor of the range image, faces in the picture (facesInView());
-/// files labels/ and depth/, pixel by pixel as the range image.
+/// A camera of depth and colour: mrpt::obs::CObservation3DRangeScan. The pose in the INI is that of the depth camera,
+/// which looks along x. The observation's sensorPose is the same, or that of the colour camera if depth is registered.
+/// Truth: k, stamp, time_s, picture_time_s, map_from_sensor of the range image, and faces in the picture
+/// (facesInView()); images in labels/ and depth/ with the same pixels as the range image.
 class RgbdCamera : public Sensor {
  public:
   RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context);
@@ -22,7 +22,7 @@ class RgbdCamera : public Sensor {
   struct Pictures;
   geometry::Se3 mapFromColour(double time) const;
   Pictures cast(double time) const;
-  /// Depths of the depth camera.
+  /// Depths that the depth camera measures.
   std::vector<float> sense(const Pictures& pictures, int k) const;
   bool isInRange(float depth) const;
   std::vector<SeenPoint> seenPoints(const Frame& frame, const std::vector<float>& depths) const;
@@ -35,8 +35,9 @@ class RgbdCamera : public Sensor {
   geometry::Se3 sensor_from_colour_;  // both look along x
   /// From the depth camera's optical frame to the colour camera's.
   Eigen::Vector3d depthToColour() const { return {-settings_.colour_right, 0, 0}; }
-  bool isRegistered() const { return hands_out_colour_view_ && !settings_.exact; }  ///< from the depth camera's view
-  bool hands_out_colour_view_;  // the range image is that of the colour camera
+  /// Whether depths are measured in the depth camera's view and then registered to the colour camera's.
+  bool isRegistered() const { return hands_out_colour_view_ && !settings_.exact; }
+  bool hands_out_colour_view_;  // the range image has the view of the colour camera
 };
 
 }  // namespace omnimapper::sim

@@ -12,16 +12,16 @@ namespace {
 
 constexpr double kAsModel = -1, kNoOffset = -1000;
 
-/// What a model of sensor is, at 640 pixels of width.
+/// The values of a sensor model, at a width of 640 pixels.
 struct Preset {
   double focal, colour_focal, colour_right, unit, colour_noise;
   DisparitySettings disparity;
 };
 
-// Focal lengths and baseline: Khoshelham and Elberink, Accuracy and resolution of Kinect depth data for indoor mapping
-// applications, Sensors 2012; the colour camera stands 2.5 cm to the right of the infrared one, and the 8 columns at
-// the right edge stay empty: the technical page of the kinect_calibration package of ROS. The rest is fitted to
-// recordings: doc/results/simulator.md.
+// Focal lengths and baseline are from Khoshelham and Elberink, Accuracy and resolution of Kinect depth data for indoor
+// mapping applications, Sensors 2012. The technical page of the kinect_calibration package of ROS says that the colour
+// camera stands 2.5 cm to the right of the infrared one, and that 8 columns at the right edge stay empty. The rest is
+// fitted to recordings: doc/results/simulator.md.
 Preset preset(RgbdModel model) {
   Preset kinect{580, 525, 0.025, 0.001, 0.02, {}};
   kinect.disparity.blank_columns = 8;
@@ -51,25 +51,25 @@ Preset preset(RgbdModel model) {
   return ideal;
 }
 
-/// Figures of the model, unless the INI gives others.
-class Figures {
+/// Values of a model, unless the INI gives others; those out of range are refused.
+class ModelDefaults {
  public:
-  explicit Figures(const std::string& place) : place_(place) {}
+  explicit ModelDefaults(const std::string& place) : place_(place) {}
 
   double chosen(const char* key, double option, double of_model) const {
     if (option == kAsModel) return of_model;
-    if (option < 0) refuseValue(place_, key, option, "must be 0 or more, or -1 for what the model has");
+    if (option < 0) refuseValue(place_, key, option, "must be 0 or more, or -1 for the value of the model");
     return option;
   }
   double positive(const char* key, double option, double of_model) const {
     const double value = chosen(key, option, of_model);
-    if (!(value > 0)) refuseValue(place_, key, value, "must be above 0, or -1 for what the model has");
+    if (!(value > 0)) refuseValue(place_, key, value, "must be above 0, or -1 for the value of the model");
     return value;
   }
   double offset(const char* key, double option, double of_model) const {
     if (option == kNoOffset) return of_model;
     if (std::abs(option) > 1)
-      refuseValue(place_, key, option, "must be within [-1, 1], or -1000 for what the model has");
+      refuseValue(place_, key, option, "must be within [-1, 1], or -1000 for the value of the model");
     return option;
   }
 
@@ -143,7 +143,7 @@ const base::OptionTable<RgbdOptions>& RgbdOptions::table() {
 
 RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
   const Preset model = preset(options.model);
-  const Figures metrics(place);
+  const ModelDefaults defaults(place);
   const double scale = options.width / 640.0;
   RgbdSettings settings;
   settings.exact = options.model == RgbdModel::ideal;
@@ -151,25 +151,25 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
   if (settings.from_texture && (options.colour_focal != kAsModel || options.colour_right != kNoOffset)) {
     throw base::Error(base::ExitCode::out_of_range, place +
                                                         "colour_focal_px, colour_right_m: with model = stereo the "
-                                                        "left eye makes the picture too; leave them out");
+                                                        "left camera also takes the picture; leave these keys out");
   }
-  const double focal = metrics.positive("focal_px", options.focal, scale * model.focal);
+  const double focal = defaults.positive("focal_px", options.focal, scale * model.focal);
   const double colour_focal =
       settings.from_texture ? focal
-                            : metrics.positive("colour_focal_px", options.colour_focal, scale * model.colour_focal);
+                            : defaults.positive("colour_focal_px", options.colour_focal, scale * model.colour_focal);
   settings.depth_camera = Pinhole::centred(options.width, options.height, focal);
   settings.colour_camera = Pinhole::centred(options.width, options.height, colour_focal);
-  settings.colour_right = metrics.offset("colour_right_m", options.colour_right, model.colour_right);
-  settings.unit = metrics.positive("range_unit_m", options.unit, model.unit);
+  settings.colour_right = defaults.offset("colour_right_m", options.colour_right, model.colour_right);
+  settings.unit = defaults.positive("range_unit_m", options.unit, model.unit);
   DisparitySettings& disparity = settings.disparity = model.disparity;
-  disparity.baseline = metrics.positive("baseline_m", options.baseline, disparity.baseline);
-  disparity.step = metrics.chosen("disparity_step_px", options.disparity_step, disparity.step);
-  disparity.sigma = metrics.chosen("disparity_sigma_px", options.disparity_sigma, disparity.sigma);
+  disparity.baseline = defaults.positive("baseline_m", options.baseline, disparity.baseline);
+  disparity.step = defaults.chosen("disparity_step_px", options.disparity_step, disparity.step);
+  disparity.sigma = defaults.chosen("disparity_sigma_px", options.disparity_sigma, disparity.sigma);
   if (options.disparity_reach >= 0) disparity.reach = options.disparity_reach;
-  disparity.need = metrics.chosen("match_share", options.match_share, disparity.need);
-  disparity.signal_floor = metrics.chosen("signal_floor", options.signal_floor, disparity.signal_floor);
-  disparity.min_range = metrics.chosen("min_range_m", options.min_range, disparity.min_range);
-  disparity.max_range = metrics.chosen("max_range_m", options.max_range, disparity.max_range);
+  disparity.need = defaults.chosen("match_share", options.match_share, disparity.need);
+  disparity.signal_floor = defaults.chosen("signal_floor", options.signal_floor, disparity.signal_floor);
+  disparity.min_range = defaults.chosen("min_range_m", options.min_range, disparity.min_range);
+  disparity.max_range = defaults.chosen("max_range_m", options.max_range, disparity.max_range);
   requireBelow(place, "min_range_m", disparity.min_range, "max_range_m", disparity.max_range);
   if (disparity.max_range / settings.unit > 65535) {
     refuseValue(place, "max_range_m", disparity.max_range,
@@ -177,7 +177,7 @@ RgbdSettings settle(const RgbdOptions& options, const std::string& place) {
                     "; make the unit larger");
   }
   settings.photograph = {options.gain, options.exposure,
-                         metrics.chosen("colour_noise", options.colour_noise, model.colour_noise), options.vignetting};
+                         defaults.chosen("colour_noise", options.colour_noise, model.colour_noise), options.vignetting};
   settings.coincide = settings.colour_right == 0 && focal == colour_focal;
   return settings;
 }

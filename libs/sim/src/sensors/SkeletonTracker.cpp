@@ -21,9 +21,10 @@ using Eigen::Vector3d;
 using mrpt::obs::CObservationSkeleton;
 
 constexpr std::uint64_t kFrameStream = 1, kPersonStream = 2, kActStream = 3, kActFrameStream = 4;
-// A joint is inside its limb, and the torso's in the middle of it: what is hit less than this before it is the limb.
+// A joint lies inside its limb, that of the torso in the middle of it: a hit less than this before a joint is on its
+// limb.
 constexpr double kFlesh = 0.25;  // [m]
-constexpr double kGuessed = 3;   // times the noise
+constexpr double kGuessed = 3;   // factor on the noise of a guessed joint
 
 constexpr std::array<CObservationSkeleton::TSkeletonJoint CObservationSkeleton::*, kJointCount> kFields{
     &CObservationSkeleton::head,           &CObservationSkeleton::neck,        &CObservationSkeleton::torso,
@@ -38,7 +39,7 @@ Vector3d gaussianVector(Random& random, double sigma) {
   return v;
 }
 
-// 0 while the arm hangs, 1 from begin to end.
+// Share by which the arm is raised: 0 while it hangs, 1 from begin to end.
 double raisedEvenly(const Person::Pointing& act, double time) {
   const double outside = std::max({act.begin - time, time - act.end, 0.0});
   return std::max(0.0, 1 - outside / kArmRaiseTime);
@@ -46,7 +47,7 @@ double raisedEvenly(const Person::Pointing& act, double time) {
 
 }  // namespace
 
-/// One moment, as the sensor sees it.
+/// The scene at one time and the sensor's pose in it.
 struct SkeletonTracker::View {
   double time;
   geometry::Se3 map_from_optical;
@@ -148,7 +149,7 @@ void SkeletonTracker::missTarget(const View& view, int k, int person, Skeleton& 
     const Person::Pointing& act = acts[i];
     const double share = raisedEvenly(act, view.time);
     if (share <= 0) continue;
-    constexpr int kMostActs = 1 << 12;  // of one person, to number the acts of all
+    constexpr int kMostActs = 1 << 12;  // largest number of one person, for numbers that are unique among all people
     Random of_act = randomOf(person * kMostActs + static_cast<int>(i), kActStream);
     const auto draw = [&](double mean, double sigma) {
       const double of_this_act = of_act.gaussian(), of_this_frame = of_frame.gaussian();

@@ -12,25 +12,25 @@ namespace omnimapper::sim {
 /// Options of SkeletonTracker.
 struct SkeletonTrackerOptions {
   SkeletonSoftware software = SkeletonSoftware::openni;
-  int table_target = 0;                            ///< whose errors of pointing: 1 to 7, or 0 for those of all
-  double width = 0.99483767, height = 0.75049158;  ///< of the view [rad]: 57 and 43 deg, the Kinect's
-  double nearest = 0.8, farthest = 4.0;            ///< of the torso [m]
-  double bias_sigma = 0.03;                        ///< of a joint of a person, always the same, on each axis [m]
-  double noise_sigma = 0.01;                       ///< of a joint in each frame, on each axis [m]
-  double frame_share = 0.1;  ///< part of the variance of pointing that is new in each frame; the rest is the act's
+  int table_target = 0;  ///< target whose pointing errors are simulated: 1 to 7, or 0 for those of all
+  double width = 0.99483767, height = 0.75049158;  ///< field of view [rad]: 57 and 43 deg, as of the Kinect
+  double nearest = 0.8, farthest = 4.0;            ///< range of the torso's distance [m]
+  double bias_sigma = 0.03;   ///< of a joint's error that is constant for a person, on each axis [m]
+  double noise_sigma = 0.01;  ///< of a joint's error that is drawn in each frame, on each axis [m]
+  double frame_share = 0.1;   ///< part of the variance of pointing errors that is drawn in each frame, not once an act
   static const base::OptionTable<SkeletonTrackerOptions>& table();
 };
 
 /// The software that finds a skeleton in a depth image: mrpt::obs::CObservationSkeleton of the nearest person whose
-/// head or torso is in view. The mount of the INI looks along x; the observation's sensorPose is the optical frame at
-/// the same place. MRPT documents neither frame nor unit of the joints: here they are in that frame, x to the right, y
-/// down, z ahead, in metres (MRPT's own driver writes what NiTE tells, millimetres with y up). A joint's confidence is
-/// 1, or 0.5 where it is out of view or hidden, and guessed with three times the noise.
+/// head or torso is in view. The pose in the INI looks along x; the observation's sensorPose is the optical frame at
+/// the same place. MRPT documents neither frame nor unit of the joints: here they are in the optical frame, x to the
+/// right, y down, z ahead, in metres (MRPT's own driver writes what NiTE reports, millimetres with y up). A joint's
+/// confidence is 1, or 0.5 if it is out of view or hidden and therefore guessed, with three times the noise.
 ///
 /// While a person points, head and elbow are moved such that the head-hand and elbow-hand rays miss the target by
-/// angles drawn from the thesis's Tables 12 and 13 (PointingError), which hold what people and software do wrong
-/// together; the hand stays where it is but for its noise. Theta is mirrored for a left arm. While the arm is raised
-/// and lowered the shift grows and fades.
+/// angles drawn from the thesis's Tables 12 and 13 (PointingError), which contain the errors of people and software
+/// together. The hand stays where it is but for its noise. Theta is mirrored for a left arm. The shift grows while the
+/// arm is raised and fades while it is lowered.
 ///
 /// Truth: time_s, person, map_from_sensor (optical frame), joints_in_map {name: [x, y, z]}, and from begin to end of an
 /// act "pointing": {arm, target, target_in_map, begin_s, end_s}.

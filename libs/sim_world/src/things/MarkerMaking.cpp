@@ -12,8 +12,9 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr int kPixelsPerBit = 32;
-// White around the black square, in its sides. OpenCV 4.6 takes two outlines whose corners are nearer than 5 % of the
-// perimeter for one and keeps the outer: with less than 0.14 of a side the outline of the plate would hide the marker.
+// White margin around the black square, as a part of its side. OpenCV 4.6 takes two outlines whose corners are nearer
+// than 5 % of the perimeter for one and keeps the outer: with less than 0.14 of a side the outline of the plate would
+// hide the marker.
 constexpr double kMargin = 0.2;
 
 cv::Ptr<cv::aruco::Dictionary> dictionaryOf(MarkerDictionary dictionary) {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kLeastHeight = 0.8, kMostHeight = 2.3;  // [m]
 constexpr double kMostSpeed = 2.5;                       // [m/s]
-constexpr double kLongest = 7200;                        // what happens to a person is kept at 20 Hz [s]
-constexpr double kNearestTarget = 0.6;                   // from the head [m]
+constexpr double kLongest = 7200;       // longest time that a person walks and points, which is kept at 20 Hz [s]
+constexpr double kNearestTarget = 0.6;  // from the head [m]
 constexpr double kStepOfHeight = 0.4;
 
 template <class... Parts>

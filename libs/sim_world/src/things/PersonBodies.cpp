@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using geometry::Se3;
 using PoseOf = std::function<Se3(const Posture&)>;
 
-constexpr int kSides = 12;  // of a limb: people move, and what moves is built anew for each moment
+constexpr int kSides = 12;  // of a limb; few, because people move, and moving bodies are built anew for each time
 
 struct Clothes {
   Material skin, shirt, trousers, shoes, hair;
@@ -95,7 +95,7 @@ class Dresser {
     return builder;
   }
 
-  // Radii are those of a person of 1.72 m.
+  // Radii are given for a person of 1.72 m.
   double scaled(double length) const { return length * anatomy_.height / 1.72; }
 
   static PoseOf poseOfLimb(bool right, Limb from, Limb to) {
@@ -134,7 +134,7 @@ class Dresser {
     };
     MeshBuilder mesh = builder(sideOf(right) + "foot", pose);
     const double h = anatomy_.height, toe = 0.11 * h, heel = -0.042 * h, half = 0.026 * h, sole = -anatomy_.ankle_z;
-    // Seen from the side, x ahead and z up: turned so that the prism lies across.
+    // The outline is seen from the side, x ahead and z up; the frame is turned so that the prism lies across.
     mesh.at({Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX())), {0, 0, 0}});
     mesh.addPrism(mesh.addSurface("", SurfaceKind::person, clothes_.shoes),
                   {{heel, sole}, {toe, sole}, {toe, 0.55 * sole}, {0.035 * h, 0.012 * h}, {heel, 0.012 * h}}, -half,
@@ -166,7 +166,7 @@ class Dresser {
          {{0, -0.055}, {0.07, -0.05}, {0.096, -0.02}, {0.098, 0.01}, {0.088, 0.035}, {0, 0.036}});
     flat(mesh.addSurface("neck", SurfaceKind::person, clothes_.skin), {{0.033, 0.3}, {0.033, 0.37}});
     Body body = mesh.build();
-    // Deep as 0.6 of its width.
+    // The torso is 0.6 times as deep as it is wide.
     for (Vector3d& p : body.vertices_in_body) p.x() *= 0.6;
     bodies_.push_back(std::move(body));
   }

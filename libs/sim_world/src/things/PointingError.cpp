@@ -10,13 +10,13 @@ PointingError pointingErrorOf(const Eigen::Vector3d& hand, const Eigen::Vector3d
                               const Eigen::Vector3d& target) {
   const Eigen::Vector3d z = direction.normalized(), x = Eigen::Vector3d(-z.y(), z.x(), 0).normalized(),
                         y = x.cross(z);  // downwards: x is to the left
-  const Eigen::Vector3d way = target - hand;
-  return {std::atan2(way.dot(x), way.dot(z)), std::atan2(way.dot(y), way.dot(z))};
+  const Eigen::Vector3d to_target = target - hand;
+  return {std::atan2(to_target.dot(x), to_target.dot(z)), std::atan2(to_target.dot(y), to_target.dot(z))};
 }
 
 // With the target's unit direction t, t.z : t.x : t.y = 1 : tan(theta) : tan(psi). The axis x depends on the ray's
-// azimuth a alone: t.x = cos(elevation of t) sin(azimuth of t - a). In the upright plane of the ray then remains a turn
-// by psi.
+// azimuth a alone: t.x = cos(elevation of t) sin(azimuth of t - a). A turn by psi in the vertical plane of the ray then
+// remains.
 Eigen::Vector3d directionWithError(const Eigen::Vector3d& hand, const Eigen::Vector3d& target,
                                    const PointingError& error) {
   const Eigen::Vector3d t = (target - hand).normalized();

@@ -21,7 +21,7 @@ constexpr const char* kNotices[][4] = {{"PLEASE KEEP", "THIS DOOR", "CLOSED", ""
                                        {"SAFETY FIRST", "Wear goggles", "at all times", ""},
                                        {"MEETING", "moved to floor 3", "Tuesday 9:30", ""}};
 
-// The style whose line is no wider than `room`, at most `capitals` high.
+// The style with which the line is at most `room` wide and its capitals are at most `capitals` high.
 TextStyle fitted(const std::string& line, double room, double capitals, FontFace face, const Colour& colour,
                  const std::string& font_file) {
   TextStyle style{face, font_file, capitals, colour};
@@ -138,7 +138,7 @@ void drawAnnouncement(Texture& texture, Random& random, const std::string& font_
 
 struct PosterLook {
   double width, height;  // [m]
-  double spread;         // part by which the seed changes the size
+  double spread;         // largest part by which the seed changes the size
   void (*draw)(Texture&, Random&, const std::string&);
 };
 
@@ -155,7 +155,7 @@ PosterLook lookOf(PosterKind kind) {
     case PosterKind::announcement:
       return {0.42, 0.594, 0, drawAnnouncement};
   }
-  throw std::invalid_argument("a kind of poster that is not there");
+  throw std::invalid_argument("unknown kind of poster");
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kPeriod = 0.05;     // [s]
-constexpr double kTurnRate = 3;      // at most [rad/s]
-constexpr double kTurnTime = 1.3;    // so long before an act or a way the body begins to turn [s]
-constexpr double kLookAhead = 0.25;  // on a way the body turns so long before the way does [s]
+constexpr double kTurnRate = 3;      // largest turn rate of the body [rad/s]
+constexpr double kTurnTime = 1.3;    // time before an act or a walk at which the body begins to turn [s]
+constexpr double kLookAhead = 0.25;  // time by which a walking body turns before its path does [s]
 constexpr double kArmStretch = 0.995;
-// How far an arm points beside the body's heading: outwards and across [rad].
+// Largest angles between a pointing arm and the body's heading: outwards and across the body [rad].
 constexpr double kOutwards = 1.9, kAcross = 0.6;
 
 // The joint between two limbs of given lengths from `root` to `end`, bent towards `pole`.
@@ -35,16 +35,16 @@ double eased(double share) {
   return s * s * (3 - 2 * s);
 }
 
-// 0 while the arm hangs, 1 from begin to end of the act.
+// Share by which the arm is raised: 0 while it hangs, 1 from begin to end of the act.
 double raised(const Person::Pointing& act, double time) {
   return time < act.begin ? eased(1 - (act.begin - time) / kArmRaiseTime) : eased(1 - (time - act.end) / kArmRaiseTime);
 }
 
 // The heading nearest to `yaw` from which the arm reaches the target's direction.
 double headingFor(const Person::Pointing& act, const Vector2d& body, double yaw) {
-  const Vector2d way = act.target_in_map.head<2>() - body;
-  if (way.norm() < 0.05) return yaw;
-  const double aside = geometry::wrapToPi(std::atan2(way.y(), way.x()) - yaw);
+  const Vector2d to_target = act.target_in_map.head<2>() - body;
+  if (to_target.norm() < 0.05) return yaw;
+  const double aside = geometry::wrapToPi(std::atan2(to_target.y(), to_target.x()) - yaw);
   const double low = act.right_arm ? -kOutwards : -kAcross, high = act.right_arm ? kAcross : kOutwards;
   return yaw + aside - std::clamp(aside, low, high);
 }
@@ -107,7 +107,7 @@ class Poser {
     }
   }
 
-  // As high as both legs let them be. Returns their height above the floor.
+  // Places the hips as high as both legs allow. Returns their height above the floor.
   double placeHips(const Stance& stance, Posture& posture) const {
     const double reach = 0.995 * (anatomy_.thigh + anatomy_.shin);
     double hip_z = anatomy_.standing_hip_z;
@@ -153,8 +153,9 @@ class Poser {
     const double reach = kArmStretch * (anatomy_.upper_arm + anatomy_.forearm);
     const Vector3d ahead = (act.target_in_map - head).normalized(), from_shoulder = head - shoulder;
     const double along = from_shoulder.dot(ahead);
-    const double way = -along + std::sqrt(std::max(0.0, along * along - from_shoulder.squaredNorm() + reach * reach));
-    return from_shoulder + way * ahead;
+    const double distance =
+        -along + std::sqrt(std::max(0.0, along * along - from_shoulder.squaredNorm() + reach * reach));
+    return from_shoulder + distance * ahead;
   }
 
   void placeArm(double time, const Stance& stance, bool right, Posture& posture) const {
@@ -164,7 +165,7 @@ class Poser {
     for (const Person::Pointing& act : spec_.acts) {
       const double share = raised(act, time);
       if (act.right_arm != right || share <= 0) continue;
-      // On an arc around the shoulder.
+      // The hand moves on an arc around the shoulder.
       const Vector3d there = pointingHand(act, shoulder, head);
       const Eigen::Quaterniond arc = Eigen::Quaterniond::FromTwoVectors(hand, there);
       const double length = hand.norm() + share * (there.norm() - hand.norm());

@@ -9,7 +9,7 @@
 
 namespace omnimapper::sim {
 
-/// How a person stands at one moment.
+/// How a person stands at one time.
 struct Posture {
   double time = 0;
   Skeleton in_map;
@@ -18,10 +18,11 @@ struct Posture {
   double left_foot_yaw = 0, right_foot_yaw = 0;
 };
 
-/// At every 0.05 s from before the first thing that happens to after the last.
+/// Postures at every 0.05 s, from before the first walk or act to after the last.
 std::vector<Posture> posturesOf(const PersonSpec& spec, const Walk& walk, const Anatomy& anatomy);
 
-/// What moves with a person, posture by posture; where it rests, only the first and the last place are kept.
+/// The track of something that moves with a person, posture by posture. While it rests, only the first and the last
+/// place are kept.
 Track trackAlong(const std::vector<Posture>& postures, const std::function<geometry::Se3(const Posture&)>& poseOf);
 
 }  // namespace omnimapper::sim

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPixelsPerMetre = 2000;
 constexpr double kLeastCapitals = 24;  // [pixel]
-constexpr double kUsualWidth = 0.3;    // text is made smaller rather than a sign wider than this [m]
+constexpr double kUsualWidth = 0.3;    // text is made smaller so that a sign is no wider than this [m]
 constexpr double kLargest = 0.5;       // [m]
 
 // What distinguishes a style; lengths in pixels.
@@ -110,7 +110,7 @@ Layout layOut(const SignSpec& spec, const Look& look) {
   return layout;
 }
 
-// Dots as for fingers: cells of two by three, some raised. They follow from the text.
+// Draws dots like braille: cells of two by three, some raised. They depend on the text.
 void drawDots(Texture& texture, double x, double y, const std::string& text, const Colour& colour) {
   for (std::size_t i = 0; i < std::min<std::size_t>(text.size(), 6); ++i) {
     const int code = static_cast<unsigned char>(text[i]) * 37 % 64;

@@ -7,8 +7,8 @@
 
 namespace omnimapper::sim {
 
-/// What hangs flat on a wall. Frame: x to the reader's right, y up, z to the reader; origin in the middle of the front,
-/// the back at z = -thickness.
+/// A plate that hangs flat on a wall. Frame: x to the reader's right, y up, z to the reader; origin in the middle of
+/// the front, the back at z = -thickness.
 struct SignPlate {
   std::string name;
   SurfaceKind kind;

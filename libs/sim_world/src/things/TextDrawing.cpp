@@ -14,7 +14,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-// Where Debian and its kin keep DejaVu, then where others do.
+// Folders of the DejaVu fonts, first those of Debian and its derivatives, then those of other systems.
 constexpr const char* kFontFolders[] = {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/dejavu",
                                         "/usr/share/fonts/dejavu-sans-fonts", "/usr/share/fonts/TTF",
                                         "/usr/local/share/fonts"};
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> charactersOf(const std::string& text) {
   return characters;
 }
 
-// A font at a size. One for each call: FreeType's objects are not for several threads.
+// A font at a size. Each call makes one, because FreeType's objects must not be shared by threads.
 class Font {
  public:
   explicit Font(const TextStyle& style) {

@@ -11,7 +11,7 @@ std::size_t indexOf(const Texture& texture, int x, int y) {
   return 3 * (static_cast<std::size_t>(y) * texture.width + x);
 }
 
-// Paints each pixel of the box by the share of it that `distance` (outside positive) leaves inside.
+// Paints each pixel of the box by its share inside the shape. `distance` is that to the border, positive outside.
 template <class Distance>
 void fillShape(Texture& texture, const Box2& box, const Colour& colour, const Distance& distance) {
   const int left = std::max(0, static_cast<int>(std::floor(box.left)) - 1),
@@ -78,12 +78,12 @@ void drawRing(Texture& texture, double x, double y, double radius, double width,
 
 void drawLine(Texture& texture, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
               const Colour& colour) {
-  const Eigen::Vector2d low = from.cwiseMin(to), high = from.cwiseMax(to), way = to - from;
-  const double squared = std::max(way.squaredNorm(), 1e-12);
+  const Eigen::Vector2d low = from.cwiseMin(to), high = from.cwiseMax(to), segment = to - from;
+  const double squared = std::max(segment.squaredNorm(), 1e-12);
   fillShape(texture, {low.x() - width, low.y() - width, high.x() + width, high.y() + width}, colour,
             [&](const Eigen::Vector2d& p) {
-              const double share = std::clamp((p - from).dot(way) / squared, 0.0, 1.0);
-              return (p - from - share * way).norm() - width / 2;
+              const double share = std::clamp((p - from).dot(segment) / squared, 0.0, 1.0);
+              return (p - from - share * segment).norm() - width / 2;
             });
 }
 

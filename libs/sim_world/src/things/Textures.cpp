@@ -11,7 +11,7 @@ namespace omnimapper::sim {
 
 namespace {
 
-// Sets each pixel to what `colour(u, v)` says at its middle, u to the right and v up in [0, 1].
+// Sets each pixel to `colour(u, v)` at its centre, u to the right and v up in [0, 1].
 template <class ColourAt>
 Texture paint(int side, const ColourAt& colour) {
   Texture texture = blankTexture(side, side, Colour::Zero());
@@ -29,7 +29,8 @@ float awayFromEdges(double share, double width) {
   return static_cast<float>(std::clamp(std::min(share, 1 - share) / width, 0.0, 1.0));
 }
 
-// Of hues near each other. Drawn in statements of their own: the order of a call's arguments is the compiler's choice.
+// A colour with a hue between two limits. It is drawn in several statements, because the compiler chooses the order in
+// which the arguments of a call are evaluated.
 Colour earthColour(Random& random, double hue_low, double hue_high) {
   const double hue = random.uniform(hue_low, hue_high), saturation = random.uniform(0.4, 0.65);
   return colourOf(hue, saturation, random.uniform(0.45, 0.8));
@@ -249,7 +250,7 @@ Texture drawTexture(TextureKind kind, Random& random, int side) {
     case TextureKind::print:
       return print(random, side);
   }
-  throw std::invalid_argument("a kind of texture that is not there");
+  throw std::invalid_argument("unknown kind of texture");
 }
 
 }  // namespace

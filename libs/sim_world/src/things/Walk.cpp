@@ -10,7 +10,7 @@ namespace omnimapper::sim {
 namespace {
 
 constexpr double kLift = 0.07;         // of a foot in the middle of its swing [m]
-constexpr double kHeadingReach = 0.3;  // a heading is that of the way from so far behind to so far ahead [m]
+constexpr double kHeadingReach = 0.3;  // a heading is that of the path from this far behind to this far ahead [m]
 
 double headingOf(const Eigen::Vector2d& travel) {
   return std::atan2(travel.y(), travel.x());

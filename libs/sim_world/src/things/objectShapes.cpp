@@ -184,10 +184,10 @@ void addPot(MeshBuilder& builder, Random& random) {
   leaf.infrared = 0.5f;
   const int leaves = addSurface(builder, "leaves", leaf);
   for (int i = 0; i < 9; ++i) {
-    const double turn = 2 * M_PI * i / 9 + random.uniform(-0.2, 0.2), lean = random.uniform(0.25, 0.75);
+    const double turn = 2 * M_PI * i / 9 + random.uniform(-0.2, 0.2), tilt = random.uniform(0.25, 0.75);
     const double length = random.uniform(0.2, 0.3);
     builder.at(
-        {Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * Eigen::AngleAxisd(lean, Vector3d::UnitY())),
+        {Eigen::Quaterniond(Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * Eigen::AngleAxisd(tilt, Vector3d::UnitY())),
          {0.03 * std::cos(turn), 0.03 * std::sin(turn), 0.15}});
     builder.addRevolution(leaves, {{0.004, 0}, {0.03, 0.5 * length}, {0.022, 0.8 * length}, {0, length}}, 6);
   }

@@ -8,7 +8,7 @@
 
 namespace omnimapper::sim {
 
-/// A shape of objects: adds its parts in its usual size, standing on z = 0. The first surface has no part's name.
+/// A shape of objects. `add` adds its parts in the usual size, standing on z = 0; the first surface has no part name.
 struct ObjectShape {
   std::string name;
   void (*add)(MeshBuilder&, Random&);

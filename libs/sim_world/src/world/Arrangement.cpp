@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "PlanChecks.h"
-#include "RoomWays.h"
+#include "RoomPaths.h"
 #include "StandingThings.h"
 
 namespace omnimapper::sim {
@@ -95,16 +95,16 @@ bool Arrangement::fits(const Footprint& footprint, const Ring& clear, const Room
   return clear.empty() || isWithin(clear, room.outline);
 }
 
-// Whether a robot still comes from each doorway of the room to all others, and to nearly all free floor.
-bool Arrangement::keepsWays(const Footprint& footprint, const Room& room) const {
+// Whether a robot can still get from each doorway of the room to all others, and to nearly all free floor.
+bool Arrangement::keepsPathsOpen(const Footprint& footprint, const Room& room) const {
   const Bounds bounds = boundsOf(room.outline);
-  if ((bounds.high - bounds.low).prod() > 400) return true;  // a ground or a hall: there is always a way
-  RoomWays ways(room, doorways_);
+  if ((bounds.high - bounds.low).prod() > 400) return true;  // a ground or a hall always leaves a path
+  RoomPaths paths(room, doorways_);
   for (const Footprint& other : taken_) {
-    if (other.low_z < room.floorAt(room.outline.front()) + 1.3) ways.block(other.outline_in_map);
+    if (other.low_z < room.floorAt(room.outline.front()) + 1.3) paths.block(other.outline_in_map);
   }
-  ways.block(footprint.outline_in_map);
-  return ways.areOpen();
+  paths.block(footprint.outline_in_map);
+  return paths.areOpen();
 }
 
 std::size_t Arrangement::accept(FurniturePlan piece, const Footprint& footprint, const Ring& clear) {
@@ -132,7 +132,7 @@ std::optional<std::size_t> Arrangement::place(FurniturePlan piece, double clear)
     if (!is_chair && footprint.low_z < 1.3 && sized.height > 0.43 && convexOverlap(ring, footprint.outline_in_map))
       return {};
   }
-  if (footprint.low_z < room.floorAt({sized.x, sized.y}) + 1.3 && !room.is_outdoors && !keepsWays(footprint, room))
+  if (footprint.low_z < room.floorAt({sized.x, sized.y}) + 1.3 && !room.is_outdoors && !keepsPathsOpen(footprint, room))
     return {};
   return accept(sized, footprint, front);
 }

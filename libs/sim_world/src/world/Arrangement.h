@@ -15,8 +15,9 @@ namespace omnimapper::sim {
 /// Where along a wall a piece is tried first.
 enum class Along { corner, middle, anywhere };
 
-/// Furnishes rooms as people do: along walls, around tables, with free floor before doors and fronts, and a way for a
-/// robot through every room. What does not fit is left out. First rooms and openings go into `plan`; raise() ends that.
+/// Furnishes rooms as people do: along walls, around tables, with free floor before doors and fronts, and a path for a
+/// robot through every room. Pieces that do not fit are left out. Rooms and openings are added first; raise() then
+/// builds them.
 class Arrangement {
  public:
   Arrangement(const WorldOptions& options, const std::string& file);
@@ -40,44 +41,49 @@ class Arrangement {
   /// plan.furniture, or nothing if there is no place left.
   std::optional<std::size_t> alongWall(const std::string& room, const std::string& shape, Along along = Along::anywhere,
                                        double clear = 0.6, FurniturePlan sized = {});
-  /// As near to the middle of the room as it fits, give or take `spread` [m], turned by a multiple of 90 deg.
+  /// Puts a piece as near to the middle of the room as it fits, give or take `spread` [m], turned by a multiple of 90
+  /// deg.
   std::optional<std::size_t> inMiddle(const std::string& room, const std::string& shape, FurniturePlan sized = {},
                                       double spread = 0.4);
-  /// At a point of a piece's own frame, turned against it.
+  /// Puts a piece at a point in the frame of another one, turned by `turn` against it.
   std::optional<std::size_t> beside(std::size_t piece, const std::string& shape, const Eigen::Vector2d& in_piece,
                                     double turn, FurniturePlan sized = {});
-  /// Exactly there.
+  /// Puts a piece exactly where it says, if it fits.
   std::optional<std::size_t> place(FurniturePlan piece, double clear = 0);
-  /// Chairs on the long sides of a table, up to `count`, moved and turned a little.
+  /// Puts up to `count` chairs on the long sides of a table, moved and turned a little.
   void chairsAround(std::size_t table, const std::string& shape, int count);
 
-  /// Up to `count` objects of these shapes on a level surface of a piece, its `part`, spread at random.
+  /// Spreads up to `count` objects of these shapes at random on a level surface of a piece, its `part`.
   void objectsOn(std::size_t piece, const std::string& part, int count, const std::vector<std::string>& shapes);
-  /// Some of the objects are carried to other surfaces at the options' move_time.
+  /// Lets a share of the objects be carried to other surfaces at the options' move_time.
   void carryObjects(double share);
-  /// A free place for a thing of this reach on one of the surfaces that objectsOn() was asked for, of rooms whose name
-  /// begins with `rooms`; it is taken from then on.
+  /// A free place for an item with these extents on one of the surfaces given to objectsOn(), in rooms whose names
+  /// begin with `rooms`; it is taken from then on.
   std::optional<PlacePlan> freePlace(const std::string& rooms, const Eigen::Vector2d& reach);
-  /// Piles of boxes and other things along walls, as many as the level asks for; at level medium so many for each m^2.
+  /// Puts piles of boxes and other clutter along walls: `per_square_metre` of them at level medium, fewer or more at
+  /// the others.
   void scatter(const std::string& room, double per_square_metre);
 
-  /// On the wall of `from` beside the opening: the sign of `room`.
+  /// Puts the sign of `room` on the wall of `from` beside the opening.
   void signBeside(const OpeningPlan& door, const std::string& from, const std::string& room,
                   const std::vector<std::string>& lines = {});
-  /// A free place of this size on the walls of a room, `share` of the way around it; it is taken from then on.
+  /// The first free place of this size on the walls of a room from `share` of its circumference on; it is taken from
+  /// then on.
   std::optional<OnWallPlan> freeWall(const std::string& room, double share, double z, double width, double height);
-  /// Up to `count` posters and notices around a room.
+  /// Puts up to `count` posters and notices on the walls of a room.
   void postersIn(const std::string& room, int count);
-  /// After signBeside(): `count` signs of doors to rooms that are not there, evenly spread, become one of three words.
+  /// Gives `count` signs of doors to rooms that do not exist, evenly spread, one of three words. To be called after
+  /// signBeside().
   void repeatSigns(int count);
-  /// One on the wall that each corridor leads up to, through passages on its axis, clockwise around the building.
+  /// Puts an exit sign on the wall that each corridor leads up to, through passages on its axis, clockwise around the
+  /// building.
   void exitSigns();
-  /// Up to `count` posters with numbers on the walls of corridors, in turn.
+  /// Puts up to `count` posters with numbers on the walls of corridors, in turn.
   void announcements(int count);
 
  private:
   bool fits(const Footprint& footprint, const Ring& clear, const Room& room) const;
-  bool keepsWays(const Footprint& footprint, const Room& room) const;
+  bool keepsPathsOpen(const Footprint& footprint, const Room& room) const;
   std::size_t accept(FurniturePlan piece, const Footprint& footprint, const Ring& clear);
   std::string newName(const std::string& shape);
 

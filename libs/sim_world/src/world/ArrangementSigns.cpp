@@ -72,7 +72,7 @@ void Arrangement::exitSignAhead(const Vector2d& from, const Vector2d& direction)
 void Arrangement::announcements(int count) {
   const auto rooms = corridors();
   for (int i = 0; i < count && !rooms.empty(); ++i) {
-    constexpr double kGolden = 0.618033988749895;  // shares that keep apart, however many there are
+    constexpr double kGolden = 0.618033988749895;  // spreads the shares evenly, however many there are
     const double share = std::fmod(kGolden * (i + 1), 1.0), width = 0.42, height = 0.594;
     const auto place = freeWall(rooms[static_cast<std::size_t>(i) % rooms.size()]->name, share, 1.5, width, height);
     if (place) plan.posters.push_back({newName("announcement"), "announcement", *place, width, height});

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-// The part of a level surface that things are put on, in the frame of the piece.
+// The part of a level surface that objects are put on, in the frame of the piece.
 struct Usable {
   Vector2d low, high;
 };
@@ -145,9 +145,9 @@ std::optional<OnWallPlan> Arrangement::freeWall(const std::string& room_name, do
     lengths.push_back((outline[(i + 1) % outline.size()] - outline[i]).norm());
     around += lengths.back();
   }
-  // From there on, in steps, once around.
-  for (double way = 0; way < around; way += 0.1) {
-    double u = std::fmod(share * around + way, around);
+  // Tries places in steps from `share` on, once around the room.
+  for (double travelled = 0; travelled < around; travelled += 0.1) {
+    double u = std::fmod(share * around + travelled, around);
     std::size_t edge = 0;
     while (u > lengths[edge]) u -= lengths[edge++];
     const Vector2d along = (outline[(edge + 1) % outline.size()] - outline[edge]) / lengths[edge];

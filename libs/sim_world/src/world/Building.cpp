@@ -19,7 +19,7 @@ std::vector<Room> makeRooms(const WorldPlan& plan) {
   std::vector<Room> rooms;
   for (const RoomPlan& from : plan.rooms) {
     if (!isSimple(from.outline))
-      refuse(plan, from.name, "outline_m", "must be three corners or more, and cross itself nowhere");
+      refuse(plan, from.name, "outline_m", "must have three corners or more and must not cross itself");
     refuseUnknownMaterial(plan, from.name, "wall", from.wall);
     refuseUnknownMaterial(plan, from.name, "floor", from.floor);
     refuseUnknownMaterial(plan, from.name, "ceiling", from.ceiling);
@@ -42,7 +42,7 @@ std::vector<Room> makeRooms(const WorldPlan& plan) {
   return rooms;
 }
 
-// Rooms that touch need a passage over all they share, or two faces of walls would lie in one place.
+// Rooms that touch need a passage over their whole common border, or two wall faces would coincide.
 void refuseTouching(const WorldPlan& plan, const Building& building) {
   for (const WallFace& a : building.walls) {
     for (const WallFace& b : building.walls) {
@@ -107,7 +107,7 @@ void cutHole(const WorldPlan& plan, const FittedOpening& opening, double low_u, 
   std::sort(wall.holes.begin(), wall.holes.end(), [](const auto& a, const auto& b) { return a.low_u < b.low_u; });
 }
 
-// The hole in the face of each room that it joins.
+// Cuts the hole into the wall of each room that the opening joins.
 void cutOpening(const WorldPlan& plan, const FittedOpening& opening, std::vector<WallFace>& walls) {
   WallFace& wall = walls[opening.wall];
   cutHole(plan, opening, opening.low_u, opening.high_u, wall);
@@ -117,7 +117,7 @@ void cutOpening(const WorldPlan& plan, const FittedOpening& opening, std::vector
           other.alongOf(wall.start + opening.low_u * wall.direction), other);
 }
 
-// The solid behind a wall, without the openings that people walk through.
+// Adds the solid behind a wall, without the openings that people walk through.
 void addObstacles(const WallFace& wall, std::vector<Ring>& obstacles) {
   double from = 0;
   const auto add = [&](double to) {

@@ -13,7 +13,7 @@ double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The axis across an edge of one ring separates both.
+// Whether a line along an edge of `a` separates both rings.
 bool isSeparatedByEdges(const Ring& a, const Ring& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vector2d edge = a[(i + 1) % a.size()] - a[i];
@@ -67,9 +67,10 @@ Bounds boundsOf(const Ring& ring) {
 }
 
 double distanceToSegment(const Vector2d& point, const Vector2d& a, const Vector2d& b) {
-  const Vector2d way = b - a;
-  const double share = way.squaredNorm() > 0 ? std::clamp(way.dot(point - a) / way.squaredNorm(), 0.0, 1.0) : 0.0;
-  return (point - a - share * way).norm();
+  const Vector2d segment = b - a;
+  const double share =
+      segment.squaredNorm() > 0 ? std::clamp(segment.dot(point - a) / segment.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (point - a - share * segment).norm();
 }
 
 bool contains(const Ring& ring, const Vector2d& point) {

@@ -220,7 +220,7 @@ void radiator(Piece& p) {
   p.box(body, {-p.length / 2, -p.width / 2, 0}, {p.length / 2, p.width / 2, p.height});
 }
 
-// Cartons and crates as they pile up along walls and on floors, turned a little each.
+// Cartons and crates as they pile up along walls and on floors, each turned a little.
 void clutter(Piece& p) {
   static const char* const looks[] = {"cardboard", "cardboard", "plastic_blue", "laminate_grey", "cloth_black"};
   int count = 0;

@@ -74,7 +74,7 @@ void hedge(Piece& p) {
   }
 }
 
-// A front of a house with rows of windows and a door: the truth of its front is one plane with holes.
+// A front of a house with rows of windows and a door. The true surface of its front is one plane with holes.
 void house(Piece& p) {
   const double l = p.length / 2, y = -p.width / 2, back = p.width / 2;
   const int body = p.part("body"), glass = p.part("windows", "screen"), door = p.part("door", "door_wood");

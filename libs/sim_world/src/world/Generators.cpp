@@ -62,7 +62,7 @@ WorldPlan generate(const WorldOptions& options, const std::string& file_for_mess
   }
   const std::string near = base::nearestName(options.generator, generatorNames());
   throw base::Error(base::ExitCode::out_of_range, file_for_messages + ": [world] generator = " + options.generator +
-                                                      ": there is none of that name" +
+                                                      ": there is no generator of that name" +
                                                       (near.empty() ? "" : "; did you mean '" + near + "'?") +
                                                       " Known: " + base::option_text::format(generatorNames()));
 }

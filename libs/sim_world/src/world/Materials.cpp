@@ -15,10 +15,10 @@ struct Row {
   const char* name;
   float red, green, blue;  // linear
   float infrared, transmission;
-  float tile;  // one picture of its texture is so wide and high [m]
+  float tile;  // width and height of one picture of its texture [m]
 };
 
-// Infrared: what dull surfaces give back near 0.9 um; dyes of cloth are bright there, carbon black is not.
+// Infrared values are what dull surfaces reflect near 0.9 um, where dyes of cloth are bright and carbon black is not.
 constexpr Row kRows[] = {
     {"paint_white", 0.78f, 0.77f, 0.73f, 0.80f, 0, 1.5f},
     {"paint_cream", 0.80f, 0.72f, 0.54f, 0.78f, 0, 1.5f},
@@ -113,7 +113,7 @@ constexpr TextureRow kTextureRows[] = {
     {"bark", TextureKind::noise},
 };
 
-// A texture multiplies the colour: what is left of the wanted colour when the texture's mean is taken out.
+// A texture multiplies the colour. This is the colour that gives the wanted one together with the texture's mean.
 Eigen::Vector3f withoutMean(const Eigen::Vector3f& colour, const Texture& texture) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < texture.rgb.size(); ++i) sum[static_cast<int>(i % 3)] += texture.rgb[i] / 255.0;
@@ -146,7 +146,7 @@ const std::vector<std::string>& materialNames() {
 }
 
 std::optional<NamedMaterial> findMaterial(const std::string& name) {
-  // A texture is drawn once, and shared by all that is made of it.
+  // The texture of a material is drawn once and shared by all surfaces of that material.
   static std::mutex mutex;
   static std::map<std::string, NamedMaterial> made;
   const std::lock_guard lock(mutex);

@@ -21,7 +21,7 @@ Vector3d areaVector(const Loop& loop) {
   return sum;
 }
 
-// Axes of a face for who looks at it: to the right, and up.
+// Axes of a face seen from its front: to the right, and up.
 struct Axes {
   Vector3d right, up;
 };
@@ -38,7 +38,7 @@ Ring flatten(const Loop& loop, const Axes& axes) {
   return ring;
 }
 
-// Where the texture begins and how large one picture is, for a face with this outline.
+// The origin of the texture and the size of one picture, for a face with this outline.
 struct Tiling {
   Vector2d origin = Vector2d::Zero(), size = Vector2d::Ones();
   Eigen::Vector2f at(const Vector2d& p) const { return (p - origin).cwiseQuotient(size).cast<float>(); }
@@ -183,7 +183,7 @@ void MeshBuilder::addPrism(int surface, const std::vector<Vector2d>& outline, do
 
 void MeshBuilder::addRevolution(int surface, const std::vector<ProfilePoint>& profile, int sides) {
   if (profile.size() < 2 || sides < 3) throw std::invalid_argument(body_.name + ": a profile without an extent");
-  // Along the profile, and at its widest around, for the texture.
+  // Lengths along the profile and its largest radius, for the texture.
   std::vector<double> along{0};
   double widest = 0;
   for (std::size_t i = 0; i < profile.size(); ++i) {

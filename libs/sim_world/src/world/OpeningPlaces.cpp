@@ -16,10 +16,10 @@ namespace {
 using Eigen::Vector2d;
 using Kind = OpeningPlan::Kind;
 
-constexpr double kToCorner = 0.25;        // from an opening to the end of its wall, at least [m]
-constexpr double kToBorder = 0.15;        // half of what is left between two openings, at least [m]
-constexpr double kFacing = 0.5;           // rooms that are nearer to each other face each other [m]
-constexpr double kFreeOfLeaves = 0.9;     // floor before and behind a doorway that no leaf stands in [m]
+constexpr double kToCorner = 0.25;        // smallest distance from an opening to the end of its wall [m]
+constexpr double kToBorder = 0.15;        // half of the smallest distance between two openings [m]
+constexpr double kFacing = 0.5;           // rooms that are nearer to each other than this face each other [m]
+constexpr double kFreeOfLeaves = 0.9;     // depth of the floor before and behind a doorway in which no leaf stands [m]
 constexpr double kLeafMargin = 0.12;      // around a leaf [m]
 constexpr double kNarrowestWindow = 0.5;  // [m]
 constexpr int kPlaceAttempts = 50;
@@ -33,7 +33,7 @@ struct OpeningSite {
   OpeningPlan* opening;
   int along;          // axis of the wall
   bool is_high;       // whether the wall is at the upper end of the room across the other axis
-  double line;        // of the wall across that axis [m]
+  double line;        // coordinate of the wall across that axis [m]
   WallInterval free;  // part of the wall that the opening may take [m]
   bool has_leaf() const { return opening->kind == Kind::door && opening->leaf == OpeningPlan::Leaf::open; }
   double at() const { return along == 0 ? opening->x : opening->y; }
@@ -46,7 +46,7 @@ const RoomPlan* find(const WorldPlan& plan, const std::string& name) {
   return room == plan.rooms.end() ? nullptr : &*room;
 }
 
-// The wall of the first room that the opening's place is nearest to; none if a room is where the outside should be.
+// The wall of the first room that is nearest to the opening's place; none if a room is where the outside should be.
 std::optional<OpeningSite> siteOf(const WorldPlan& plan, OpeningPlan& opening) {
   const RoomPlan& room = *find(plan, opening.rooms[0]);
   const Bounds bounds = boundsOf(room.outline);
@@ -85,7 +85,7 @@ bool isInOneWall(const OpeningSite& a, const OpeningSite& b) {
   return a.along == b.along && std::abs(a.line - b.line) < kFacing;
 }
 
-// Every opening gets what is nearer to its place than to that of any other in the wall.
+// Gives every opening the part of its wall that is nearer to its place than to that of any other opening.
 void shareWalls(std::vector<OpeningSite>& sites) {
   for (OpeningSite& site : sites) {
     for (const OpeningSite& other : sites) {
@@ -112,12 +112,13 @@ WallInterval openPart(const OpeningSite& site) {
   return {site.at() - site.opening->width / 2, site.at() + site.opening->width / 2};
 }
 
-// Floor on both sides of a doorway, or none of a window.
+// The floor on both sides of a doorway; empty for a window.
 Ring doorwayOf(const OpeningSite& site) {
   return site.opening->kind == Kind::window ? Ring() : boxAt(site, openPart(site), kFreeOfLeaves, kFreeOfLeaves);
 }
 
-// An open leaf stands square to its wall. Seen from the room, left is the lower end of walls at low x and high y.
+// The floor that an open leaf takes, which stands at right angles to its wall. Seen from the room, left is the lower
+// end of walls at low x and high y.
 Ring leafOf(const OpeningSite& site) {
   if (!site.has_leaf()) return {};
   const bool left_is_low = (site.along == 0) == site.is_high;
@@ -135,7 +136,7 @@ bool obstructEachOther(const OpeningSite& a, const OpeningSite& b) {
          overlapIfAny(leafOf(a), leafOf(b));
 }
 
-// Whether the wall has a place for it where it obstructs none of the others.
+// Draws a place in the wall where the opening obstructs none of the others. Returns whether there is one.
 bool drawPlace(OpeningSite& site, const std::vector<OpeningSite>& placed, Random& random) {
   OpeningPlan& opening = *site.opening;
   const double most = site.free.high - site.free.low;

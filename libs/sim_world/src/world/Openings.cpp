@@ -18,12 +18,12 @@ using Eigen::Vector3d;
 
 constexpr double kLeafThickness = 0.04;  // [m]
 constexpr double kDoorwayDepth = 0.7;    // floor kept free before a door [m]
-constexpr double kAtWall = 1.0;          // farther than this a point is at no wall [m]
-constexpr double kThickest = 1.0;        // of the walls that an opening goes through [m]
+constexpr double kAtWall = 1.0;          // largest distance of an opening's point from its wall [m]
+constexpr double kThickest = 1.0;        // largest thickness of the walls that an opening goes through [m]
 constexpr double kOutsideWall = 0.3;     // thickness of a wall to the outside [m]
 constexpr int kOutside = -1;
 
-// Numbers of the two rooms that it joins.
+// Numbers of the two rooms that an opening joins.
 std::array<int, 2> roomsOf(const WorldPlan& plan, const OpeningPlan& opening, const std::vector<Room>& rooms) {
   if (opening.rooms.size() != 2) refuse(plan, opening.name, "rooms", "must name the two rooms it joins");
   std::array<int, 2> numbers{kOutside, kOutside};
@@ -38,7 +38,7 @@ std::array<int, 2> roomsOf(const WorldPlan& plan, const OpeningPlan& opening, co
   return numbers;
 }
 
-// The walls nearest the opening's place that stand between its rooms, and what they share.
+// The walls nearest to the opening's place that stand between its rooms, and the interval that they share.
 struct WallPair {
   int wall = -1, other_wall = kOutside;
   Facing share;
@@ -81,12 +81,12 @@ double ceilingOver(const WorldPlan& plan, const FittedOpening& opening, const st
     const double there = other.alongOf(wall.start + u * wall.direction);
     ceiling = std::min(ceiling, other.ceilingAt(there));
     if (std::abs(other.floorAt(there) - wall.floorAt(u)) > 1e-6)
-      refuse(plan, opening.plan->name, "rooms", "their floors are not of one height there");
+      refuse(plan, opening.plan->name, "rooms", "the floors of the two rooms do not have the same height there");
   }
   return ceiling;
 }
 
-// A point of the opening: along the wall, into its solid, up.
+// A point of the opening: u along the wall, `depth` into its solid, at height z.
 Vector3d inside(const WallFace& wall, double u, double depth, double z) {
   const Vector2d p = wall.start + u * wall.direction - depth * wall.inward();
   return {p.x(), p.y(), z};
@@ -122,7 +122,7 @@ Body makeFrame(const FittedOpening& opening, const WallFace& wall) {
   return body;
 }
 
-// As people go or look through it.
+// The opening as people go or look through it.
 surfaces::Opening openingOf(const FittedOpening& fitted, const WallFace& wall) {
   const OpeningPlan& plan = *fitted.plan;
   surfaces::Opening opening;

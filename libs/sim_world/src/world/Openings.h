@@ -4,7 +4,7 @@
 
 namespace omnimapper::sim {
 
-/// An opening that has found its walls.
+/// An opening with the walls that it goes through.
 struct FittedOpening {
   const OpeningPlan* plan = nullptr;
   int wall = -1, other_wall = -1;  ///< other_wall -1: the outside
@@ -17,7 +17,7 @@ struct FittedOpening {
 FittedOpening fitOpening(const WorldPlan& plan, const OpeningPlan& opening, const std::vector<Room>& rooms,
                          const std::vector<WallFace>& walls);
 
-/// Frame, pane, leaf and doorway; `walls` are those it was fitted to.
+/// Adds the frame, pane, leaf and doorway of an opening; `walls` are those it was fitted to.
 void addOpening(const FittedOpening& opening, const std::vector<WallFace>& walls, Building& building);
 
 }  // namespace omnimapper::sim

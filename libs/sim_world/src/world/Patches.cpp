@@ -21,7 +21,7 @@ Vector3d areaNormal(const Loop3& walk) {
   return sum;
 }
 
-/// Corners by their place: a body has one for each face that meets there.
+/// Numbers corners by their position, since a body has a vertex for each face that meets there.
 class Places {
  public:
   int numberOf(const Vector3d& point) {
@@ -71,7 +71,7 @@ std::vector<std::vector<std::size_t>> connected(const std::vector<FlatTriangle>&
   return result;
 }
 
-// Whether a group is a facet of something round: it meets another one at an edge and hardly bends there.
+// Whether a group is a facet of something round: at an edge it meets another group at a small angle.
 bool isFacet(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& group,
              const std::map<std::pair<int, int>, std::vector<std::size_t>>& at_edge) {
   const double least = std::cos(40 * M_PI / 180);
@@ -81,15 +81,15 @@ bool isFacet(const std::vector<FlatTriangle>& triangles, const std::vector<std::
       const auto across = at_edge.find({triangle.corners[(k + 1) % 3], triangle.corners[k]});
       if (across == at_edge.end()) continue;
       for (const std::size_t other : across->second) {
-        const bool bends = !isOnPlaneOf(triangle, triangles[other]);
-        if (bends && triangle.plane.normal.dot(triangles[other].plane.normal) > least) return true;
+        const bool leaves_plane = !isOnPlaneOf(triangle, triangles[other]);
+        if (leaves_plane && triangle.plane.normal.dot(triangles[other].plane.normal) > least) return true;
       }
     }
     return false;
   });
 }
 
-// The walks around a group: edges that no second triangle of it has the other way.
+// The closed walks around a group, along edges that no other triangle of it has in the opposite direction.
 std::vector<Loop3> walksAround(const std::vector<FlatTriangle>& triangles, const std::vector<std::size_t>& group,
                                const Places& places) {
   std::map<std::pair<int, int>, int> edges;
@@ -156,7 +156,7 @@ void addPatchesOf(const Body& body, int body_number, int local, int surface_numb
   for (const auto& group : connected(triangles)) {
     if (isFacet(triangles, group, at_edge)) continue;
     const geometry::Plane3& plane = triangles[group.front()].plane;
-    // Stretches that meet in a corner alone have a walk each; holes go the other way around.
+    // Parts that meet only in a corner have a walk each; the walks of holes go in the opposite direction.
     std::vector<surfaces::FlatPart> parts;
     std::vector<double> areas;
     std::vector<Loop3> holes;

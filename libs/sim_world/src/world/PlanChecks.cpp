@@ -13,7 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kFarthest = 1e4;  // from the map's origin along x and y: single precision has a millimetre there [m]
+// Largest distance from the map's origin along x and y, where single precision resolves a millimetre [m].
+constexpr double kFarthest = 1e4;
 
 }  // namespace
 
@@ -28,7 +29,7 @@ void refuseTwins(const WorldPlan& plan) {
   const auto check = [&](const auto& list) {
     for (const auto& item : list) {
       if (!names.insert(item.name).second)
-        refuse(plan, item.name, "name", "two things are called so; call this section something else");
+        refuse(plan, item.name, "name", "two sections have this name; give this one another name");
     }
   };
   check(plan.rooms);

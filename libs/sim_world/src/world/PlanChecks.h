@@ -10,9 +10,9 @@ namespace omnimapper::sim {
 void refuseUnknownMaterial(const WorldPlan& plan, const std::string& section, const std::string& key,
                            const std::string& name);
 
-/// Everything is known by its name.
+/// Throws base::Error(out_of_range) if two sections of a plan have the same name.
 void refuseTwins(const WorldPlan& plan);
-/// The plan of the floor is a grid that has to fit into memory.
+/// Throws base::Error(out_of_range) if the place is so large that a grid of its floor might not fit into memory.
 void refuseHugePlaces(const WorldPlan& plan);
 
 /// The seed of the object of this number in a plan.

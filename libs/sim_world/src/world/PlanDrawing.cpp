@@ -67,7 +67,7 @@ std::string labelOf(std::string name) {
   return draw::escapeMarkup(name);
 }
 
-// Parts below eye level of a body that is looked at from above, the lower ones first.
+// Draws the faces of a body that are seen from above, the lower ones first.
 void drawBody(const Body& body, const geometry::Se3& map_from_body, double mix, Drawing& drawing) {
   struct Part {
     double z;
@@ -111,7 +111,7 @@ void drawWalls(const Body& body, const geometry::Se3& map_from_body, Drawing& dr
   }
 }
 
-void drawSmallThings(const World& world, double time, Drawing& drawing) {
+void drawItems(const World& world, double time, Drawing& drawing) {
   for (const Body& body : world.bodies) {
     const auto pose = body.track.at(time);
     if (!pose || body.surfaces.empty()) continue;
@@ -178,7 +178,7 @@ std::string drawPlan(const World& world, const PlanDrawingOptions& options) {
   for (const Body& body : world.bodies) {
     if (const auto pose = body.track.at(options.time)) drawWalls(body, *pose, drawing);
   }
-  drawSmallThings(world, options.time, drawing);
+  drawItems(world, options.time, drawing);
   if (!options.path.empty()) drawing.line(options.path, "stroke:#d02080;stroke-width:1.5");
   for (const Room& room : world.rooms) {
     Vector2d low = room.outline.front(), high = low;

@@ -12,15 +12,15 @@ namespace {
 constexpr Range kAnywhere{};
 constexpr Range kSize{0, 100}, kSizeOnWall{0, 5};  // [m]
 
-// What stands somewhere, and is carried elsewhere.
+// Keys of what stands somewhere and is carried elsewhere.
 template <class Ini>
 void addPlace(OptionTable<Ini>& table) {
   table.number("x_m", &Ini::x, kAnywhere, "x coordinate of the centre in the map.")
       .number("y_m", &Ini::y, kAnywhere, "y coordinate of the centre in the map.")
       .number("yaw_deg", &Ini::yaw, kAnywhere, "Yaw in the map. At 0 the front faces -y.")
-      .text("on", &Ini::on, "Level surface that the thing stands on, such as table_1/top. Empty means the floor.")
+      .text("on", &Ini::on, "Level surface that the item stands on, such as table_1/top. Empty means the floor.")
       .list("moves", &Ini::move_words,
-            "Moves of the thing, separated by |: 'time x y yaw [on]' to carry it elsewhere or 'time away' to remove "
+            "Moves of the item, separated by |: 'time x y yaw [on]' to carry it elsewhere or 'time away' to remove "
             "it, in s, m and deg.");
 }
 
@@ -28,9 +28,9 @@ template <class Ini>
 void addOnWall(OptionTable<Ini>& table) {
   table
       .number("x_m", &Ini::x, kAnywhere,
-              "x coordinate of a point in the room, at most 0.5 m from the wall that the thing hangs on.")
+              "x coordinate of a point in the room, at most 0.5 m from the wall that the item hangs on.")
       .number("y_m", &Ini::y, kAnywhere,
-              "y coordinate of a point in the room, at most 0.5 m from the wall that the thing hangs on.")
+              "y coordinate of a point in the room, at most 0.5 m from the wall that the item hangs on.")
       .number("z_m", &Ini::z, Range::positive(), "Height of the centre above the floor.");
 }
 
@@ -38,7 +38,7 @@ template <class Ini>
 void addSize(OptionTable<Ini>& table) {
   table.number("length_m", &Ini::length, kSize, "Length along the front. 0 means the usual length.")
       .number("width_m", &Ini::width, kSize, "Width from front to back. 0 means the usual width.")
-      .number("height_m", &Ini::height, kSize, "Height of the thing itself. 0 means the usual height.");
+      .number("height_m", &Ini::height, kSize, "Height from bottom to top. 0 means the usual height.");
 }
 
 }  // namespace
@@ -60,10 +60,10 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
           .number("length_m", &WorldOptions::length, {24, 1000},
                   "Length of a generated loop along the middle of its corridor.")
           .number("move_time_s", &WorldOptions::move_time, kAnywhere,
-                  "Time at which moveable things of a generated place are carried elsewhere. A negative time means "
+                  "Time at which moveable objects of a generated place are carried elsewhere. A negative time means "
                   "never.")
           .number("wear", &WorldOptions::wear, {0, 0.3},
-                  "Standard deviation over mean of the brightness of static things, from stains, scuffs and grain that "
+                  "Standard deviation over mean of the brightness of static bodies, from stains, scuffs and grain that "
                   "never repeat. With 0 all is new, and a camera finds almost no texture on walls.")
           .choice("sign_style", &WorldOptions::sign_style, {{"dark", "dark"}, {"white", "white"}},
                   "Style of the door signs of a generated place, which decides their look and how high they hang.")
@@ -84,7 +84,7 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
           .list("objects", &WorldOptions::objects, "Names of the sections that describe objects.")
           .list("signs", &WorldOptions::signs, "Names of the sections that describe door signs.")
           .list("posters", &WorldOptions::posters,
-                "Names of the sections that describe posters and other things on walls.")
+                "Names of the sections that describe posters and other items on walls.")
           .list("markers", &WorldOptions::markers, "Names of the sections that describe square markers.")
           .list("landmarks", &WorldOptions::landmarks, "Names of the sections that describe point landmarks.")
           .list("people", &WorldOptions::people, "Names of the sections that describe people.");
@@ -182,9 +182,9 @@ const OptionTable<PosterIni>& PosterIni::table() {
   static const auto table = [] {
     OptionTable<PosterIni> result;
     addOnWall(result);
-    result.number("width_m", &PosterIni::width, kSizeOnWall, "Width of the thing on the wall. 0 means the usual width.")
+    result.number("width_m", &PosterIni::width, kSizeOnWall, "Width of the item on the wall. 0 means the usual width.")
         .number("height_m", &PosterIni::height, kSizeOnWall,
-                "Height of the thing itself, from its bottom to its top. 0 means the usual height.");
+                "Height of the item from its bottom to its top. 0 means the usual height.");
     return result;
   }();
   return table;
@@ -226,7 +226,7 @@ const OptionTable<PersonIni>& PersonIni::table() {
                 "Positions of the person over time: 'time x y' in s and m, groups separated by |.")
           .list("pointing", &PersonIni::pointing_words,
                 "Pointing gestures: 'begin end target [arm]' in s, groups separated by |. The target is the name of a "
-                "thing, or x y z in m, and the arm is right or left, right if none is given.");
+                "body or surface, or x y z in m, and the arm is right or left, right if none is given.");
   return table;
 }
 

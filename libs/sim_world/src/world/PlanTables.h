@@ -8,7 +8,7 @@
 
 namespace omnimapper::sim {
 
-/// The plans as an INI writes them: what is no number or word there is a list of words here.
+/// The plans as an INI gives them: values that are neither numbers nor single words are lists of words here.
 
 struct RoomIni : RoomPlan {
   std::vector<std::string> rectangle_words, outline_words;

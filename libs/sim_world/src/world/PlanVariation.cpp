@@ -15,16 +15,16 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::uint64_t kPlanStream = 0x9e1;
-constexpr double kNominalWall = 0.12;                              // of the fixed plans [m]
+constexpr double kNominalWall = 0.12;                              // thickness in the fixed plans [m]
 constexpr double kNominalCeiling = 2.7;                            // [m]
 constexpr double kThinnestWall = 0.08, kThickestWall = 0.24;       // [m]
 constexpr double kNarrowestCorridor = 1.5, kWidestCorridor = 2.4;  // [m]
 constexpr double kLowestCeiling = 2.4, kHighestCeiling = 3.0;      // [m]
-// Of the parts between two lines of the plan. With the walls that cross it a room stays within 80 to 130 %.
+// Factors on the distances between two lines of the plan. With the walls in it a room stays within 80 to 130 %.
 constexpr double kSmallestFactor = 0.82, kLargestFactor = 1.25;
 constexpr double kSameLine = 1e-6;  // [m]
 
-// To a centimetre.
+// Rounds to a centimetre.
 double rounded(double metres) {
   return std::round(100 * metres) / 100;
 }
@@ -40,7 +40,7 @@ bool isNarrowAlong(const RoomPlan& room, int axis) {
 double PlanVariation::Axis::at(double coordinate) const {
   std::size_t i = 1;
   while (i + 1 < from.size() && coordinate > from[i]) ++i;
-  // A line of the fixed plan becomes exactly the line of the drawn one, for all rooms that it bounds.
+  // A line of the fixed plan becomes exactly that of the drawn one, for all rooms that it bounds.
   if (std::abs(coordinate - from[i]) < kSameLine) return to[i];
   if (std::abs(coordinate - from[i - 1]) < kSameLine) return to[i - 1];
   const double share = (coordinate - from[i - 1]) / (from[i] - from[i - 1]);

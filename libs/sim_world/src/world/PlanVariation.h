@@ -8,8 +8,8 @@
 
 namespace omnimapper::sim {
 
-/// Turns the fixed plan of a generator into one that [world] plan_seed draws. Rooms are rectangles along the axes that
-/// were added with Arrangement::room(). The generator first says which rooms may be left out or turned round, then
+/// Turns the fixed plan of a generator into one that is drawn by [world] plan_seed. Rooms are rectangles along the axes
+/// that were added with Arrangement::room(). The generator first names rooms that may be left out or reversed, then
 /// redraw() draws sizes and openings. The drawn plan depends on plan_seed alone.
 class PlanVariation {
  public:
@@ -31,7 +31,8 @@ class PlanVariation {
   void redraw();
 
  private:
-  /// Where the lines of the fixed plan across one axis are in the drawn one [m].
+  /// Coordinates along one axis of the lines of the fixed plan (`from`) and of the same lines in the drawn one (`to`)
+  /// [m].
   struct Axis {
     std::vector<double> from, to;
     double at(double coordinate) const;

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kHalfPerson = 0.15;  // a person fills so much to each side of its way [m]
+constexpr double kHalfPerson = 0.15;  // space that a person fills to each side of its path [m]
 
 }  // namespace
 
@@ -145,15 +145,15 @@ void StandingSpace::refuseBlocked(const std::string& person, const std::string& 
   }
 }
 
-void StandingSpace::refuseBlockedWay(const PersonSpec& person) const {
+void StandingSpace::refuseBlockedPath(const PersonSpec& person) const {
   const auto format = [](const Vector2d& p) { return "(" + base::brief(p.x()) + ", " + base::brief(p.y()) + ")"; };
   const auto& waypoints = person.waypoints;
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const bool is_last = i + 1 == waypoints.size();
-    const Vector2d from = waypoints[i].in_map, to = is_last ? from : waypoints[i + 1].in_map, way = to - from;
+    const Vector2d from = waypoints[i].in_map, to = is_last ? from : waypoints[i + 1].in_map, leg = to - from;
     Taken swept{
         {person.name,
-         rectangle((from + to) / 2, way.norm() + 2 * kHalfPerson, 2 * kHalfPerson, std::atan2(way.y(), way.x())),
+         rectangle((from + to) / 2, leg.norm() + 2 * kHalfPerson, 2 * kHalfPerson, std::atan2(leg.y(), leg.x())),
          person.floor_z, person.floor_z + person.height}};
     if (i > 0) swept.begin = waypoints[i].time;
     if (!is_last) swept.end = waypoints[i + 1].time;

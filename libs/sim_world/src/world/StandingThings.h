@@ -9,24 +9,26 @@
 
 namespace omnimapper::sim {
 
-/// The floor and the level surfaces of furniture, and what stands on them when.
+/// The floor and the level surfaces of furniture, and what stands on them at which time.
 class StandingSpace {
  public:
   StandingSpace(const WorldPlan& plan, const Building& building);
 
-  /// Takes the place of a piece of furniture. Throws base::Error naming its section unless it is in one room and in
-  /// nothing else. Returns its frame.
+  /// Takes the place of a piece of furniture and returns its frame. Throws base::Error naming its section unless it is
+  /// within one room and overlaps nothing else.
   geometry::Se3 put(const FurniturePlan& sized, bool follows_slope);
-  /// From now on things can stand on the level surfaces of this body.
+  /// Lets objects stand on the level surfaces of this body from now on.
   void addSupports(const Body& body);
 
-  /// Where a thing with these extents along its own x and y is over time, its frame's origin in the middle of its
-  /// lowest face. Throws base::Error naming section `name` unless moves are in order and it stands wherever it is put,
-  /// whole, and in nothing that stands there then.
+  /// Takes the places of an object over time and returns its track. `extents` are along the object's own axes; the
+  /// origin of its frame is in the middle of its lowest face. Throws base::Error naming section `name` unless moves are
+  /// in order of time and the object stands wholly on its support wherever it is put, overlapping nothing that stands
+  /// there at that time.
   Track trackOf(const std::string& name, const PlacePlan& place, const std::vector<MovePlan>& moves,
                 const Eigen::Vector3d& extents);
-  /// Throws base::Error naming the person's section if its way leads through a wall or through what stands there then.
-  void refuseBlockedWay(const PersonSpec& person) const;
+  /// Throws base::Error naming the person's section if its path leads through a wall or through something that stands
+  /// there at that time.
+  void refuseBlockedPath(const PersonSpec& person) const;
 
  private:
   struct Support {
@@ -36,7 +38,7 @@ class StandingSpace {
   };
   geometry::Se3 poseOf(const std::string& name, const std::string& key, const PlacePlan& place,
                        const Eigen::Vector3d& extents) const;
-  /// A footprint and the time in which it is filled [s].
+  /// A footprint and the time in which it is taken [s].
   struct Taken {
     Footprint footprint;
     double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
@@ -50,7 +52,7 @@ class StandingSpace {
   std::vector<Support> supports_;
 };
 
-/// What a piece of furniture fills: people push chairs under tables.
+/// The space that a piece of furniture fills. Chairs fit under tables.
 Footprint footprintOf(const FurniturePlan& sized, double floor_z);
 
 }  // namespace omnimapper::sim

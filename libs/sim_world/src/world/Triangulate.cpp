@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Twice the area of a triangle; 0 if it is that of rounding.
+// Twice the area of a triangle, positive if counter-clockwise; 0 if only rounding makes it differ from that.
 double cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const double area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
   return std::abs(area) < 1e-12 ? 0 : area;
@@ -32,15 +32,16 @@ bool isInside(const Vector2d& p, const Vector2d& a, const Vector2d& b, const Vec
   return cross(a, b, p) >= 0 && cross(b, c, p) >= 0 && cross(c, a, p) >= 0;
 }
 
-// Joins a hole, given clockwise, by a cut from its rightmost point to a point of the outer walk that it sees past the
-// other holes. There is one to the right of a hole if no other hole reaches farther to the right.
+// Joins a hole, given clockwise, by a cut from its rightmost point to a point of the outer walk that is visible from
+// there past the other holes. There is such a point to the right of a hole if no other hole reaches farther to the
+// right.
 void joinHole(const std::vector<Vector2d>& points, const std::vector<Corners>& holes, Corners hole, Corners& outer) {
   const auto rightmost = std::max_element(hole.begin(), hole.end(), [&](int i, int j) {
     return points[i].x() < points[j].x() || (points[i].x() == points[j].x() && points[i].y() < points[j].y());
   });
   std::rotate(hole.begin(), rightmost, hole.end());
   const Vector2d& from = points[hole.front()];
-  // Of the points of the outer walk that the hole's point sees, the nearest.
+  // Takes the nearest point of the outer walk that is visible from the hole's point.
   const auto sees = [&](std::size_t at) {
     const Vector2d& to = points[outer[at]];
     const Vector2d& before = points[outer[(at + outer.size() - 1) % outer.size()]];
@@ -81,14 +82,14 @@ std::vector<std::array<int, 3>> clipEars(const std::vector<Vector2d>& points, Co
       const int before = walk[(i + walk.size() - 1) % walk.size()], at = walk[i], after = walk[(i + 1) % walk.size()];
       const Vector2d &a = points[before], &b = points[at], &c = points[after];
       const double area = cross(a, b, c);
-      // A point on a straight line, or the tip of a spike: it goes without a triangle.
+      // A point on a straight line or the tip of a spike is removed without a triangle.
       const bool is_flat = area == 0;
       const bool blocked = !is_flat && std::any_of(walk.begin(), walk.end(), [&](int j) {
         return points[j] != a && points[j] != b && points[j] != c && isInside(points[j], a, b, c);
       });
       if (area < 0 || blocked) continue;
       if (is_flat && walk.size() > 3 && a != c && (b - a).dot(c - b) > 0) {
-        // A straight point must stay a corner of a triangle, or its neighbours would meet in a T.
+        // A point on a straight line must stay a corner of a triangle, or its neighbours would meet in a T.
         const bool others = std::any_of(walk.begin(), walk.end(), [&](int j) { return cross(a, c, points[j]) != 0; });
         if (others) continue;
       }

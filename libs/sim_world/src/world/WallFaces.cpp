@@ -37,7 +37,8 @@ std::vector<WallFace> makeWalls(const std::vector<Room>& rooms) {
     const Room& room = rooms[i];
     if (room.is_outdoors) continue;
     for (std::size_t k = 0; k < room.outline.size(); ++k) {
-      // The room lies to the left of its outline: who looks at the wall sees the end of the edge on the left.
+      // The room lies to the left of its outline, so the end of the edge is on the left of somebody who looks at the
+      // wall.
       const Vector2d &right = room.outline[k], &left = room.outline[(k + 1) % room.outline.size()];
       WallFace wall;
       wall.room = static_cast<int>(i);
@@ -111,7 +112,7 @@ std::vector<WallFace> joined(const WorldPlan& plan, std::vector<WallFace> walls)
       if (a.room > b.room) a.room = b.room;
       walls.erase(walls.begin() + static_cast<std::ptrdiff_t>(j));
       if (j < i) --i;
-      j = static_cast<std::size_t>(-1);  // begin again: the longer one may go on
+      j = static_cast<std::size_t>(-1);  // begins again, because the longer wall may go on
     }
   }
   return walls;
@@ -127,7 +128,7 @@ Ring outlineOf(const WallFace& wall) {
                              {hole.high_u, wall.floorAt(hole.high_u)}});
   }
   ring.insert(ring.end(), {{wall.length, wall.floor_end}, {wall.length, wall.ceiling_end}, {0, wall.ceiling_start}});
-  // A notch at an end leaves corners that are none.
+  // An opening at an end of the wall leaves corners on a straight line, which are removed.
   for (std::size_t i = 0; i < ring.size();) {
     const Vector2d &before = ring[(i + ring.size() - 1) % ring.size()], &after = ring[(i + 1) % ring.size()];
     if (std::abs(doubleArea({before, ring[i], after})) > 1e-12) {

@@ -9,20 +9,19 @@
 
 namespace omnimapper::sim {
 
-/// Names that plans write: "dark", "white", "exit", and "poster", "notice", ... in the order of SignStyle and
-/// PosterKind.
+/// Names used in plans: "dark", "white", "exit", and "poster", "notice", ... in the order of SignStyle and PosterKind.
 const std::vector<std::string>& signStyleNames();
 const std::vector<std::string>& posterKindNames();
-/// Of one of signStyleNames().
+/// The style with one of signStyleNames().
 SignStyle signStyleOf(const std::string& name);
 
-/// What hangs on the walls so far, so that nothing hangs over another.
+/// The items that hang on the walls so far, so that none hangs over another.
 class WallSpace {
  public:
   WallSpace(const WorldPlan& plan, const Building& building) : plan_(plan), building_(building) {}
 
-  /// The frame of a thing of this size on the wall that `at` means, `thickness` before it, and takes its place. Frame
-  /// as Sign's. Throws base::Error naming section `name` unless it is on a wall, and on nothing else.
+  /// Hangs an item of this size on the wall at `at` and returns its frame, which is as Sign's and `thickness` before
+  /// the wall. Throws base::Error naming section `name` unless it fits on a wall and hangs over nothing else.
   geometry::Se3 hang(const std::string& name, const OnWallPlan& at, double width, double height, double thickness);
 
  private:

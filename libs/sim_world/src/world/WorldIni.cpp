@@ -14,7 +14,7 @@ namespace {
 
 using base::option_text::format;
 
-// One section, its class checked.
+// One section whose class has been checked.
 struct Entry {
   const WorldPlan& plan;  // for messages
   const base::ConfigSection section;
@@ -37,9 +37,10 @@ Entry open(const base::Config& config, const WorldPlan& plan, const std::string&
   entry.section.find("class", entry.class_name);
   if (std::find(classes.begin(), classes.end(), entry.class_name) == classes.end()) {
     const std::string near = base::nearestName(entry.class_name, classes);
-    throw base::Error(base::ExitCode::unknown_plugin,
-                      config.file() + ": [" + name + "] class = " + entry.class_name + ": there is none of that name" +
-                          (near.empty() ? "" : "; did you mean '" + near + "'?") + " Known: " + format(classes));
+    throw base::Error(base::ExitCode::unknown_plugin, config.file() + ": [" + name + "] class = " + entry.class_name +
+                                                          ": there is no class of that name" +
+                                                          (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                                                          " Known: " + format(classes));
   }
   return entry;
 }
@@ -82,13 +83,13 @@ OpeningPlan readOpening(const Entry& entry) {
   OpeningIni ini = read<OpeningIni>(entry);
   ini.kind = entry.class_name == "window" ? Kind::window : entry.class_name == "passage" ? Kind::passage : Kind::door;
   std::string given;
-  // A window is born with the sizes of a door.
+  // The defaults of the table are those of a door; a window has others.
   if (ini.kind == Kind::window && !entry.section.find("sill_m", given)) ini.sill = 0.9;
   if (ini.kind == Kind::window && !entry.section.find("height_m", given)) ini.height = 1.2;
   return ini;
 }
 
-// Words in groups that a | separates.
+// Divides words into groups that are separated by |.
 std::vector<std::vector<std::string>> groupsOf(const std::vector<std::string>& words) {
   std::vector<std::vector<std::string>> groups;
   bool is_new = true;
@@ -134,8 +135,9 @@ Person::Pointing readPointing(const Entry& entry, std::vector<std::string> words
     words.pop_back();
   }
   if (words.size() != 3 && words.size() != 5) {
-    entry.refuse("pointing", "'" + group + "' must be 'begin end target' or 'begin end x y z', and after it the arm: " +
-                                 "right (if nothing is said) or left");
+    entry.refuse("pointing", "'" + group +
+                                 "' must be 'begin end target' or 'begin end x y z', optionally followed by the arm: " +
+                                 "right (the default) or left");
   }
   act.begin = entry.number("pointing", words[0]);
   act.end = entry.number("pointing", words[1]);

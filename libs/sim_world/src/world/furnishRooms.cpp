@@ -65,7 +65,7 @@ void furnishLaboratory(Arrangement& place, const std::string& room) {
 
 namespace {
 
-// Who sits where: names made up for signs.
+// Invented names of people and uses of rooms for signs.
 const char* const kPeople[] = {"Carol Hart",  "Ned Alvarez", "Ilse Brandt",  "Tom Okafor",  "Mina Sato",
                                "Paul Winter", "Rosa Lind",   "Omar Haddad",  "Grete Falk",  "Ivan Petrov",
                                "Lucy Marsh",  "Henri Blanc", "Asha Verma",   "Karl Nyberg", "Ella Stone",
@@ -81,11 +81,11 @@ void addDoorsAlong(Arrangement& place, const std::string& corridor, double spaci
   const Vector2d low = room->outline[0], high = room->outline[2], size = high - low;
   const int axis = size.x() > size.y() ? 0 : 1;
   const double margin = size[1 - axis] + 0.5;  // beyond the corners of a ring
-  for (double way = margin; way < size[axis] - margin; way += spacing * place.random.uniform(0.8, 1.2)) {
+  for (double along = margin; along < size[axis] - margin; along += spacing * place.random.uniform(0.8, 1.2)) {
     for (const bool at_high : {false, true}) {
       if (place.random.chance(0.15)) continue;
       Vector2d at = at_high ? high : low;
-      at[axis] = low[axis] + way + (at_high ? place.random.uniform(-0.3, 0.3) : 0);
+      at[axis] = low[axis] + along + (at_high ? place.random.uniform(-0.3, 0.3) : 0);
       OpeningPlan& door = place.opening(OpeningPlan::Kind::door, corridor, "outside", at);
       door.leaf = OpeningPlan::Leaf::closed;
       door.name = "door_" + std::to_string(++number);

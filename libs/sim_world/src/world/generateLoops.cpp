@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 using Kind = OpeningPlan::Kind;
 
-// A room in the way of one side of the ring: so long along it, so deep to the outside, at a share of the side.
+// A room that interrupts one side of the ring in its middle: `length` along the side, `depth` to the outside.
 struct Inserted {
   const char *name, *kind, *floor;
   double length, depth, height;
@@ -31,8 +31,8 @@ struct Ringway {
     place.opening(Kind::passage, first, second, at).width = 0;
   }
 
-  /// A side of the ring along an axis, between two corners that belong to it or not; `out` is where the outside is.
-  /// Returns the names of its first and last room.
+  /// Adds a side of the ring along an axis, with or without the corners at its ends; `out` is the sign of the direction
+  /// to the outside. Returns the names of its first and last room.
   std::pair<std::string, std::string> side(const std::string& name, const Vector2d& low, const Vector2d& high, int axis,
                                            double out, const Inserted* inserted) {
     if (!inserted) {
@@ -62,7 +62,7 @@ struct Ringway {
   }
 };
 
-// West and east halls hold the corners.
+// The west and east halls contain the corners.
 void buildRing(Ringway& ring, double length, const Inserted* north, const Inserted* east, const Inserted* south) {
   const double across = 0.3 * length, up = 0.5 * length - across, w = ring.width;
   const auto west = ring.side("west_hall", {0, 0}, {w, up + w}, 1, -1, nullptr);
@@ -99,7 +99,7 @@ void makeLoop(Arrangement& place, const WorldOptions& options) {
   }
   if (options.length >= 300) furnishKitchenette(place, "kitchen");
   for (const std::string& hall : ring.halls) {
-    // The back of the building is being rebuilt.
+    // The back of the building is being rebuilt, so there is more clutter in the south halls.
     place.scatter(hall, hall.compare(0, 5, "south") == 0 ? 0.08 : 0.01);
     place.postersIn(hall, is_short ? 1 : 5);
   }

@@ -38,7 +38,7 @@ void buildPassages(Arrangement& place, const PassageRow (&rows)[count]) {
     place.opening(Kind::passage, row.first, row.second, {row.x, row.y}).width = row.width;
 }
 
-// Low walls on two sides of a place of work, and a desk.
+// A cubicle: low walls on two sides of a place of work, and a desk.
 void furnishCubicle(Arrangement& place, const Vector2d& middle, double size, bool faces_up) {
   const double out = faces_up ? 1 : -1, yaw = faces_up ? M_PI : 0;
   FurniturePlan wall;
@@ -65,8 +65,8 @@ void furnishCubicle(Arrangement& place, const Vector2d& middle, double size, boo
   place.objectsOn(*number, "top", 3, {"laptop", "cup", "book", "lamp", "can"});
 }
 
-// Places of work in pairs of rows back to back, as many as the room holds with an aisle between pairs, one in the
-// middle of the rows and a way of 1 m along the walls.
+// Cubicles in pairs of rows back to back, as many as the room holds, with an aisle between pairs, one in the middle of
+// the rows, and 1 m of free floor along the walls.
 void furnishCubicles(Arrangement& place) {
   constexpr double kCell = 2.6, kAisle = 1.8, kPairs = 7.0, kAtWall = 1.05;
   const Bounds bounds = boundsOf(place.roomNamed("cubicles").outline);
@@ -164,7 +164,8 @@ void furnishMeetingRoom(Arrangement& place) {
   if (const auto table = place.inMiddle("meeting_room", "table", size)) place.chairsAround(*table, "office_chair", 8);
 }
 
-// With or without the atrium and the second loop around it, a southern wing of two offices, and single rooms.
+// Varies the plan: with or without the atrium and the second loop around it, a southern wing of two offices, and single
+// rooms.
 void varyOffice(Arrangement& place, int plan_seed) {
   PlanVariation variation(place.plan, plan_seed);
   if (variation.chance(0.5)) {
@@ -235,7 +236,8 @@ void buildLaboratory(Arrangement& place) {
   place.window("office_213", {11, 15.8}, 2.0);
 }
 
-// With or without a meeting room behind the eastern hall and each of the northern rooms, in this order or the other.
+// Varies the plan: with or without a meeting room behind the eastern hall and each of the northern rooms, which are in
+// this order or in reverse.
 void varyLaboratory(Arrangement& place, int plan_seed) {
   PlanVariation variation(place.plan, plan_seed);
   if (variation.chance(0.5)) {

@@ -69,7 +69,7 @@ void lineWithHouses(Arrangement& place) {
   }
 }
 
-void addStreetThings(Arrangement& place) {
+void addCarsAndStreetFurniture(Arrangement& place) {
   static const char* const paints[] = {"car_red", "car_silver", "car_blue"};
   static const double share[] = {0.25, 0.5, 0.8};
   for (const double side : {-1.0, 1.0}) {
@@ -83,14 +83,14 @@ void addStreetThings(Arrangement& place) {
         car.material = paints[place.random.integer(0, 2)];
         place.place(car);
       }
-      FurniturePlan thing;
+      FurniturePlan item;
       static const char* const shapes[] = {"lamp_post", "tree", "bollard", "hedge", "bin"};
       const int pick = place.random.integer(0, 4);
-      thing.shape = shapes[pick];
-      thing.x = x + 2.5;
-      thing.y = side * (kHalfRoad + (pick == 3 ? 3.2 : 1.3));
-      thing.yaw = side > 0 ? 0 : M_PI;
-      place.place(thing);
+      item.shape = shapes[pick];
+      item.x = x + 2.5;
+      item.y = side * (kHalfRoad + (pick == 3 ? 3.2 : 1.3));
+      item.yaw = side > 0 ? 0 : M_PI;
+      place.place(item);
     }
   }
 }
@@ -102,7 +102,7 @@ void makeRoad(Arrangement& place, const WorldOptions&) {
   place.raise();
   lineWithKerbs(place);
   lineWithHouses(place);
-  addStreetThings(place);
+  addCarsAndStreetFurniture(place);
 }
 
 }  // namespace omnimapper::sim

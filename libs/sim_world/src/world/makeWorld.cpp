@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRobotHeight = 1.3;  // what begins higher is in no robot's way [m]
-// Streams of the world's seed, one for each sort of thing.
+constexpr double kRobotHeight = 1.3;  // furniture that begins higher is no obstacle to robots [m]
+// Random streams of the world's seed, one for each kind of item.
 enum Stream : std::uint64_t { kFurnitureStream = 1, kObjectStream, kPosterStream };
 
 // The middle of a body or of a planar surface at a time.
@@ -99,7 +99,7 @@ class WorldMaker {
     world_.objects.push_back(std::move(made.object));
   }
 
-  // Robots plan one way for the whole run: they keep away from where something ever stands.
+  // Robots plan one path for the whole run, so they keep away from places where something stands at any time.
   void blockFloor(const PlacePlan& first, const std::vector<MovePlan>& moves, const Vector3d& extents) {
     const auto block = [&](const PlacePlan& place) {
       if (place.on.empty())
@@ -127,7 +127,7 @@ class WorldMaker {
     spec.style = signStyleOf(plan.style);
     spec.width = plan.width;
     spec.height = plan.height;
-    if (spec.lines.empty()) refuse(plan_, plan.name, "text", "must say something, or 'room' must name a room");
+    if (spec.lines.empty()) refuse(plan_, plan.name, "text", "must not be empty, unless 'room' names a room");
     MadeSign made = makeOrRefuse(plan.name, "text", [&] { return makeSign(spec); });
     made.sign.map_from_sign = walls_.hang(plan.name, plan.at, made.sign.width, made.sign.height, kSignThickness);
     made.body.track = Track(made.sign.map_from_sign);
@@ -173,7 +173,7 @@ class WorldMaker {
     if (plan.is_landmark) world_.point_landmarks.push_back({plan.name, plan.id, Vector3d::Zero(), plan.name});
   }
 
-  // A marker in a frame on a foot: upright, it looks to -y of the place.
+  // The track of a marker in a frame on a foot: it is upright and faces -y of the place.
   Track standing(const MarkerPlan& plan, const Vector3d& plate) {
     const Vector3d extents(plate.x(), kFootDepth, plate.y());
     const Track foot = floor_.trackOf(plan.name, plan.place, plan.moves, extents);
@@ -213,11 +213,11 @@ class WorldMaker {
       if (!room) refuse(plan_, person.name, "path", "goes through a place that lies in no room");
       if (&waypoint == &person.waypoints.front()) person.floor_z = building_.rooms[*room].floorAt(waypoint.in_map);
     }
-    floor_.refuseBlockedWay(person);
+    floor_.refuseBlockedPath(person);
     for (Person::Pointing& act : person.acts) {
       if (act.target.empty()) continue;
       const auto target = middleOf(world_, act.target, act.begin);
-      if (!target) refuse(plan_, person.name, "pointing", "nothing is called '" + act.target + "' then");
+      if (!target) refuse(plan_, person.name, "pointing", "nothing is called '" + act.target + "' at that time");
       act.target_in_map = *target;
     }
     MadePerson made = makeOrRefuse(person.name, "path", [&] { return makePerson(person); });
@@ -225,7 +225,7 @@ class WorldMaker {
     world_.people.push_back(std::move(made.person));
   }
 
-  // What makers of things refuse, with the place in the INI.
+  // Calls a function that makes an item, and adds the place in the INI to its error.
   template <class Make>
   auto makeOrRefuse(const std::string& section, const std::string& key, const Make& make) const -> decltype(make()) {
     try {

@@ -6,23 +6,23 @@
 
 namespace omnimapper::sim {
 
-/// Figures of a small MEMS unit.
+/// Noise and bias of an IMU; the defaults are those of a small MEMS unit.
 struct ImuOptions {
   double gyro_noise = 1e-4;           ///< density of white noise [rad/s/sqrt(Hz)]
   double accelerometer_noise = 1e-3;  ///< [m/s^2/sqrt(Hz)]
   double gyro_bias = 2e-3;            ///< standard deviation of the bias at the start [rad/s]
   double accelerometer_bias = 0.03;   ///< [m/s^2]
-  double gyro_walk = 2e-5;           ///< of what the bias has changed by after 1 s [rad/s]; grows with the root of time
+  double gyro_walk = 2e-5;  ///< standard deviation of the bias's change after 1 s [rad/s]; grows with the root of time
   double accelerometer_walk = 3e-4;  ///< [m/s^2]
   double gravity = 9.80665;          ///< [m/s^2]
   static const base::OptionTable<ImuOptions>& table();
 };
 
 /// A gyroscope and accelerometer: CObservationIMU with WX, WY, WZ and X_ACC, Y_ACC, Z_ACC in the sensor's frame. The
-/// accelerometer measures specific force: standing still and level its z is +gravity. Rates and accelerations are means
-/// around the stamp over 1 / rate_hz, or two steps of the robot's track if that is longer; at both ends of the track
-/// those of the nearest such span within it.
-/// Truth, one line each: "gyro", "acceleration" (without bias and noise), "gyro_bias", "acceleration_bias".
+/// accelerometer measures specific force: if it stands still and level, its z is +gravity. Rates and accelerations are
+/// means over a span around the stamp of 1 / rate_hz, or of two steps of the robot's track if that is longer. At both
+/// ends of the track the nearest span within it is taken. Truth, one line for each measurement: "gyro", "acceleration"
+/// (without bias and noise), "gyro_bias", "acceleration_bias".
 class Imu : public Sensor {
  public:
   Imu(const ImuOptions& options, const SensorOptions& mount, const SensorContext& context);
@@ -30,12 +30,12 @@ class Imu : public Sensor {
 
  private:
   struct Rates {
-    Eigen::Vector3d gyro, acceleration;  // in the sensor [rad/s], [m/s^2]
+    Eigen::Vector3d gyro, acceleration;  // in the sensor's frame [rad/s], [m/s^2]
   };
   Rates ratesAt(double time) const;
 
   ImuOptions options_;
-  double span_;                // [s] over which means are taken
+  double span_;                // time over which means are taken [s]
   std::vector<Rates> biases_;  // at each measurement
 };
 

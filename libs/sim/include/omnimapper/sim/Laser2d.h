@@ -12,25 +12,25 @@ enum class Laser2dModel { sick_lms291, sick_pls, hokuyo_utm30, hokuyo_urg04, ide
 struct Laser2dOptions : LaserOpticsOptions {
   Laser2dModel model = Laser2dModel::sick_lms291;
   int beams = 181;
-  double aperture = 3.14159265358979323846;  ///< from the first beam to the last [rad]
+  double aperture = 3.14159265358979323846;  ///< angle from the first beam to the last [rad]
   bool counter_clockwise = true;
-  double sweep = 0;            ///< from the first beam, which is at the stamp, to the last [s]
-  bool no_echo_is_max = true;  ///< an invalid beam's range is max_range, else 0
+  double sweep = 0;            ///< time from the first beam, which is measured at the stamp, to the last [s]
+  bool no_echo_is_max = true;  ///< the range of an invalid beam is max_range instead of 0
   bool intensity = false;
-  bool truth_ranges = false;  ///< the truth has the true range of each beam too
+  bool truth_ranges = false;  ///< the truth contains the true range of each beam
 
-  /// The figures of sick_lms291.
+  /// The values of sick_lms291.
   Laser2dOptions();
-  explicit Laser2dOptions(std::in_place_t) {}  ///< ideal as LaserOpticsOptions are
+  explicit Laser2dOptions(std::in_place_t) {}  ///< ideal, as the defaults of LaserOpticsOptions
   static Laser2dOptions ofModel(Laser2dModel model);
   static const base::OptionTable<Laser2dOptions>& table();
 };
 
-/// A 2D laser: CObservation2DRangeScan, with validRange false where nothing came back. Beam i is cast from where the
-/// sensor is sweep * i / (beams - 1) after the stamp; sensorPose is that on the base.
-/// Truth, one line for a scan: "surfaces" [[number + 1, count], ...] that the beams met (0: none in reach), indices of
-/// beams: "missed" (no echo all the same: dark, too near or far, lost), "mixed" and "mirrored"; "ranges" [m] if asked
-/// for.
+/// A 2D laser: CObservation2DRangeScan, with validRange false where no echo came back. Beam i is cast from the sensor's
+/// pose sweep * i / (beams - 1) after the stamp; sensorPose is the pose on the base. Truth, one line for each scan:
+/// "surfaces" [[number + 1, count], ...] that the beams met (0: none in reach); indices of beams that are "missed"
+/// (they met a surface but have no echo, which was too weak, too near or far, or lost), "mixed" and "mirrored"; and
+/// "ranges" [m] if truth_ranges is set.
 class Laser2d : public Sensor {
  public:
   Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context);
@@ -43,7 +43,7 @@ class Laser2d : public Sensor {
   LaserOptics optics_;
 };
 
-/// Its class: keys that an INI does not give are those of its model.
+/// The sensor class of Laser2d. Keys that an INI does not give take the values of its model.
 SensorClass laser2dClass();
 
 }  // namespace omnimapper::sim

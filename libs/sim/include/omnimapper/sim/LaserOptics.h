@@ -7,22 +7,23 @@
 
 namespace omnimapper::sim {
 
-/// What becomes of a laser's beam on its way. All ideal as it is born.
+/// Optical effects on a laser's beam. By default the laser is ideal.
 struct LaserOpticsOptions {
   double min_range = 0;    ///< [m]
   double max_range = 100;  ///< [m]
-  /// Range at which a white wall (reflects 0.9) seen face-on can only just be measured [m]; 0: reflection never
-  /// matters.
+  /// Range at which a white wall (it reflects 0.9) can only just be measured face-on [m]; 0: the range does not depend
+  /// on reflection.
   double white_range = 0;
   double divergence = 0;       ///< full angle of the beam's cone [rad]; 0: a line
-  double noise = 0;            ///< standard deviation of ranges [m] ...
-  double noise_per_metre = 0;  ///< ... and what is added to it with each metre of range
+  double noise = 0;            ///< constant part of the standard deviation of ranges [m]
+  double noise_per_metre = 0;  ///< increase of that standard deviation per metre of range
   double step = 0;             ///< ranges are multiples of it [m]; 0: they are not rounded
-  /// A beam that meets two things no farther apart than this is not told apart [m]: the range is the mean by power.
+  /// Largest distance of two surfaces in one beam that are mixed into one range, their mean weighted by power [m].
   double mixing_gap = 0;
-  double mixing = 0;       ///< part of such beams to which that happens; the others give the stronger one's range
-  double lost = 0;         ///< part of the beams that come back and are not measured all the same
-  double glass_angle = 0;  ///< incidence at which a pane is seen itself, as one sigma of a bell [rad]; 0: never
+  double mixing = 0;       ///< part of such beams that are mixed; the others report the range of the stronger echo
+  double lost = 0;         ///< part of the echoes that are missed at random
+  double glass_angle = 0;  ///< incidence up to which panes themselves are measured, as one sigma of a bell curve [rad];
+                           ///< 0: panes are never measured and never mirror
 };
 
 struct Beam {
@@ -30,31 +31,32 @@ struct Beam {
   Eigen::Vector3d direction_in_map;  ///< unit
 };
 
-/// What comes back of a beam.
+/// The measurement of one beam.
 struct Echo {
   bool is_valid = false;
   double range = 0;       ///< as measured [m], if valid
-  int surface = -1;       ///< that sent it back, the stronger one if two did; -1: none
-  double true_range = 0;  ///< to that surface along the beam's middle, or mean of its part of the beam [m]; 0: none
-  double cosine = 0;      ///< of incidence
-  Eigen::Vector3d in_map = Eigen::Vector3d::Zero();  ///< at true_range on the beam's middle [m]
-  double reflected = 0;      ///< part of the light scattered back by it, times the cosine of incidence
-  bool is_mixed = false;     ///< of two surfaces
-  bool is_mirrored = false;  ///< by a pane, seen at a grazing angle
+  int surface = -1;       ///< number of the surface that sent it back, of the stronger echo if there are two; -1: none
+  double true_range = 0;  ///< to that surface along the beam's axis, or mean over its part of the beam [m]; 0: none
+  double cosine = 0;      ///< of the angle of incidence
+  Eigen::Vector3d in_map = Eigen::Vector3d::Zero();  ///< point at true_range on the beam's axis [m]
+  double reflected = 0;      ///< part of the light that the surface scatters back, times the cosine of incidence
+  bool is_mixed = false;     ///< the range is a mean of several surfaces
+  bool is_mirrored = false;  ///< a pane mirrored the beam, which met it at a grazing angle
 };
 
-/// Of those that show a surface well.
+/// Points of the echoes that show a surface well: valid, neither mixed nor mirrored, and isSeenWell().
 std::vector<SeenPoint> seenPoints(const std::vector<Echo>& echoes);
 
-/// Casts beams as a real laser's. Panes are passed, seen (near face-on) or mirror (grazing, by Fresnel's law).
-/// At `scout` rays for each beam edges are looked for: 1 its middle, 3 its sides too; where a beam or its neighbour
-/// sees two surfaces, kFootprint more rays fill its cone. Beams are neighbours in the order they are given.
+/// Casts beams like those of a real laser. A beam passes a pane, is sent back by it (near face-on) or is mirrored by it
+/// (grazing, by Fresnel's law). `scouts` rays of each beam look for edges: with 1 its axis, with 3 its two sides too.
+/// Where rays of a beam or of its neighbour meet different surfaces, kFootprint more rays fill its cone. Beams are
+/// neighbours in the order in which they are given.
 class LaserOptics {
  public:
   static constexpr int kFootprint = 16;
 
   LaserOptics(const LaserOpticsOptions& options, const Scenes& scenes, int scouts);
-  /// randoms[i] is the stream of beam i.
+  /// randoms[i] is the random stream of beam i.
   std::vector<Echo> measure(const Scene& scene, const std::vector<Beam>& beams, std::vector<Random> randoms) const;
 
  private:

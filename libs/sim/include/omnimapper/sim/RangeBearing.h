@@ -9,8 +9,8 @@ namespace omnimapper::sim {
 
 struct RangeBearingOptions {
   bool points = true;                       ///< measures World::point_landmarks
-  bool markers = true;                      ///< and the middles of World::markers, seen from in front
-  bool known_ids = true;                    ///< else each measurement's id is -1
+  bool markers = true;                      ///< measures the centres of World::markers, from in front of them
+  bool known_ids = true;                    ///< measurements have the ids of their landmarks; otherwise -1
   bool planar = false;                      ///< pitch is 0 and the range horizontal
   double min_range = 0.2;                   ///< [m]
   double max_range = 10;                    ///< [m]
@@ -18,18 +18,18 @@ struct RangeBearingOptions {
   double fov_pitch = 1.0;                   ///< [rad]
   double sigma_range = 0.05;                ///< [m]
   double sigma_angle = 0.01;                ///< of yaw and pitch [rad]
-  double missed = 0;                        ///< part of what is seen that is not reported
-  double false_alarms = 0;                  ///< mean number of measurements of nothing
-  bool occlusion = true;                    ///< what stands in front hides
+  double missed = 0;                        ///< part of the visible landmarks that are not reported
+  double false_alarms = 0;                  ///< mean number of false measurements in an observation
+  bool occlusion = true;                    ///< landmarks behind something are hidden
   static const base::OptionTable<RangeBearingOptions>& table();
 };
 
-/// Ranges and bearings of landmarks: CObservationBearingRange, in MRPT's convention (yaw to the left, pitch down). No
-/// observation where nothing is seen. Measurements stand in random order. Truth, one line each: "landmarks", the name
-/// of what each measurement is of, "" for a false alarm, and "ids".
+/// Ranges and bearings of landmarks: CObservationBearingRange, in MRPT's convention (yaw to the left, pitch down).
+/// There is no observation where nothing is seen. Measurements are in random order. Truth, one line for each
+/// observation: "landmarks", the names of the measured landmarks ("" for a false alarm), and "ids".
 class RangeBearing : public Sensor {
  public:
-  /// Throws base::Error(out_of_range) where ids are known and two landmarks share one.
+  /// Throws base::Error(out_of_range) if known_ids is set and two landmarks have the same id.
   RangeBearing(const RangeBearingOptions& options, const SensorOptions& mount, const SensorContext& context);
   Measurement measure(int k) const override;
 
@@ -38,7 +38,7 @@ class RangeBearing : public Sensor {
   struct Landmark {
     std::string name;
     int id;
-    const Track* map_from_body;  // none: in_body is in the map
+    const Track* map_from_body;  // null: in_body is in the map
     Eigen::Vector3d in_body;
     bool is_marker;
   };

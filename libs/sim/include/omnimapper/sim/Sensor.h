@@ -16,10 +16,10 @@
 
 namespace omnimapper::sim {
 
-/// What every sensor of an INI has: where it is on the base, and when it measures.
+/// Options that every sensor has: where it is on the base, and when it measures.
 struct SensorOptions {
   std::string label;                    ///< of its observations; empty: the name of its section
-  double x = 0, y = 0, z = 0;           ///< of the sensor in the base [m]
+  double x = 0, y = 0, z = 0;           ///< position of the sensor in the base [m]
   double yaw = 0, pitch = 0, roll = 0;  ///< [rad]
   double rate = 10;                     ///< [1/s]
   double first = 0;                     ///< time of the first measurement [s]
@@ -30,46 +30,46 @@ struct SensorOptions {
   geometry::Se3 baseFromSensor() const;
 };
 
-/// What a sensor may know of the run.
+/// What a sensor knows about the run.
 struct SensorContext {
   std::string file;              ///< of the INI, for messages
   std::string section;           ///< of the INI
   std::uint64_t seed = 0;        ///< of the run
-  std::uint64_t number = 0;      ///< of the sensor in the INI's list: names its random streams
+  std::uint64_t number = 0;      ///< hash of the section's name, which identifies the random streams of the sensor
   base::Stamp start;             ///< the stamp of time 0
   double duration = 0;           ///< of the run [s]
-  const World* world = nullptr;  ///< these three outlive the sensor
+  const World* world = nullptr;  ///< these three must outlive the sensor
   const Scenes* scenes = nullptr;
-  const Track* map_from_base = nullptr;  ///< the robot's true way
-  /// Where an option stands, to begin a message with.
+  const Track* map_from_base = nullptr;  ///< the robot's true track
+  /// The section as the beginning of a message about one of its options.
   std::string place() const { return file + ": [" + section + "] "; }
 };
 
-/// A file of truth beside the log.
+/// A file of ground truth beside the log.
 struct TruthFile {
-  std::string name;  ///< below the folder of truth, "labels/camera_000012.png"
+  std::string name;  ///< path below the folder truth/, such as "labels/camera_000012.png"
   std::string bytes;
 };
 
-/// A point of a surface that a beam or a pixel measured from near and not too slanted.
+/// A point of a surface that a beam or pixel measured from nearby and at a moderate angle.
 struct SeenPoint {
   int surface = 0;         ///< number as numberSurfaces() counts
-  Eigen::Vector3f in_map;  ///< [m] without noise
+  Eigen::Vector3f in_map;  ///< the true point, without noise [m]
 };
 
-/// Whether a measurement so far away [m], at that cosine of incidence, counts as seen: from within 4 m, under 75 deg.
+/// Whether a measurement at this range [m] and cosine of incidence shows its surface well: within 4 m and 75 deg.
 bool isSeenWell(double range, double cosine);
 
-/// One measurement and what was true.
+/// One measurement with its ground truth.
 struct Measurement {
   mrpt::obs::CObservation::Ptr observation;
-  std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: nothing to tell
+  std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: none
   std::vector<TruthFile> truth_files;
   std::vector<SeenPoint> seen = {};
-  std::vector<SignView> signs = {};  ///< of a picture: what it shows of the world's signs
+  std::vector<SignView> signs = {};  ///< the signs in its picture, if it has one
 };
 
-/// Without '/', a leading '.' and control characters.
+/// Whether a name is not empty and has no '/', no leading '.' and no control characters.
 bool isPlainFileName(const std::string& name);
 
 /// A simulated sensor. measure() is const and thread-safe, and depends on nothing but context, options and k.
@@ -83,13 +83,13 @@ class Sensor {
   /// Time of measurement k [s].
   double timeOf(int k) const { return options_.first + k / options_.rate; }
   base::Stamp stampOf(int k) const;
-  /// When it arrives in the log [s]; negative: never.
+  /// Time at which measurement k arrives in the log [s]; negative: never.
   double arrivalOf(int k) const;
-  /// With stamp, label and pose set. Null if the sensor sees nothing that makes an observation.
+  /// Measurement k. Its observation has stamp, label and pose; it is null if the sensor sees nothing that makes one.
   virtual Measurement measure(int k) const = 0;
-  /// From where measurement k takes its colour picture; none of a sensor that takes none.
+  /// The view of the colour picture of measurement k; none if the sensor takes no pictures.
   virtual std::optional<CameraView> pictureView(int /*k*/) const { return {}; }
-  /// About what a measurement takes in memory [bytes].
+  /// Approximate size of a measurement in memory [bytes].
   virtual std::size_t sizeOfMeasurement() const { return 16 << 10; }
 
  protected:
@@ -97,7 +97,7 @@ class Sensor {
   const SensorContext& context() const { return context_; }
   const geometry::Se3& baseFromSensor() const { return base_from_sensor_; }
   geometry::Se3 mapFromSensor(double time) const;
-  /// The stream of measurement k; `purpose` tells apart streams of one measurement.
+  /// A random stream of measurement k; `purpose` distinguishes the streams of one measurement.
   Random randomOf(int k, std::uint64_t purpose = 0) const;
   /// Sets stamp and label.
   void stamp(mrpt::obs::CObservation& observation, int k) const;
@@ -109,21 +109,21 @@ class Sensor {
   int count_;
 };
 
-/// A class of sensors, as an INI names it.
+/// A class of sensors, as named in an INI.
 struct SensorClass {
   std::string name;                       ///< "Laser2d"
   std::string summary;                    ///< one sentence
-  std::vector<base::OptionSpec> options;  ///< its own, without SensorOptions
+  std::vector<base::OptionSpec> options;  ///< its own options, without SensorOptions
   std::function<std::unique_ptr<Sensor>(const base::ConfigSection&, const SensorOptions&, const SensorContext&)> make;
-  std::set<std::string> of_model = {};  ///< options whose default the key `model` decides
+  std::set<std::string> of_model = {};  ///< keys whose default depends on the key `model`
 };
-/// Every class of sensors there is; src/sensors/sensorClasses.cpp is the list.
+/// All classes of sensors, which src/sensors/sensorClasses.cpp lists.
 const std::vector<SensorClass>& sensorClasses();
 
-/// The sensor of section [name]. Throws base::Error unknown_plugin, unknown_key, wrong_type or out_of_range.
+/// Makes the sensor of section [name]. Throws base::Error unknown_plugin, unknown_key, wrong_type or out_of_range.
 std::unique_ptr<Sensor> makeSensor(const base::Config& config, const std::string& name, SensorContext context);
 
-/// A class whose sensor is made from (Options, SensorOptions, SensorContext); for the list.
+/// Entry of sensorClasses() for a sensor that is constructed from (Options, SensorOptions, SensorContext).
 template <class SensorType, class Options>
 SensorClass sensorClass(const std::string& name, const std::string& summary) {
   return {name, summary, Options::table().specs(),

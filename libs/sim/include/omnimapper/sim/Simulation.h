@@ -28,10 +28,10 @@ struct SimulationOptions {
   static const base::OptionTable<SimulationOptions>& table();
 };
 
-/// A world, a robot that goes through it and its sensors, made of an INI and ready to run.
+/// A world, a robot that drives through it and its sensors, read from an INI and ready to run.
 class Simulation {
  public:
-  /// Sections [simulation], [world], [robot] and those they name. Throws base::Error with the place in the INI.
+  /// Reads sections [simulation], [world], [robot] and those they name. Throws base::Error with the place in the INI.
   explicit Simulation(const base::Config& config);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -44,7 +44,7 @@ class Simulation {
   double duration() const { return duration_; }
   base::Stamp start() const { return base::stampFromUnix(options_.start); }
   const std::string& iniText() const { return ini_text_; }
-  /// What a user should know of the INI.
+  /// What a user should know about the INI.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:

@@ -12,23 +12,23 @@
 namespace omnimapper::sim {
 
 struct SimulationRequest {
-  std::string folder;  ///< made if missing
+  std::string folder;  ///< created if missing
   std::string name;    ///< of the rawlog, without ".rawlog"
-  int threads = 1;     ///< the bytes do not depend on it
+  int threads = 1;     ///< the output does not depend on it, bit for bit
 };
 
-/// What a run left.
+/// What a run has written.
 struct SimulationResult {
   struct Count {
     std::string label;
-    int measured = 0;  ///< in the log
-    int dropped = 0;   ///< never arrived
-    int unseen = 0;    ///< nothing in view that makes an observation
+    int measured = 0;  ///< number in the log
+    int dropped = 0;   ///< number that never arrived
+    int unseen = 0;    ///< number without an observation, because nothing was in view
   };
   base::ExitCode code = base::ExitCode::ok;  ///< or interrupted: what was measured until then is written
   std::vector<Count> sensors;
   double duration = 0;  ///< simulated [s]
-  double travel = 0;    ///< of the robot [m]
+  double travel = 0;    ///< distance travelled by the robot [m]
   /// How often pictures show the world's signs legibly; none without signs or pictures.
   std::optional<SignCounter> signs;
   std::vector<std::string> files;  ///< in the folder
@@ -37,12 +37,12 @@ struct SimulationResult {
 std::string toText(const SimulationResult& result, const std::string& folder);
 
 /// Writes into the folder: <name>.rawlog (and <name>_Images), truth.tum (base poses at the stamp of every measurement),
-/// landmarks.json, surfaces.json (flat surfaces with what the log saw of them, and openings), world.ply (the mesh of
-/// all that is there at time 0), signs_seen.csv (the signs that each picture shows, SignTruth), truth/<label>.jsonl and
-/// what sensors add, plan.svg, pictures/ of what each sensor saw in the middle of the run, <name>.ini and README.md,
-/// which says what is what. Measurements stand in the order of their arrival. `stop` is asked between two of them. An
-/// older run of the folder is kept until the new one is whole, and removed then. Throws Error unwritable_output (also
-/// for a folder that holds things but no simulated log) or disk_full.
+/// landmarks.json, surfaces.json (flat surfaces with the parts that the log shows, and openings), world.ply (the mesh
+/// of all that is there at time 0), signs_seen.csv (the signs that each picture shows, SignTruth), truth/<label>.jsonl
+/// and other truth files of sensors, plan.svg, pictures/ of what each sensor saw in the middle of the run, <name>.ini
+/// and README.md, which describes the files. Measurements are in the order of their arrival. `stop` is called before
+/// each of them. An older run in the folder is kept until the new one is complete, and removed then. Throws Error
+/// unwritable_output (also for a folder that holds files but no simulated log) or disk_full.
 SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
                                const std::function<bool()>& stop = {});
 

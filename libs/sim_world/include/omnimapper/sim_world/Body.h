@@ -14,7 +14,7 @@
 
 namespace omnimapper::sim {
 
-/// What a surface looks like to eye and laser.
+/// How a surface looks to cameras and lasers.
 struct Material {
   Eigen::Vector3f colour{0.7f, 0.7f, 0.7f};  ///< linear RGB in [0, 1]; multiplied with the texture
   std::shared_ptr<const Texture> texture;    ///< none: one colour
@@ -48,31 +48,32 @@ std::string toString(SurfaceKind kind);
 /// The class of most surfaces of that kind.
 surfaces::SurfaceClass usualClass(SurfaceKind kind);
 
-/// A face of a planar surface as the truth tells it, in the frame of the body: holes are outlines inside.
+/// The true face of a planar surface, in the frame of the body; holes are outlines inside it.
 struct PlanarFace {
   geometry::Plane3 plane_in_body;
   std::vector<Eigen::Vector3d> outline_in_body;  ///< counter-clockwise seen from the side the normal points to [m]
   std::vector<std::vector<Eigen::Vector3d>> holes_in_body;
 };
 
-/// What carries one label: a wall of a room, the top of a table, the whole of a cup.
+/// A part of a body that has one label: a wall of a room, the top of a table, the whole of a cup.
 struct Surface {
   std::string name;  ///< unique in the world: "kitchen/wall_2", "table_1/top"
   SurfaceKind kind = SurfaceKind::clutter;
   Material material;
   std::optional<PlanarFace> face;  ///< none: it is not flat
-  /// What a person would call it; of a furniture's kind the sides may be of another class than the top.
+  /// The class that people would give it; the sides of furniture may have another class than its top.
   surfaces::SurfaceClass is = surfaces::SurfaceClass::surface;
 };
 
 struct Triangle {
-  std::array<int, 3> corners;  ///< into Body::vertices_in_body; counter-clockwise from outside. Both sides are seen.
-  int surface = 0;             ///< into Body::surfaces
-  std::array<Eigen::Vector2f, 3> texture_at{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0),
-                                            Eigen::Vector2f(0, 0)};  ///< of each corner, as Texture::at()
+  /// Indices into Body::vertices_in_body, counter-clockwise seen from outside; both sides are visible.
+  std::array<int, 3> corners;
+  int surface = 0;  ///< index into Body::surfaces
+  /// Texture coordinates of each corner, as of Texture::at().
+  std::array<Eigen::Vector2f, 3> texture_at{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0)};
 };
 
-/// A rigid thing with its surfaces.
+/// A rigid body with its surfaces.
 struct Body {
   std::string name;                               ///< unique in the world
   std::vector<Eigen::Vector3d> vertices_in_body;  ///< [m]

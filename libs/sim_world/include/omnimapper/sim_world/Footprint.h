@@ -8,14 +8,14 @@
 
 namespace omnimapper::sim {
 
-/// Outlines on the floor, rings that go counter-clockwise. Lengths that are no more than this are none [m].
+/// Outlines on the floor are rings that go counter-clockwise. Lengths of no more than this count as 0 [m].
 constexpr double kFloorTolerance = 1e-6;
 
 /// A rectangle of length (along its x) and width about a centre, turned by yaw.
 Ring rectangle(const Eigen::Vector2d& centre, double length, double width, double yaw = 0);
 Ring rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
-/// The smallest rectangle along the axes that holds a ring, which has a point.
+/// The smallest rectangle along the axes that contains a ring, which must not be empty.
 struct Bounds {
   Eigen::Vector2d low, high;
 };
@@ -33,7 +33,7 @@ bool overlap(const Ring& a, const Ring& b);
 bool isWithin(const Ring& convex, const Ring& ring);
 bool isSimple(const Ring& ring);
 
-/// What stands on the floor: a convex outline and the heights it fills.
+/// The space of something that stands on the floor: a convex outline and the heights it fills.
 struct Footprint {
   std::string name;
   Ring outline_in_map;

@@ -9,7 +9,7 @@
 
 namespace omnimapper::sim {
 
-/// A material by name, and how its texture lies.
+/// A material and the layout of its texture.
 struct NamedMaterial {
   Material material;
   TextureLayout layout;
@@ -17,9 +17,9 @@ struct NamedMaterial {
 
 /// Names of all materials: paints, woods, metals, cloths, glass, grounds.
 const std::vector<std::string>& materialNames();
-/// For messages: there is none of that name, but there are others.
+/// Text for messages that says that no material has that name, with the nearest name or all names.
 std::string sayUnknownMaterial(const std::string& name);
-/// None if nothing is called so.
+/// None if there is no material of that name.
 std::optional<NamedMaterial> findMaterial(const std::string& name);
 /// Throws base::Error(out_of_range) with the nearest name.
 NamedMaterial materialNamed(const std::string& name);

@@ -7,8 +7,8 @@
 
 namespace omnimapper::sim {
 
-/// How a texture lies on a face. On a flat one u runs to the right and v up for who looks at it from the side its
-/// normal points to; up is z, or y on a face that is level. On a round one u runs around and v along its profile.
+/// How a texture lies on a face. On a flat face u runs to the right and v up, seen from the side its normal points to;
+/// up is z, or y if the face is level. On a round face u runs around and v along its profile.
 struct TextureLayout {
   Eigen::Vector2d tile{1, 1};  ///< width and height of one picture [m]; 0: one picture fills the face
   static TextureLayout fitted() { return {{0, 0}}; }
@@ -19,23 +19,23 @@ struct ProfilePoint {
   double radius = 0, z = 0;  ///< [m]
 };
 
-/// Builds a body, part by part. Coordinates are in the part's frame that at() sets, the body's own to begin with.
-/// Faces are counter-clockwise seen from outside; std::invalid_argument is thrown for what has no extent.
+/// Builds a body, part by part. Coordinates are in the frame that at() sets, at first that of the body. Faces are
+/// counter-clockwise seen from outside; std::invalid_argument is thrown for parts without an extent.
 class MeshBuilder {
  public:
   explicit MeshBuilder(std::string body_name, Track track = Track(geometry::Se3{}));
 
-  /// From now on coordinates are in a part at this pose.
+  /// Sets the frame of the coordinates that follow.
   MeshBuilder& at(const geometry::Se3& body_from_part);
   MeshBuilder& layout(const TextureLayout& layout);
 
-  /// A new surface, "<body>/<part>" or, without a part, "<body>". Returns its number.
+  /// Adds a surface, "<body>/<part>" or, without a part, "<body>". Returns its number.
   int addSurface(const std::string& part, SurfaceKind kind, const Material& material);
 
-  /// A flat face of a surface; holes strictly inside, in any sense of rotation.
+  /// Adds a flat face to a surface; holes are strictly inside, in any sense of rotation.
   void addFace(int surface, const std::vector<Eigen::Vector3d>& outline,
                const std::vector<std::vector<Eigen::Vector3d>>& holes = {});
-  /// A new surface that is one flat face, and its truth. Returns its number.
+  /// Adds a surface that is one flat face, with its true PlanarFace. Returns its number.
   int addPlane(const std::string& part, SurfaceKind kind, const Material& material,
                const std::vector<Eigen::Vector3d>& outline,
                const std::vector<std::vector<Eigen::Vector3d>>& holes = {});
@@ -49,8 +49,8 @@ class MeshBuilder {
                       const Eigen::Vector3d& high);
   /// Upright prism over a simple polygon that goes counter-clockwise.
   void addPrism(int surface, const std::vector<Eigen::Vector2d>& outline, double low_z, double high_z);
-  /// The profile, from bottom to top seen outside, turned about z; flat ends where it does not begin or end at radius
-  /// 0.
+  /// Adds the surface of a profile that is turned about z. The profile goes up on the outside of the solid; where it
+  /// does not begin or end at radius 0, the solid has a flat end.
   void addRevolution(int surface, const std::vector<ProfilePoint>& profile, int sides = 24);
   void addCylinder(int surface, double radius, double low_z, double high_z, int sides = 24);
   void addCone(int surface, double radius, double low_z, double tip_z, int sides = 24);

@@ -13,10 +13,11 @@ namespace omnimapper::sim {
 const std::vector<std::string>& objectShapes();
 
 struct ObjectSpec {
-  std::string name;        ///< of its body
-  std::string shape;       ///< one of objectShapes()
-  std::uint64_t seed = 0;  ///< decides colours, textures and, without a size, the size: up to 15 % from the usual
-  /// Extents along x, y and z of the whole thing, handle and all [m].
+  std::string name;   ///< of its body
+  std::string shape;  ///< one of objectShapes()
+  /// Determines colours, textures and, if no size is given, the size, up to 15 % from the usual one.
+  std::uint64_t seed = 0;
+  /// Extents along x, y and z of the whole object with its handle [m].
   std::optional<Eigen::Vector3d> size;
   geometry::Se3 map_from_object;
   bool moveable = false;
@@ -28,9 +29,9 @@ struct MadeObject {
 };
 
 /// An object that stands on z = 0 of its body, its axis (or its middle) on the body's z; its front, if it has one,
-/// looks to -y. Surfaces: "<name>", and "<name>/<part>" for parts of other colours; none is flat in the sense of the
-/// truth. Each part is closed; parts may reach into one another. Throws base::Error(out_of_range) for an unknown shape,
-/// with the list of known ones, and for a size that is not positive.
+/// faces -y. Surfaces: "<name>", and "<name>/<part>" for parts of other colours; none has a PlanarFace. Each part is
+/// closed; parts may overlap. Throws base::Error(out_of_range) for an unknown shape, with the list of known ones, and
+/// for a size that is not positive.
 MadeObject makeObject(const ObjectSpec& spec);
 
 /// Extents of a body along its own axes [m].

@@ -7,20 +7,20 @@
 
 namespace omnimapper::sim {
 
-/// What hangs on walls and is no door sign.
+/// Kinds of flat items that hang on walls and are no door signs.
 enum class PosterKind {
   poster,        ///< a picture of shapes with a title
-  notice,        ///< a sheet of text: the nearest to a sign that is none
+  notice,        ///< a sheet of text, which is most like a door sign
   extinguisher,  ///< the red plate above a fire extinguisher
   clock,         ///< a dial with numbers, on a square plate
-  announcement   ///< a sheet with a date, a time and the number of a room, which is not the number of what is there
+  announcement   ///< a sheet with a date, a time and a room number, which is not that of the place where it hangs
 };
 
 struct PosterSpec {
   std::string name;  ///< of its body and surface
   PosterKind kind = PosterKind::poster;
-  std::uint64_t seed = 0;        ///< decides pictures, text and, where it is not given, the size
-  double width = 0, height = 0;  ///< [m]; 0: of its kind
+  std::uint64_t seed = 0;        ///< determines pictures, text and, where it is not given, the size
+  double width = 0, height = 0;  ///< [m]; 0: as usual for its kind
   std::string font_file;         ///< empty: DejaVu's
   /// Frame as Sign's: x to the reader's right, y up, z to the reader; origin in the middle of the front, the back
   /// 4 mm behind it.

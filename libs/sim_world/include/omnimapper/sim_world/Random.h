@@ -5,9 +5,9 @@
 
 namespace omnimapper::sim {
 
-/// A stream of random numbers that its names alone decide: the seed and, say, the sensor's and the measurement's
-/// number. Whoever draws from streams of their own gets the same numbers on any number of threads, in any order.
-/// Generator: splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA 2014).
+/// A stream of random numbers that depends only on the seed and on its names, such as the numbers of a sensor and a
+/// measurement. Code that draws from separate streams therefore gets the same numbers on any number of threads and in
+/// any order. Generator: splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA 2014).
 class Random {
  public:
   Random(std::uint64_t seed, std::initializer_list<std::uint64_t> names);

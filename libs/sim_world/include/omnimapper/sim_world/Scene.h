@@ -12,7 +12,7 @@ struct Ray {
   Eigen::Vector3d origin_in_map;     ///< [m]
   Eigen::Vector3d direction_in_map;  ///< unit
   double near = 0;                   ///< hits nearer than this do not count [m]
-  double far = 1e4;                  ///< nor those farther [m]
+  double far = 1e4;                  ///< hits farther than this do not count [m]
 };
 
 struct Hit {
@@ -23,13 +23,13 @@ struct Hit {
   bool isHit() const { return surface >= 0; }
 };
 
-/// The world at one moment, for rays. Immutable; any number of threads may ask at once.
+/// The world at one time, for ray casting. Immutable; any number of threads may use it at once.
 class Scene {
  public:
   class Part;
   explicit Scene(std::vector<std::shared_ptr<const Part>> parts) : parts_(std::move(parts)) {}
 
-  /// The nearest hit of each ray. Neighbouring rays in one call are faster than calls of their own.
+  /// The nearest hit of each ray. Neighbouring rays are faster in one call than in separate ones.
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
   /// The same for arrays of `count`.
   void cast(const Ray* rays, std::size_t count, Hit* hits) const;
@@ -43,7 +43,7 @@ class Scene {
   std::vector<std::shared_ptr<const Part>> parts_;
 };
 
-/// Scenes of a world over time. What stands still between two moments is built once. Thread-safe.
+/// Scenes of a world over time. Bodies that stand still between two times are built once. Thread-safe.
 class Scenes {
  public:
   /// `world` must outlive it.

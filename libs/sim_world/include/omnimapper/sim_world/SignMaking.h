@@ -9,12 +9,12 @@ namespace omnimapper::sim {
 
 /// How the signs of a building look.
 enum class SignStyle {
-  dark,   ///< dark blue plate, white bold sans text in the middle, the first line large, dots for fingers below
+  dark,   ///< dark blue plate, white bold sans text in the middle, the first line large, dots like braille below
   white,  ///< white plate with a black border and a rule, serif text on the left, the first line large, an arrow
-  exit    ///< green plate with large white capitals and an arrow, as on ways of escape
+  exit    ///< green plate with large white capitals and an arrow, as on escape routes
 };
 
-/// How high above the floor a building of this style hangs its signs, their middle [m].
+/// Height above the floor at which signs of this style hang, of their centre [m].
 double usualHeight(SignStyle style);
 
 /// Thickness of every door sign: the frame of a sign on a wall is this far before the wall [m].
@@ -36,7 +36,7 @@ struct MadeSign {
 };
 
 /// A thin plate with text. Capital letters are at least 24 pixels high on the texture. Throws base::Error(out_of_range)
-/// if there is no text, or it does not fit the size asked for or 0.5 m; as drawText() for fonts.
+/// if there is no text, or if it does not fit the given size or 0.5 m, and what drawText() throws for fonts.
 MadeSign makeSign(const SignSpec& spec);
 
 }  // namespace omnimapper::sim

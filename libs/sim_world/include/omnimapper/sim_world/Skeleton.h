@@ -28,14 +28,14 @@ constexpr std::array<const char*, kJointCount> kJointNames{
     "head",      "neck",           "torso",       "left_shoulder", "left_elbow", "left_hand",  "left_hip",  "left_knee",
     "left_foot", "right_shoulder", "right_elbow", "right_hand",    "right_hip",  "right_knee", "right_foot"};
 
-/// A place for each joint [m].
+/// The position of each joint [m].
 struct Skeleton {
   std::array<Eigen::Vector3d, kJointCount> places;
   Eigen::Vector3d& operator[](Joint joint) { return places[static_cast<int>(joint)]; }
   const Eigen::Vector3d& operator[](Joint joint) const { return places[static_cast<int>(joint)]; }
 };
 
-/// The joint of a limb on one side: kLeft or kRight + shoulder, elbow, ...
+/// The joint of a limb on the left or right side.
 enum class Limb { shoulder, elbow, hand, hip, knee, foot };
 inline Joint jointOf(bool right, Limb limb) {
   return static_cast<Joint>(static_cast<int>(right ? Joint::right_shoulder : Joint::left_shoulder) +
@@ -50,7 +50,7 @@ struct Anatomy {
   double standing_hip_z = 0.525 * height;                      // knees hardly bent
   double upper_arm = 0.186 * height, forearm = 0.19 * height;  // to the middle of the palm
   double half_shoulders = 0.115 * height;
-  // Above the hips.
+  // Heights above the hips.
   double torso_up = 0.16 * height, shoulder_up = 0.288 * height, neck_up = 0.325 * height, head_up = 0.405 * height;
 };
 

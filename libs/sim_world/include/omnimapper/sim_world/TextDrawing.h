@@ -18,17 +18,18 @@ struct TextStyle {
   Eigen::Vector3f colour{0, 0, 0};
 };
 
-/// Extent of a line of UTF-8 text [pixel]: the way the pen goes, and the reach of ascenders and descenders in the font.
+/// Extent of a line of UTF-8 text [pixel]: the distance that the pen travels, and the reach of ascenders and descenders
+/// in the font.
 struct TextExtent {
   double width = 0, above = 0, below = 0;  ///< above and below the base line, both positive
 };
 
-/// Throws base::Error(unreadable_input) if the font is missing or no font, std::invalid_argument if the text is not
-/// UTF-8 or the height not positive.
+/// Throws base::Error(unreadable_input) if the font file is missing or is no font, std::invalid_argument if the text is
+/// not UTF-8 or the height not positive.
 TextExtent measureText(const std::string& line, const TextStyle& style);
 
-/// Writes one line, anti-aliased, its pen starting at x on base line y, both from the upper left corner of the texture
-/// [pixel]. What lies outside the texture is cut off. Throws as measureText().
+/// Writes one line, anti-aliased. Its pen starts at x on base line y, both from the upper left corner of the texture
+/// [pixel]. Pixels outside the texture are cut off. Throws as measureText().
 void drawText(Texture& texture, const std::string& line, double x, double y, const TextStyle& style);
 
 enum class Alignment { left, centre, right };

@@ -7,12 +7,12 @@
 
 namespace omnimapper::sim {
 
-/// Where a thing is over time. Times are seconds since the start of the simulation.
+/// The pose of a body over time. Times are seconds since the start of the simulation.
 class Track {
  public:
   enum class Kind {
-    steps,   ///< stays where it was put until it is put elsewhere: things that are carried while nobody looks
-    motion,  ///< goes from one pose to the next, linearly: people, robots
+    steps,   ///< stays where it was put until it is put elsewhere, as objects that are carried instantly
+    motion,  ///< goes linearly from one pose to the next, as people and robots
   };
   struct Place {
     double time;                                 ///< [s]
@@ -24,7 +24,7 @@ class Track {
   /// Throws std::invalid_argument unless there is a place, times increase, and a motion has a pose at each.
   Track(Kind kind, std::vector<Place> places);
 
-  /// Before the first place that of the first place counts; after the last, that of the last.
+  /// The pose at a time: before the first place that of the first, after the last that of the last.
   std::optional<geometry::Se3> at(double time) const;
 
   Kind kind() const { return kind_; }

@@ -45,10 +45,10 @@ struct PointLandmark {
   std::string name;
   int id = 0;
   Eigen::Vector3d in_body = Eigen::Vector3d::Zero();
-  std::string body;  ///< the body it is fixed to; empty: to the map, in_body is in the map then
+  std::string body;  ///< the body it is fixed to; empty: it is fixed to the map, and in_body is in the map
 };
 
-/// What may be put elsewhere, and is an object to people: cups, boxes, ... Its poses over time are its body's track.
+/// An object that people may put elsewhere: a cup, a box, ... Its poses over time are its body's track.
 struct Object {
   std::string name;   ///< of its body
   std::string shape;  ///< "cup", "box", ...
@@ -75,10 +75,11 @@ struct Person {
   std::vector<Pointing> pointing;
 };
 
-/// Everything there is, in the map's frame: z up, floor of the first room at 0. Times are seconds since the start.
+/// The whole simulated world, in the map's frame: z up, floor of the first room at 0. Times are seconds since the
+/// start.
 struct World {
   std::uint64_t seed = 0;
-  /// By how much brightness varies from place to place on what stands still: its standard deviation over its mean.
+  /// Variation of brightness from place to place on bodies that never move: its standard deviation over its mean.
   double wear = 0;
   std::vector<Body> bodies;
   std::vector<Room> rooms;
@@ -88,18 +89,19 @@ struct World {
   std::vector<PointLandmark> point_landmarks;
   std::vector<Object> objects;
   std::vector<Person> people;
-  /// Where no robot can be: outlines on the floor of what ever stands there, walls as polygons of their solid [m].
+  /// Areas where no robot can be: outlines on the floor of all that stands there at any time, walls as polygons of
+  /// their solid [m].
   std::vector<std::vector<Eigen::Vector2d>> obstacles;
 };
 
-/// A surface by its number in the world. Labels of images and beams are this number plus one; 0 is nothing.
+/// A surface of a body. Labels of images and beams are its number in the world plus one; 0 is no surface.
 struct SurfaceRef {
   int body = 0, surface = 0;
 };
 /// All surfaces in order of bodies, then of the surfaces of each.
 std::vector<SurfaceRef> numberSurfaces(const World& world);
 
-/// Throws base::Error(internal) unless names are unique and all references inside the world hold.
+/// Throws base::Error(internal) unless names are unique and all references inside the world are valid.
 void validate(const World& world);
 
 }  // namespace omnimapper::sim

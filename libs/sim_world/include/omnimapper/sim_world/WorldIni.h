@@ -15,16 +15,16 @@ enum class ClutterLevel { low, medium, high };
 /// Section [world] of an INI: what a generator makes, and what sections add to it.
 struct WorldOptions {
   int seed = 1;
-  int plan_seed = 0;               ///< of the rooms and openings that the generator makes; 0: its fixed plan
+  int plan_seed = 0;               ///< seed of the rooms and openings that the generator makes; 0: its fixed plan
   std::string generator = "none";  ///< one of generatorNames()
   ClutterLevel clutter = ClutterLevel::medium;
   double length = 200;    ///< of a loop of corridor, along its middle [m]
-  double move_time = 90;  ///< when what is moveable is carried elsewhere; negative: never [s]
-  double wear = 0;        ///< as World's
+  double move_time = 90;  ///< time at which moveable objects are carried elsewhere; negative: never [s]
+  double wear = 0;        ///< as World::wear
   std::string sign_style = "dark";
-  int repeated_signs = 0;  ///< door signs of a generated place with a word that several doors have
+  int repeated_signs = 0;  ///< number of door signs of a generated place with a word that several doors have
   bool exit_signs = false;
-  int announcements = 0;  ///< posters with numbers in its corridors
+  int announcements = 0;  ///< largest number of posters with numbers in its corridors
   std::string hall_wall;  ///< material of the walls of its corridors; empty: the generator's
   std::vector<std::string> rooms, doors, furniture, objects, signs, posters, markers, landmarks, people;
   static const base::OptionTable<WorldOptions>& table();
@@ -33,7 +33,7 @@ struct WorldOptions {
 /// Reads [world] and all sections it names. Throws base::Error unknown_key, wrong_type, out_of_range or unknown_plugin
 /// with file, section and key.
 WorldPlan readWorldPlan(const base::Config& config);
-/// makeWorld() of that.
+/// The world that makeWorld() builds of readWorldPlan().
 World readWorld(const base::Config& config);
 
 /// For the reference of keys: each kind of section that [world] may name, with its classes and options.

@@ -11,17 +11,17 @@
 
 namespace omnimapper::sim {
 
-/// Plain descriptions of all that is in a world, as sections of an INI say them and as generators make them. Positions
-/// are in the map. `name` is the section's name; makeWorld() checks what they say and builds it.
+/// Plain descriptions of all that is in a world, as sections of an INI give them and generators make them. Positions
+/// are in the map. `name` is the section's name. makeWorld() checks the descriptions and builds the world.
 
-/// Area of the rectangle that all rooms of a world lie in, at most [m^2].
+/// Largest area of the rectangle that all rooms of a world lie in [m^2].
 constexpr double kLargestPlace = 80000;
 
 struct RoomPlan {
   std::string name;
   std::string kind = "room";        ///< "kitchen", "corridor", ...
   std::string number;               ///< as on its sign
-  Ring outline;                     ///< of its free inside, in any sense of rotation [m]
+  Ring outline;                     ///< outline of its free inside, in any sense of rotation [m]
   double floor_z = 0;               ///< at the first corner [m]
   double height = 2.6;              ///< [m]
   double slope_x = 0, slope_y = 0;  ///< rise per metre along x and y of the map
@@ -39,7 +39,7 @@ struct OpeningPlan {
   double width = 0.9;              ///< 0: all that the two rooms share (passage) [m]
   double height = 2.05, sill = 0;  ///< of the opening itself, and of its bottom above the floor [m]
   Leaf leaf = Leaf::open;          ///< of a door
-  double leaf_angle = 1.6;         ///< how far an open one is turned into the first room [rad]
+  double leaf_angle = 1.6;         ///< angle by which an open leaf is turned into the first room [rad]
   bool hinge_right = false;        ///< seen from the first room
   std::string material = "door_wood";
 };
@@ -50,13 +50,13 @@ struct PlacePlan {
   std::string on;       ///< the level surface it stands on, "table_1/top"; empty: the floor
 };
 
-/// From `time` on a thing is elsewhere, or gone.
+/// A move of an object or marker at `time`: to another place or out of the world.
 struct MovePlan {
   double time = 0;  ///< [s]
   std::optional<PlacePlan> place;
 };
 
-/// Frame: origin in the middle of its outline on the floor, x along its length, the front looks to -y.
+/// Frame: origin in the middle of its outline on the floor, x along its length, the front faces -y.
 struct FurniturePlan {
   std::string name;
   std::string shape;                         ///< one of furnitureShapes()
@@ -76,7 +76,7 @@ struct ObjectPlan {
   std::vector<MovePlan> moves;  ///< in order
 };
 
-/// What hangs on a wall: the nearest wall of the room that the point lies in; it must be within 0.5 m.
+/// The place of something that hangs on a wall: the nearest wall of the room that the point lies in, within 0.5 m.
 struct OnWallPlan {
   double x = 0, y = 0;  ///< [m]
   double z = 1.5;       ///< of its middle above the floor [m]
@@ -98,7 +98,7 @@ struct PosterPlan {
   double width = 0, height = 0;  ///< 0: as is usual [m]
 };
 
-/// On a wall, or in a frame that stands on `place.on` or on the floor and looks along yaw.
+/// A marker on a wall, or in a frame that stands on `place.on` or on the floor and faces -y at yaw 0.
 struct MarkerPlan {
   std::string name;
   int id = 0;
@@ -117,9 +117,9 @@ struct LandmarkPlan {
 };
 
 struct WorldPlan {
-  std::string file;  ///< where it is from, for messages
+  std::string file;  ///< the INI that it is from, for messages
   std::uint64_t seed = 0;
-  double wear = 0;  ///< as World's
+  double wear = 0;  ///< as World::wear
   std::vector<RoomPlan> rooms;
   std::vector<OpeningPlan> openings;
   std::vector<FurniturePlan> furniture;
@@ -128,10 +128,10 @@ struct WorldPlan {
   std::vector<PosterPlan> posters;
   std::vector<MarkerPlan> markers;
   std::vector<LandmarkPlan> landmarks;
-  std::vector<PersonSpec> people;  ///< targets that have a name need no place: it is looked up
+  std::vector<PersonSpec> people;  ///< targets that have a name need no position, which is looked up
 };
 
-/// The world as described. Throws base::Error(out_of_range) for what cannot be, naming section and key.
+/// Builds the described world. Throws base::Error(out_of_range) naming section and key if that is impossible.
 World makeWorld(const WorldPlan& plan);
 
 /// Throws base::Error(out_of_range): "<file>: [<section>] <key>: <what>".

@@ -1,4 +1,4 @@
-#include "RoomWays.h"
+#include "RoomPaths.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kRobotRadius = 0.33;   // a way through a room is this wide to both sides [m]
+constexpr double kRobotRadius = 0.33;   // a path through a room is this wide to both sides [m]
 constexpr double kCell = 0.1;           // of the grid [m]
-constexpr double kEnoughReached = 0.9;  // part of the free floor that is to be reached
+constexpr double kEnoughReached = 0.9;  // part of the free floor that must be reached
 
 double distanceOf(const Vector2d& p, const Ring& ring) {
   if (contains(ring, p)) return 0;
@@ -24,7 +24,7 @@ double distanceOf(const Vector2d& p, const Ring& ring) {
 
 }  // namespace
 
-RoomWays::RoomWays(const Room& room, const std::vector<Ring>& doorways) {
+RoomPaths::RoomPaths(const Room& room, const std::vector<Ring>& doorways) {
   const Bounds bounds = boundsOf(room.outline);
   const Vector2d size = bounds.high - bounds.low;
   low_ = bounds.low;
@@ -40,17 +40,17 @@ RoomWays::RoomWays(const Room& room, const std::vector<Ring>& doorways) {
   }
 }
 
-void RoomWays::block(const Ring& ring) {
+void RoomPaths::block(const Ring& ring) {
   mark(ring, kRobotRadius, inside, wall);
   mark(ring, kRobotRadius, door, wall);
 }
 
-Vector2d RoomWays::middleOf(int cell) const {
+Vector2d RoomPaths::middleOf(int cell) const {
   return low_ + kCell * Vector2d(cell % columns_ + 0.5, cell / columns_ + 0.5);
 }
 
-// The cells within a distance of a ring become `to` if they are `from` so far.
-void RoomWays::mark(const Ring& ring, double distance, Cell from, Cell to) {
+// Changes cells within a distance of a ring from `from` to `to`.
+void RoomPaths::mark(const Ring& ring, double distance, Cell from, Cell to) {
   const Bounds near = boundsOf(ring);
   const auto cellAt = [&](double value, int count) { return std::clamp(static_cast<int>(value / kCell), 0, count); };
   const int last_x = cellAt(near.high.x() + distance - low_.x() + kCell, columns_),
@@ -63,10 +63,10 @@ void RoomWays::mark(const Ring& ring, double distance, Cell from, Cell to) {
   }
 }
 
-std::size_t RoomWays::markReached(int start, std::vector<Cell>& cells) const {
+std::size_t RoomPaths::markReached(int start, std::vector<Cell>& cells) const {
   std::deque<int> open{start};
   std::size_t reached = 0;
-  cells[start] = seen;
+  cells[start] = visited;
   while (!open.empty()) {
     const int cell = open.front(), column = cell % columns_;
     open.pop_front();
@@ -74,15 +74,15 @@ std::size_t RoomWays::markReached(int start, std::vector<Cell>& cells) const {
     const std::array<int, 4> next{column > 0 ? cell - 1 : -1, column + 1 < columns_ ? cell + 1 : -1, cell - columns_,
                                   cell + columns_};
     for (const int n : next) {
-      if (n < 0 || n >= columns_ * rows_ || cells[n] == wall || cells[n] == seen) continue;
-      cells[n] = seen;
+      if (n < 0 || n >= columns_ * rows_ || cells[n] == wall || cells[n] == visited) continue;
+      cells[n] = visited;
       open.push_back(n);
     }
   }
   return reached;
 }
 
-bool RoomWays::areOpen() const {
+bool RoomPaths::areOpen() const {
   const auto free_count = std::count_if(cells_.begin(), cells_.end(), [](const Cell& cell) { return cell != wall; });
   if (free_count == 0) return false;
   auto first = std::find(cells_.begin(), cells_.end(), door);
