@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// Simulated logs, spoilt by hand, and what is said of them.
+/// Simulated logs that are spoilt by hand, with the findings on them and the proposed settings.
 namespace omnimapper::check {
 
 using mrpt::obs::CObservation2DRangeScan;
@@ -43,7 +43,7 @@ inline Observations halfALap(std::vector<testing::SimulatedLaser> lasers = {test
   return testing::SimulatedLog(options).observations();
 }
 
-/// Does something to every observation of a class.
+/// Applies `change` to every observation of a class.
 template <class Class>
 void each(Observations& observations, const std::function<void(Class&)>& change) {
   for (const auto& observation : observations) {
@@ -70,7 +70,7 @@ struct Checked {
     return text;
   }
   bool says(const std::string& words) const { return text().find(words) != std::string::npos; }
-  /// What is proposed for a key; empty if nothing is.
+  /// The value that is proposed for a key; empty if none is.
   std::string proposed(const std::string& section, const std::string& key) const {
     for (const auto& setting : settings) {
       if (setting.section == section && setting.key == key) return setting.value;

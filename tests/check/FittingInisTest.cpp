@@ -1,4 +1,4 @@
-// Which of the project's INIs are named for which sensors.
+// Which of the project's INIs fit which sensors.
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// A log, and of another class an observation beside each scan.
+/// A log with an observation of another class added after each scan.
 template <class Class>
 Observations with(const Observations& log = halfALap()) {
   Observations all;
@@ -50,7 +50,7 @@ TEST(FittingInis, OfALaserAreThoseOfLasers) {
   EXPECT_EQ(namesFor(without(halfALap(), "odometry")), (Names{"ini/laser2d.ini", "ini/laser_walls.ini"}));
 }
 
-TEST(FittingInis, OfARangeCameraDependOnWhatTellsItsMotion) {
+TEST(FittingInis, OfARangeCameraDependOnWhatMeasuresItsMotion) {
   const auto log = with<mrpt::obs::CObservation3DRangeScan>();
   EXPECT_EQ(namesFor(log), (Names{"ini/home_planes.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}));
   EXPECT_EQ(namesFor(without(log, "laser")), (Names{"ini/rgbd_robot.ini", "ini/home_planes.ini"}));

@@ -1,4 +1,4 @@
-// Findings about odometry, held against the motion of the scans.
+// Findings on odometry, which is compared with the motion of the scans.
 #include "CheckedLog.h"
 
 namespace omnimapper::check::odometry_test {
@@ -14,7 +14,7 @@ TEST(Odometry, ThatIsAbsentIsSaidAndItsPluginLeftOut) {
   log.erase(std::remove_if(log.begin(), log.end(), [](const auto& o) { return o->sensorLabel == "odometry"; }),
             log.end());
   const Checked checked(log);
-  EXPECT_EQ(checked.text(), "warning: there is no odometry: the motion is left to the scans\n");
+  EXPECT_EQ(checked.text(), "warning: there is no odometry: the motion is estimated from the scans alone\n");
   EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
 }
 
@@ -22,7 +22,7 @@ TEST(Odometry, ThatStandsStillWhileTheScansMoveIsFrozen) {
   auto log = halfALap();
   each<CObservationOdometry>(log, [](auto& odometry) { odometry.odometry = CPose2D(1, 2, 3); });
   const Checked checked(log);
-  EXPECT_TRUE(checked.says("problem: 'odometry': at rest in")) << checked.text();
+  EXPECT_TRUE(checked.says("problem: 'odometry': measures no motion in")) << checked.text();
   EXPECT_TRUE(checked.says("frozen")) << checked.text();
   EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
 }
@@ -43,12 +43,12 @@ TEST(Odometry, ThatFreezesForAWhileIsSaidWithTheTime) {
 TEST(Odometry, ThatRunsAgainstTheScansIsReversed) {
   auto log = halfALap();
   each<CObservationOdometry>(log, [](auto& odometry) {
-    // What encoders with swapped signs sum up.
+    // The sum that encoders with swapped signs give.
     const auto& p = odometry.odometry;
     odometry.odometry = CPose2D(-p.x(), p.y(), -p.phi());
   });
   const Checked checked(log);
-  EXPECT_TRUE(checked.says("problem: 'odometry': runs against the scans: reversed")) << checked.text();
+  EXPECT_TRUE(checked.says("problem: 'odometry': is reversed compared with the scans")) << checked.text();
   EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
   EXPECT_EQ(checked.proposed("mapper", "sensors"), "") << "the laser is not to blame";
 }
@@ -88,7 +88,7 @@ TEST(Odometry, OfAnotherTimeThanTheScansIsAProblem) {
   each<CObservationOdometry>(log, [](auto& odometry) { odometry.timestamp += std::chrono::hours(1); });
   const Checked checked(log);
   EXPECT_TRUE(checked.says("problem: 'odometry' and 'laser': 100 % of the scans lie outside")) << checked.text();
-  EXPECT_TRUE(checked.says("it starts 36")) << checked.text();
+  EXPECT_TRUE(checked.says("the odometry starts 36")) << checked.text();
   EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), kWithoutOdometry);
 }
 
@@ -131,10 +131,10 @@ TEST(Odometry, ItsNoiseIsNotProposedWhereItOnlyFillsGaps) {
   const PluginLists gaps{{"scan_odometry", "odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}, true};
   EXPECT_EQ(toIni(proposeIni(checked.facts, gaps)), "");
   const PluginLists alone{{"odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}, true};
-  EXPECT_NE(toIni(proposeIni(checked.facts, alone)), "") << "without the laser's odometry it tells all";
+  EXPECT_NE(toIni(proposeIni(checked.facts, alone)), "") << "without the laser's odometry it alone measures the motion";
 }
 
-/// A log with a second odometry, the first one's readings after `change`.
+/// A log with a second odometry, which has the first one's readings changed by `change`.
 Observations withAnother(const Observations& log,
                          const std::function<CPose2D(const CPose2D&, double seconds)>& change) {
   Observations all;
@@ -182,7 +182,7 @@ TEST(Odometry, ThatTurnsTooFarIsNotBlamedOnTheLaser) {
     odometry.odometry = summed;
   });
   const Checked checked(log);
-  EXPECT_TRUE(checked.says("warning: 'odometry': turns 1.4")) << checked.text();
+  EXPECT_TRUE(checked.says("warning: 'odometry': measures a turn of 1.4")) << checked.text();
   EXPECT_FALSE(checked.says("declare")) << checked.text();
 }
 

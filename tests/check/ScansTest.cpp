@@ -1,4 +1,4 @@
-// Findings about 2D scans and where their laser is.
+// Findings on 2D scans and the pose of their laser.
 #include "CheckedLog.h"
 
 namespace omnimapper::check::scans_test {
@@ -14,7 +14,7 @@ void setRanges(CObservation2DRangeScan& scan, float range, bool valid) {
   }
 }
 
-/// A log whose laser is at one place and says it is at another.
+/// A log whose laser has one pose and states another.
 Observations mounted(const CPose3D& truly, const CPose3D& said) {
   SimulatedLaser laser;
   laser.base_from_sensor = truly;
@@ -73,7 +73,7 @@ TEST(Scans, ThatNeverChangeAreAStuckSensor) {
       scan.setScanRangeValidity(i, first->getScanRangeValidity(i));
     }
   });
-  EXPECT_TRUE(Checked(log).says("is it stuck?"));
+  EXPECT_TRUE(Checked(log).says("is the sensor stuck?"));
 }
 
 TEST(Scans, WhoseMissesAreMarkedAsValidGetALimit) {
@@ -125,7 +125,7 @@ TEST(Scans, ThatDeclareAWrongApertureGetTheirOwn) {
     each<CObservation2DRangeScan>(log, [&](auto& scan) { scan.aperture = static_cast<float>(declared); });
     const Checked checked(log);
     EXPECT_TRUE(checked.says("problem: 'laser': its scans declare")) << checked.text();
-    EXPECT_TRUE(checked.says("as scans of 180 deg do")) << checked.text();
+    EXPECT_TRUE(checked.says("better with 180 deg")) << checked.text();
     EXPECT_EQ(checked.proposed("mapper", "sensors"), "place_of_laser");
     EXPECT_EQ(checked.proposed("place_of_laser", "aperture_deg"), "180.0");
     EXPECT_EQ(checked.proposed("place_of_laser", "pose_x_m"), "") << "its place is right";

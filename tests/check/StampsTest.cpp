@@ -1,4 +1,4 @@
-// Findings about stamps.
+// Findings on stamps.
 #include "CheckedLog.h"
 
 namespace omnimapper::check::stamps_test {
@@ -28,7 +28,7 @@ TEST(Stamps, ThatAreMissingOrRepeatedAreCounted) {
   EXPECT_EQ(laser.no_stamp, static_cast<std::size_t>(n / 50));
   EXPECT_EQ(laser.repeated, static_cast<std::size_t>((n + 40) / 50));
   EXPECT_TRUE(checked.says("without a stamp")) << checked.text();
-  EXPECT_TRUE(checked.says("is repeated")) << checked.text();
+  EXPECT_TRUE(checked.says("a stamp is repeated")) << checked.text();
 }
 
 TEST(Stamps, ThatNeverComeAreAProblem) {
@@ -66,7 +66,7 @@ Observations restingIn(Observations log, double seconds) {
   return log;
 }
 
-// The laser is silent for a while, the rest goes on.
+// The laser is silent for a while, and the other sensors go on.
 Observations blindFor(Observations log, double seconds) {
   const auto start = log.front()->timestamp;
   const auto is_missing = [&](const auto& observation) {
@@ -79,27 +79,30 @@ Observations blindFor(Observations log, double seconds) {
 
 TEST(Stamps, ThatPauseAreAGapUnlessTheRobotRests) {
   const Checked driving(blindFor(halfALap(), 8));
-  EXPECT_TRUE(driving.says("warning: 'laser': 1 gap, the longest of 8.1 s (usually 0.100 s)")) << driving.text();
+  EXPECT_TRUE(
+      driving.says("warning: 'laser': 1 gap in which the robot may have moved, the longest of 8.1 s (the usual "
+                   "interval is 0.100 s)"))
+      << driving.text();
   const Checked resting(restingIn(halfALap(), 8));
   EXPECT_TRUE(resting.says("note: 'laser': 1 gap in which the robot moved by less than 1.5 m")) << resting.text();
   EXPECT_FALSE(resting.says("warning")) << resting.text();
 }
 
-TEST(Stamps, OfALogRecordedByTheWayMayPauseForMinutes) {
+TEST(Stamps, OfALogRecordedByDistanceMayPauseForMinutes) {
   // A scan every 0.2 m, then every 0.6 m.
   auto log = restingIn(halfALap(), 200);
-  Observations by_way;
+  Observations by_distance;
   std::size_t scans = 0, next = 0;
   for (const auto& observation : log) {
     if (dynamic_cast<const CObservation2DRangeScan*>(observation.get())) {
       if (scans++ < next) continue;
-      next = scans + 2 + 6 * (by_way.size() / 20 % 2);
-      by_way.push_back(observation);
-    } else if (!by_way.empty() && by_way.back()->sensorLabel == "laser") {
-      by_way.push_back(observation);
+      next = scans + 2 + 6 * (by_distance.size() / 20 % 2);
+      by_distance.push_back(observation);
+    } else if (!by_distance.empty() && by_distance.back()->sensorLabel == "laser") {
+      by_distance.push_back(observation);
     }
   }
-  const Checked checked(by_way);
+  const Checked checked(by_distance);
   EXPECT_FALSE(checked.says("clock")) << checked.text();
   EXPECT_TRUE(checked.says("note: 'laser': 1 gap in which the robot moved by less than 1.5 m")) << checked.text();
 }
@@ -107,7 +110,8 @@ TEST(Stamps, OfALogRecordedByTheWayMayPauseForMinutes) {
 TEST(Stamps, OfOneSensorThatPausesAreNoJumpOfTheClock) {
   const Checked checked(blindFor(halfALap({testing::SimulatedLaser()}, [](auto& options) { options.laps = 3; }), 65));
   EXPECT_FALSE(checked.says("clock")) << checked.text();
-  EXPECT_TRUE(checked.says("warning: 'laser': 1 gap, the longest of 65")) << checked.text();
+  EXPECT_TRUE(checked.says("warning: 'laser': 1 gap in which the robot may have moved, the longest of 65"))
+      << checked.text();
 }
 
 TEST(Stamps, ThatComeLateWidenTheWindow) {

@@ -71,7 +71,7 @@ TEST(AbsoluteTrajectoryError, HintsAtFramesThatAreNotTheSame) {
 }
 
 TEST(AbsoluteTrajectoryError, ATurnThatAllPosesShareIsSaidToBeOfTheAlignment) {
-  // All look 5 degrees aside of the way they go.
+  // All poses look 5 degrees aside of their direction of travel.
   const Trajectory truth = {planar(0, 0, 0), planar(1, 1, 0), planar(2, 1, 1)};
   const Trajectory aside = {planar(0, 0, 0, 5 * kDegree), planar(1, 1, 0, 5 * kDegree), planar(2, 1, 1, 5 * kDegree)};
   const Trajectory mixed = {planar(0, 0, 0, 5 * kDegree), planar(1, 1, 0, -5 * kDegree), planar(2, 1, 1)};

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// omnimapper-eval with two trajectories at hand: the reference, and an estimate 0.1 m beside it in another world.
+// Runs omnimapper-eval on two trajectories: the reference, and an estimate 0.1 m beside it in another world frame.
 class EvalApp : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ class EvalApp : public ::testing::Test {
     writeTum(reference_, walk);
     writeTum(estimate_, inOtherWorld(someMotion(), walk));
   }
-  // Exit code; what it printed is in text_.
+  // Returns the exit code; the output is in text_.
   int run(const std::string& arguments) {
     const auto program = fs::read_symlink("/proc/self/exe").parent_path() / "omnimapper-eval";
     const std::string out = folder_ / "printed.txt";
@@ -49,7 +49,7 @@ TEST_F(EvalApp, PrintsATableAndLeavesNumbersAndPlots) {
   const std::string out = folder_ / "results/ate";
   ASSERT_EQ(run("ate " + estimate_ + " " + reference_ + " --align se3 -o " + out + " --json " + folder_ / "n.json"), 0)
       << text_;
-  EXPECT_TRUE(printed("50 pairs, 0 poses without partner")) << text_;
+  EXPECT_TRUE(printed("50 pairs, 0 unpaired poses")) << text_;
   EXPECT_TRUE(printed("translation        0.0000")) << text_;
   for (const char* name : {"numbers.json", "errors.svg", "trajectory.svg"}) EXPECT_TRUE(fs::exists(out + "/" + name));
   EXPECT_EQ(contentOf(folder_ / "n.json"), contentOf(out + "/numbers.json"));
@@ -130,7 +130,7 @@ TEST_F(EvalApp, HelpShowsExamples) {
   EXPECT_TRUE(printed("omnimapper-eval ate ")) << text_;
 }
 
-TEST_F(EvalApp, ExitCodesTellWhatIsWrong) {
+TEST_F(EvalApp, ExitCodesShowWhatIsWrong) {
   const auto code = [](base::ExitCode exit_code) { return static_cast<int>(exit_code); };
   const std::string files = estimate_ + " " + reference_;
   EXPECT_EQ(run(""), code(base::ExitCode::command_line));

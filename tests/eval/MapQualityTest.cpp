@@ -81,7 +81,7 @@ TEST(MapQuality, AWallInTwoPiecesIsNotThereOnceThoughNothingIsDoubled) {
 TEST(MapQuality, BothFacesOfAThinWallAreTwo) {
   const auto truth = setOf({wall(0, 4, 3), turned(wall(0, 4, 3.05))});
   EXPECT_TRUE(judgeMap(truth, truth).doubles.empty());
-  // One face alone stands for one.
+  // One face alone counts for one surface.
   EXPECT_EQ(judgeMap(setOf({wall(0, 4, 3)}), truth).found(), 1u);
 }
 

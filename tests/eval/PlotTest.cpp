@@ -14,7 +14,7 @@ int countOf(const std::string& text, const std::string& word) {
   return count;
 }
 
-// One drawing, every element closed, no number that is none.
+// The text is one drawing with every element closed and all numbers finite.
 void expectDrawing(const std::string& svg) {
   EXPECT_EQ(svg.find("<svg xmlns=\"http://www.w3.org/2000/svg\""), 0u);
   EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);

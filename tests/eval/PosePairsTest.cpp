@@ -12,7 +12,7 @@ namespace {
 
 const auto kTenth = base::durationFromSeconds(0.1);
 
-// Poses at these seconds, their x telling which is which.
+// Poses at these seconds, with their index as x.
 Trajectory atSeconds(const std::vector<double>& seconds) {
   Trajectory trajectory;
   for (const double t : seconds) trajectory.push_back(planar(t, static_cast<double>(trajectory.size()), 0));
@@ -97,7 +97,7 @@ TEST(Association, AgreesWithTheGreedyChoiceAmongAllPossiblePairs) {
 }
 
 TEST(Trajectory, InterpolatesOnTheLineAndTheShortestTurn) {
-  // A quarter of the way from (0, 0) to (4, 8), and of the turn from +170 to -170 deg, which goes through 180.
+  // A quarter of the line from (0, 0) to (4, 8), and of the turn from +170 to -170 deg, which goes through 180.
   const double degree = geometry::kPi / 180;
   const Trajectory trajectory = {planar(0, 0, 0, 170 * degree), planar(2, 4, 8, -170 * degree)};
   const auto pose = interpolatedPose(trajectory, at(0.5), base::durationFromSeconds(2));
@@ -139,7 +139,7 @@ TEST(Trajectory, NearestPoseIsWithinTheToleranceAndTheEarlierOfTwo) {
   EXPECT_EQ(nearestPose({}, at(1.31), kTenth), std::nullopt);
 }
 
-TEST(Trajectory, WayIsTheSumOfSteps) {
+TEST(Trajectory, TravelIsTheSumOfSteps) {
   // 3-4-5 triangle, then straight down: 5 m, 5 + 4 m.
   EXPECT_EQ(distanceTravelled({planar(0, 0, 0), planar(1, 3, 4), planar(2, 3, 0)}), (std::vector<double>{0, 5, 9}));
   EXPECT_TRUE(distanceTravelled({}).empty());

@@ -100,7 +100,7 @@ TEST_F(RelationFile, OdometryOfASmallCarmenLogScoresAsWorkedByHand) {
   EXPECT_NEAR(error.rotation.mean, 15 * kDegree, 1e-8);
   EXPECT_NEAR(error.rotation.std, 15 * kDegree, 1e-8);
   EXPECT_NEAR(error.squared_rotation.mean, 450 * kDegree * kDegree, 1e-8);
-  EXPECT_DOUBLE_EQ(error.share_within, 0.5);  // 0.5 m and 10 deg: the first alone
+  EXPECT_DOUBLE_EQ(error.share_within, 0.5);  // only the first is within 0.5 m and 10 deg
 }
 
 TEST(RelationError, IsOfTheSensorWhereTheEstimateIsOfTheBase) {
@@ -144,7 +144,7 @@ TEST(RelationError, DoesNotDependOnTheEstimatesWorld) {
   EXPECT_NEAR(here.rotation.mean, there.rotation.mean, 1e-8);
 }
 
-// The figures of odometry alone on this benchmark: 0.549 +- 2.674 m (at most 18.899), 2.33 +- 6.50 deg.
+// Published errors of odometry alone on this benchmark: 0.549 +- 2.674 m (at most 18.899), 2.33 +- 6.50 deg.
 TEST(RelationError, OfTheOdometryOfAcesIsTheKnownOne) {
   const auto log = testing::sharedData("laser2d/aces.clf.bz2");
   const auto truth = testing::sharedData("laser2d/aces.relations");

@@ -86,7 +86,7 @@ TEST(RelativePoseError, SecondsTakeThePoseNearestToTheDeltaAndLeaveOutSpansATent
   for (const double translation : error.translation_errors) EXPECT_NEAR(translation, 0.2, 1e-12);  // two steps each
 }
 
-TEST(RelativePoseError, MetresAreOfTheReferencesWay) {
+TEST(RelativePoseError, MetresAreTravelledByTheReference) {
   // The reference goes 0.5 m a step, so 1 m is two steps; the estimate does 0.2 m too much in each.
   const std::vector<double> seconds = {0, 1, 2, 3, 4};
   const auto error = rpe(straight(seconds, 0.7), straight(seconds, 0.5), 1, DeltaUnit::metres);

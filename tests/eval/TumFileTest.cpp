@@ -17,7 +17,7 @@ class TumFile : public ::testing::Test {
  protected:
   std::string file(const std::string& text) {
     const std::string path = folder_ / "trajectory.txt";
-    std::filesystem::remove(path);  // a new file is not flushed to the disk, one cut to nothing is
+    std::filesystem::remove(path);  // a new file is not flushed to the disk, but an existing one that is truncated is
     std::ofstream(path) << text;
     return path;
   }
@@ -138,7 +138,7 @@ TEST_F(TumFile, ReadsGroundTruthOfMrptsSimulatedLogs) {
   EXPECT_THROW(readMrptGroundTruth(file("1 0 0 0 0 0 0 1\n")), base::Error);
 }
 
-TEST_F(TumFile, TellsTheTwoFormatsApartByTheirColumns) {
+TEST_F(TumFile, DetectsTheTwoFormatsByTheirColumns) {
   EXPECT_EQ(readTrajectory(file("# a b c\n1 2 0 0\n"))[0].world_from_body.translation.x(), 2);
   EXPECT_EQ(readTrajectory(file("1 3 0 0 0 0 0 1\n"))[0].world_from_body.translation.x(), 3);
   EXPECT_THROW(readTrajectory(file("1 3 0 0 0\n")), base::Error);

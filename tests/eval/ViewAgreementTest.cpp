@@ -71,7 +71,7 @@ TEST(ViewAgreement, ATableInTwoPiecesIsSplitWhereTwoViewsShowItAsOne) {
   EXPECT_EQ(agreement.levels.front().of_map.size(), 2U);
 }
 
-TEST(ViewAgreement, WhatASingleViewShowsAsOneCountsApart) {
+TEST(ViewAgreement, WhatASingleViewShowsAsOneIsCountedSeparately) {
   const auto map = mapOf({top(0, 1), top(1, 2)});
   const auto agreement = judgeByViews(map, {view("first", {top(0, 2)}), view("second", {top(0, 1), top(1, 2)})});
   EXPECT_TRUE(agreement.split.empty());

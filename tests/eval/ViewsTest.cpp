@@ -88,7 +88,7 @@ TEST(Views, OfALogWithoutDepthImagesThereAreNone) {
   EXPECT_NE(message.find("holds no depth image"), std::string::npos) << message;
 }
 
-TEST(Views, StopWhenTheyAreToldTo) {
+TEST(Views, StopWhenStopReturnsTrue) {
   base::Progress silent;
   bool asked = false;
   const auto stop = [&] { return std::exchange(asked, true); };

@@ -18,7 +18,7 @@
 namespace omnimapper::obs::derived_observations_test {
 namespace {
 
-// Reads a row as its header says: groups of fields between { and }, each as often as the field before it counts.
+// Reads a row by its header: groups of fields between { and }, each as often as the field before it says.
 class RowReader {
  public:
   RowReader(const std::string& header, const std::string& row) : header_(header), row_(row) {
@@ -200,7 +200,7 @@ TEST(CObservationLaserLines, drawsAStrokeForEachLineAndABarAcrossAWallsOwnEnd) {
 }
 
 TEST(CObservationObjects, exportsEachObjectInFull) {
-  const auto row = rowOf(*filledThings());
+  const auto row = rowOf(*filledDetections());
   EXPECT_EQ(row["objects"], "2");
   EXPECT_EQ(row["objects/0/class_label"], "coffee%20mug");
   EXPECT_EQ(row["objects/1/class_label"], "-");
@@ -213,12 +213,12 @@ TEST(CObservationObjects, exportsEachObjectInFull) {
 }
 
 TEST(CObservationObjects, describesWhatAPersonWantsToKnow) {
-  expectMentions(filledThings()->asString(),
+  expectMentions(filledDetections()->asString(),
                  {"2 objects", "box of 0.3 x 0.2 x 0.25 m", "60 points in colour, on plane 1", "\"coffee mug\""});
 }
 
 TEST(CObservationObjects, drawsBoxPointsAndLabel) {
-  const auto scene = filledThings()->getVisualization()->getByClass<mrpt::opengl::CSetOfObjects>();
+  const auto scene = filledDetections()->getVisualization()->getByClass<mrpt::opengl::CSetOfObjects>();
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->getByClass<mrpt::opengl::CSetOfLines>()->getLineCount(), 12U);
   EXPECT_EQ(scene->getByClass<mrpt::opengl::CPointCloudColoured>(1)->size(), 40U);

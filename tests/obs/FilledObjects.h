@@ -46,7 +46,7 @@ inline std::shared_ptr<CObservationRelativeMotion> filledMotion() {
   motion->begin = base::parseUnix("1137834225.8737603");
   motion->sensorLabel = "visual odometry";
   const mrpt::poses::CPose3D pose(0.1, -1.0 / 3.0, 1e-17, 3.0, -1.5, 0.7);
-  // MRPT keeps angles beside the matrix, and what is read has those that the matrix tells, to the last bit.
+  // MRPT keeps angles beside the matrix, and a pose that is read has the angles of the matrix, to the last bit.
   motion->begin_from_end = mrpt::poses::CPose3D(pose.getRotationMatrix(), pose.m_coords);
   for (auto& value : motion->covariance.reshaped()) value = drawn(engine);
   return motion;
@@ -77,7 +77,7 @@ inline std::shared_ptr<CObservationPlanes> filledPlanes() {
   return planes;
 }
 
-/// A wall that something hides, and its neighbour, which the scan leaves.
+/// A wall that is partly hidden, and its neighbour, which extends beyond the view of the scan.
 inline std::shared_ptr<CObservationLaserLines> filledLines() {
   Engine engine(4);
   auto lines = withHead<CObservationLaserLines>("laser", ".lines");
@@ -104,8 +104,8 @@ inline std::shared_ptr<CObservationLaserLines> filledLines() {
   return lines;
 }
 
-/// A box with coloured points and a label, and another thing that nothing is known of.
-inline std::shared_ptr<CObservationObjects> filledThings() {
+/// A box with coloured points and a label, and an object without colour, label and supporting plane.
+inline std::shared_ptr<CObservationObjects> filledDetections() {
   Engine engine(5);
   auto objects = withHead<CObservationObjects>("camera", ".objects");
   ObservedObject mug;
@@ -123,20 +123,20 @@ inline std::shared_ptr<CObservationObjects> filledThings() {
   mug.colour = Rgb{220, 30, 40};
   mug.class_label = "coffee mug";
   mug.score = 0.83;
-  ObservedObject thing = mug;
-  thing.sensor_from_box.translation.y() -= 0.6;
-  thing.centroid.y() -= 0.6;
-  for (auto& point : thing.points) point.y() -= 0.6F;
-  thing.points.resize(40);
-  thing.colours.clear();
-  thing.supporting_plane.reset();
-  thing.colour.reset();
-  thing.class_label.clear();
-  objects->objects = {mug, thing};
+  ObservedObject unknown = mug;
+  unknown.sensor_from_box.translation.y() -= 0.6;
+  unknown.centroid.y() -= 0.6;
+  for (auto& point : unknown.points) point.y() -= 0.6F;
+  unknown.points.resize(40);
+  unknown.colours.clear();
+  unknown.supporting_plane.reset();
+  unknown.colour.reset();
+  unknown.class_label.clear();
+  objects->objects = {mug, unknown};
   return objects;
 }
 
-/// A camera that looks along the base's x sees a sign with two lines of text and a patch, and one far off.
+/// Signs seen by a camera that looks along the base's x: one with two lines of text and a patch, and one far away.
 inline std::shared_ptr<CObservationDoorSigns> filledSigns() {
   auto signs = withHead<CObservationDoorSigns>("camera", ".signs");
   signs->sensorPose = mrpt::poses::CPose3D(0.1, 0, 1.2, -1.5707963267948966, 0, -1.5707963267948966);
@@ -171,7 +171,7 @@ inline std::map<std::string, std::function<mrpt::serialization::CSerializable::P
   return {{"omnimapper::obs::CObservationRelativeMotion", filledMotion},
           {"omnimapper::obs::CObservationPlanes", filledPlanes},
           {"omnimapper::obs::CObservationLaserLines", filledLines},
-          {"omnimapper::obs::CObservationObjects", filledThings},
+          {"omnimapper::obs::CObservationObjects", filledDetections},
           {"omnimapper::obs::CObservationDoorSigns", filledSigns}};
 }
 

@@ -62,8 +62,8 @@ std::vector<char> contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// tests/obs/version_0 keeps what the first versions wrote of filledObjects(), and what their text export said of it.
-// These files are never written anew: a later version of a class adds files of its own.
+// tests/obs/version_0 keeps filledObjects() as the first versions wrote them, and their text export. These files are
+// never replaced; a later version of a class adds its own files.
 TEST(Serialisation, bytesOfVersion0AreReadAsWhatTheyWere) {
   registerClasses();
   for (const auto* id : allClasses()) {
@@ -87,7 +87,7 @@ TEST(Serialisation, bytesOfVersion0AreReadAsWhatTheyWere) {
   }
 }
 
-// Planes of version 1 tell how rough they are.
+// Planes of version 1 have a roughness.
 TEST(Serialisation, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
   const auto bytes = contentOf(testing::sourceFile("tests/obs/version_1/CObservationPlanes.bin"));
   const auto object = objectFrom(bytes);
@@ -99,7 +99,7 @@ TEST(Serialisation, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
   EXPECT_EQ(bytesOf(*object), bytes);
 }
 
-// Signs of version 1 tell whether the edge of the image cuts them.
+// Signs of version 1 state whether the edge of the image cuts them.
 TEST(Serialisation, bytesOfSignsOfVersion1AreReadAsWhatTheyWere) {
   const auto bytes = contentOf(testing::sourceFile("tests/obs/version_1/CObservationDoorSigns.bin"));
   const auto object = objectFrom(bytes);
@@ -165,7 +165,8 @@ TEST(Serialisation, damagedBytesAreRefusedOrReadAndNeverTakeMoreMemoryThanThereI
     };
     for (std::size_t i = begin; i + 4 <= bytes.size(); i += 3) {
       auto damaged = bytes;
-      std::memset(damaged.data() + i, 0xff, 4);  // whichever of them is a count says four thousand million
+      std::memset(damaged.data() + i, 0xff,
+                  4);  // one of these bytes belongs to a count, which becomes four thousand million
       tryBytes(damaged);
     }
     for (int i = 0; i < 500; ++i) {

@@ -102,7 +102,7 @@ TEST_F(ActionSpansTest, twoActionsBetweenTwoFramesAreJoined) {
   EXPECT_NEAR(pose.x(), 1, 1e-12);
   EXPECT_NEAR(pose.y(), 1, 1e-12);
   EXPECT_NEAR(pose.yaw(), kQuarter, 1e-12);
-  // A turn error of the first part moves the end sideways: variance of y is at least that times the way squared.
+  // A turn error of the first part moves the end sideways: variance of y is at least that times the distance squared.
   const auto& cov = motions_[0]->covariance;
   const double first_yaw_variance = std::pow(mrpt::DEG2RAD(0.2) + mrpt::DEG2RAD(1.0) + 0.05 * kQuarter, 2);
   EXPECT_GT(cov(1, 1), first_yaw_variance);
@@ -161,7 +161,7 @@ TEST_F(ActionSpansTest, planarCovarianceIsTurnedIntoTheMovedFrame) {
       Bytes().frame({scan(1)}).string() + (Bytes() << actions).string() + Bytes().frame({scan(2)}).string();
   spansOf(log, ActionSpan::frames);
   ASSERT_EQ(motions_.size(), 1u);
-  EXPECT_EQ(motions_[0]->sensorLabel, "odometry_scan_matching") << "a second opinion is a source of its own";
+  EXPECT_EQ(motions_[0]->sensorLabel, "odometry_scan_matching") << "another estimate of the motion has its own label";
   Eigen::Matrix<double, 6, 6> expected = Eigen::Matrix<double, 6, 6>::Zero();
   expected.diagonal() << 0.01, 0.04, 0, 0, 0, 0.0009;
   EXPECT_LT((motions_[0]->covariance - expected).norm(), 1e-12);
@@ -185,7 +185,8 @@ TEST_F(ActionSpansTest, spatialActionKeepsItsGaussian) {
       1e-12);
 }
 
-// MRPT draws the particles of Thrun's model anew at each reading; what we hand out must not depend on the draw.
+// MRPT samples the particles of Thrun's model anew at each reading; the motion that is handed out must not depend on
+// them.
 TEST_F(ActionSpansTest, thrunsModelGivesTheSameBitsAtEachReadingAndTheCovarianceOfItsParticles) {
   mrpt::obs::CActionRobotMovement2D action;
   mrpt::obs::CActionRobotMovement2D::TMotionModelOptions model;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kManyBytes = 1 << 30;
 
-// Until the other thread has done something that it is certain to do.
+// Waits until the other thread has done something that it is certain to do.
 template <class Condition>
 void waitUntil(Condition condition) {
   while (!condition()) std::this_thread::yield();
@@ -57,7 +57,7 @@ TEST(BoundedQueue, neverHoldsMoreThanItsBytesExceptOneItemAlone) {
       ++pushed;
     }
   });
-  // 4 and 6 fill it; 50 waits for an empty queue, and what follows it until it has left.
+  // 4 and 6 fill it; 50 waits for an empty queue, and the items after it until it has left.
   struct Step {
     int fewest_pushed, most_pushed, next;
   };
@@ -88,7 +88,7 @@ TEST(BoundedQueue, aStopEndsTheWaitAndLeavesTheQueueOpen) {
   EXPECT_EQ(queue.pop([&] { return ++asked == 2; }), std::nullopt);
   EXPECT_EQ(asked, 2);
   ASSERT_TRUE(queue.push(5, 1));
-  EXPECT_EQ(queue.pop([] { return true; }), 5) << "it is asked only where there is something to wait for";
+  EXPECT_EQ(queue.pop([] { return true; }), 5) << "it is called only while pop() waits";
 }
 
 TEST(BoundedQueue, takesWhatCanOnlyBeMoved) {

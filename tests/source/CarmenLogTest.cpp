@@ -209,15 +209,15 @@ TEST_F(CarmenLogTest, badLinesAreLeftOutAndNamed) {
   EXPECT_EQ(log_->badLineCount(), 4u);
   Strings bad;
   for (const auto& line : log_->badLines()) bad.push_back(std::to_string(line.number) + " " + line.reason);
-  EXPECT_EQ(bad[0], "3 'oops' is not a number");
+  EXPECT_EQ(bad[0], "3 has 'oops' where a number is expected");
   EXPECT_EQ(bad[1], "4 ends too early");
-  EXPECT_EQ(bad[2], "5 has fewer readings than it says");
-  EXPECT_EQ(bad[3].substr(0, 6), "6 '2x'");
+  EXPECT_EQ(bad[2], "5 has fewer readings than it states");
+  EXPECT_EQ(bad[3].rfind("6 has a stamp that cannot be read: '2x'", 0), 0U) << bad[3];
   const auto report = log_->report();
   EXPECT_EQ(report.ending, Ending::corrupt);
   EXPECT_EQ(report.other_objects.at("TRUEPOS"), 1u);
-  EXPECT_NE(report.message.find("4 bad lines"), std::string::npos) << report.message;
-  EXPECT_NE(report.message.find("line: 3"), std::string::npos) << report.message;
+  EXPECT_NE(report.message.find("left out: 4."), std::string::npos) << report.message;
+  EXPECT_NE(report.message.find("is line 3: it has 'oops'"), std::string::npos) << report.message;
 }
 
 TEST_F(CarmenLogTest, logThatEndsInTheMiddleOfALineIsTruncated) {

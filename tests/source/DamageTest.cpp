@@ -15,7 +15,7 @@ using namespace logs;
 using Ending = SourceReport::Ending;
 
 constexpr int kFlips = testing::kIsSanitized ? 15 : 100;
-constexpr std::size_t kStep = testing::kIsSanitized ? 61 : 6;  // between the places of truncation
+constexpr std::size_t kStep = testing::kIsSanitized ? 61 : 6;  // bytes between the places of truncation
 
 // Both of MRPT's formats in one log, with every kind of object.
 std::string smallLog() {
@@ -31,7 +31,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 class DamageTest : public ::testing::Test {
  protected:
-  // What a file gives; damage before the first object may be refused by the constructor.
+  // Result of reading a file; the constructor may refuse one that is damaged before its first object.
   struct Outcome {
     bool refused = false;
     std::vector<std::string> listing;
@@ -87,7 +87,7 @@ TEST_F(DamageTest, truncatedPlainLogGivesWhatWasWholeAndSaysWhereItEnds) {
     EXPECT_TRUE(isPrefix(outcome.listing, whole));
     EXPECT_LE(outcome.report.bytes, length);
     if (outcome.report.ending == Ending::complete) {
-      ++complete;  // cut between two objects: no reader can tell
+      ++complete;  // cut between two objects, which no reader can detect
       EXPECT_EQ(outcome.report.bytes, length);
       continue;
     }
@@ -99,7 +99,7 @@ TEST_F(DamageTest, truncatedPlainLogGivesWhatWasWholeAndSaysWhereItEnds) {
   EXPECT_LE(complete, 7u);
 }
 
-TEST_F(DamageTest, truncatedGzipIsToldFromTheEndAtEveryByte) {
+TEST_F(DamageTest, truncatedGzipIsDetectedAtEveryByte) {
   const auto whole = read(smallLog()).listing;
   const std::string gzip = gzipped(smallLog());
   bool some_were_read = false;
@@ -143,7 +143,7 @@ TEST_F(DamageTest, flippedBytesOfAGzipLogAreNeverTakenForGood) {
   testing::Dice dice(4);
   for (int i = 0; i < kFlips; ++i) {
     std::string damaged = gzip;
-    // After gzip's header of 10 bytes, whose time and system matter to nobody.
+    // After gzip's header of 10 bytes, whose time and system have no effect.
     const auto place = static_cast<std::size_t>(dice.uniform(10, static_cast<double>(gzip.size())));
     damaged[place] = static_cast<char>(damaged[place] ^ (i % 2 == 0 ? 0xff : 1 << (i / 2 % 8)));
     SCOPED_TRACE("byte " + std::to_string(place));
@@ -205,7 +205,7 @@ TEST_F(DamageTest, unregisteredClassAtTheVeryBeginningIsReportedToo) {
   EXPECT_EQ(outcome.report.ending, Ending::unregistered_class);
 }
 
-TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithAWayOut) {
+TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithARemedy) {
   const auto says = [&](const std::string& bytes, const std::string& expected) {
     const auto message = refusal(writePlain(path_, bytes));
     EXPECT_NE(message.find(expected), std::string::npos) << message;
@@ -220,7 +220,7 @@ TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithAWayOut) {
   says(std::string("PK\x03\x04") + std::string(100, '\1'), "ZIP");
   says(std::string(1000, '\xee'), "no rawlog");
   says("# .PCD v0.7\nVERSION 0.7\n", "omnimapper-import pcd");
-  says("OMNIMAP\n\1", "--continue and --localize take it");
+  says("OMNIMAP\n\1", "use it with --continue or --localize");
   says("\x1f\x8b and no more gzip than that", "decompress");
   says((Bytes() << mrpt::maps::CSimplePointsMap()).string(), "mrpt::maps::CSimplePointsMap");
   EXPECT_NE(refusal(folder_ / "nowhere.rawlog").find("No such file"), std::string::npos);
@@ -239,7 +239,7 @@ TEST_F(DamageTest, aFolderIsRefusedWithWhatItIsFor) {
   says("tum", "depth.txt", "omnimapper-import tum " + (folder_ / "tum"));
   says("scenes", "frame-000000.depth.png", "omnimapper-import tum " + (folder_ / "scenes"));
   std::filesystem::create_directories(folder_ / "halves/depth");
-  says("halves", "notes.txt", "nothing that can be read");  // the importer would refuse depths in a folder alone
+  says("halves", "notes.txt", "nothing that can be read");  // the importer would refuse a folder of depth images alone
   says("parent/inner", "depth.txt", "is a folder of RGB-D images");
   EXPECT_NE(refusal(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),
             std::string::npos);

@@ -93,7 +93,7 @@ TEST_F(ExternalImagesTest, missingFilesLeaveTheirObservationsOutAndAreCounted) {
   EXPECT_EQ(report.exitCode(), base::ExitCode::missing_images);
 }
 
-// A header is enough to have gigabytes made room for.
+// A header is enough to make a decoder allocate gigabytes.
 TEST_F(ExternalImagesTest, aPictureOfAbsurdSizeIsNotDecoded) {
   const auto big_endian = [](std::uint32_t value, int bytes) {
     std::string text;
@@ -108,7 +108,7 @@ TEST_F(ExternalImagesTest, aPictureOfAbsurdSizeIsNotDecoded) {
   RawlogSource source(rawlog_);
   EXPECT_EQ(readAll(source).size(), 1u);
   EXPECT_EQ(source.report().missing_images, 2u);
-  EXPECT_NE(source.report().first_missing_image.find("bomb.png (100000 x 90000 pixels"), std::string::npos)
+  EXPECT_NE(source.report().first_missing_image.find("bomb.png (has 100000 x 90000 pixels"), std::string::npos)
       << source.report().first_missing_image;
   writeGzip(rawlog_, (Bytes() << camera(2, "bomb.jpg")).string());
   RawlogSource of_jpeg(rawlog_);

@@ -73,7 +73,7 @@ std::string bytesOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// A decoder fills what is missing with grey. The small picture that cameras put before the large one has an end too.
+// A decoder fills the missing part with grey. The preview that cameras put before the image has an end marker, too.
 TEST_F(ImageFolderTest, imagesWithoutTheirEndAreLeftOutAndCounted) {
   write("whole.jpg", 200, 100);
   write("whole.png", 200, 100);

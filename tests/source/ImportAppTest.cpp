@@ -16,7 +16,7 @@ namespace {
 
 using base::ExitCode;
 
-// Runs omnimapper-import; output_ is what it says.
+// Runs omnimapper-import; output_ is its output.
 class ImportApp : public ::testing::Test {
  protected:
   ExitCode run(const std::string& arguments) { return runCommand("'" OMNIMAPPER_IMPORT "' " + arguments); }
@@ -65,7 +65,7 @@ TEST_F(ImportAppTest, truncatedLogGivesWhatIsReadableAndExitCode9) {
   EXPECT_EQ(logs::readAll(source).size(), 4u) << "two of ODOM lines, a scan, its own odometry";
 }
 
-TEST_F(ImportAppTest, exitCodesTellWhatWentWrong) {
+TEST_F(ImportAppTest, exitCodesShowWhatWentWrong) {
   EXPECT_EQ(run("--help"), ExitCode::ok);
   EXPECT_TRUE(says("Example: omnimapper-import carmen")) << output_;
   EXPECT_EQ(run(""), ExitCode::command_line);
@@ -80,7 +80,7 @@ TEST_F(ImportAppTest, exitCodesTellWhatWentWrong) {
   EXPECT_EQ(run("carmen " + in_ + " " + folder_.path() + "/no/x.rawlog"), ExitCode::unwritable_output);
 }
 
-TEST_F(ImportAppTest, whatAnotherTaskTakesIsToldSo) {
+TEST_F(ImportAppTest, inputOfAnotherTaskIsRefusedWithItsName) {
   logs::writePlain(in_, log_);
   EXPECT_EQ(run("tum " + in_ + " " + out_), ExitCode::unreadable_input);
   EXPECT_TRUE(says("is no folder: it is a CARMEN log")) << output_;
@@ -120,7 +120,7 @@ class ImportTumTest : public ImportApp, protected RgbdImages {
 
 TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
   ASSERT_EQ(import("--intrinsics freiburg1 --label kinect"), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("without a colour image of their time, kept without colour: 1") && says("x.truth.tum, 2 poses"))
+  EXPECT_TRUE(says("without a colour image at their time, kept without colour: 1") && says("x.truth.tum, 2 poses"))
       << output_;
   const auto all = imported();
   ASSERT_EQ(all.size(), 3U);
@@ -136,14 +136,14 @@ TEST_F(ImportTumTest, writesARawlogAndTheTruthBesideIt) {
   EXPECT_EQ(z, 3);
 }
 
-TEST_F(ImportTumTest, tellsCameraAndDepthAndWarnsOfUnlikelyUnits) {
+TEST_F(ImportTumTest, printsCameraAndDepthAndWarnsOfUnlikelyUnits) {
   ASSERT_EQ(import(""), ExitCode::unreadable_input) << output_;
-  EXPECT_TRUE(says("does not tell which camera took its images")) << output_;
+  EXPECT_TRUE(says("does not show which camera took its images")) << output_;
   const std::string list = logs::readFile(folder_ / "depth.txt");
   std::ofstream(folder_ / "depth.txt") << "# depth maps\n# file: 'rgbd_dataset_freiburg1_rpy.bag'\n" << list;
   ASSERT_EQ(import(""), ExitCode::ok) << output_;
   EXPECT_TRUE(says("camera: freiburg1, fx 517.3 fy 516.5 cx 318.6 cy 255.3 pixels")) << output_;
-  EXPECT_TRUE(says("depth: 5000 units in a metre, median 1.00 m")) << output_;
+  EXPECT_TRUE(says("depth: 5000 units per metre, median 1.00 m")) << output_;
   EXPECT_FALSE(says("warning")) << output_;
   ASSERT_EQ(import("--intrinsics freiburg1 --depth-units 1000"), ExitCode::ok) << output_;
   EXPECT_TRUE(says("warning: half of the depths are above 5.01 m: is --depth-units 1000 right?")) << output_;
@@ -178,13 +178,13 @@ TEST_F(ImportTumTest, aListThatIsMissingIsNamed) {
   EXPECT_EQ(import("--intrinsics freiburg1"), ExitCode::unreadable_input);
   EXPECT_TRUE(says(folder_.path()) && says("no depth.txt")) << output_;
   std::filesystem::remove(folder_ / "rgb.txt");
-  for (const std::string name : {"a", "b", "c"})  // by stamps, as TUM has them, no two names are equal
+  for (const std::string name : {"a", "b", "c"})  // TUM's names are stamps, of which no two are equal
     std::filesystem::rename(folder_ / ("rgb/" + name + ".png"), folder_ / ("rgb/0" + name + ".png"));
   EXPECT_EQ(import("--intrinsics freiburg1"), ExitCode::unreadable_input);
   EXPECT_TRUE(says("depth.txt and rgb.txt") && says("are they missing?")) << output_;
 }
 
-TEST_F(ImportTumTest, helpTellsTheDefaults) {
+TEST_F(ImportTumTest, helpShowsTheDefaults) {
   EXPECT_EQ(run("tum --help"), ExitCode::ok);
   for (const char* value : {"0.02", "30", "RGBD", "embedded"}) EXPECT_TRUE(says(value)) << value << ": " << output_;
 }
@@ -218,11 +218,11 @@ TEST_F(ImportTumTest, imagesMayStayOutsideTheRawlog) {
 
 TEST_F(ImportTumTest, whatIsWrongIsSaid) {
   EXPECT_EQ(import(""), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("name it (--intrinsics")) << output_;
+  EXPECT_TRUE(says("name the camera with --intrinsics")) << output_;
   EXPECT_EQ(import("--tolerance -1"), ExitCode::command_line);
   EXPECT_EQ(import("--images elsewhere"), ExitCode::command_line);
   EXPECT_EQ(run("tum '" + folder_.path() + "/rgb' '" + out_ + "'"), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("is of no form that is known")) << output_;
+  EXPECT_TRUE(says("is no folder of RGB-D images in a known form")) << output_;
   std::filesystem::remove(folder_ / "depth/a.png");
   EXPECT_EQ(import("--intrinsics freiburg1"), ExitCode::missing_images);
   EXPECT_EQ(imported().size(), 2U) << "what was there";
@@ -264,7 +264,7 @@ TEST_F(ImportAppTest, cloudsThatNoCameraSawAreNamed) {
                    "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 2\nDATA "
                    "ascii\n1 2 3\n4 5 6\n7 8 9\n1 1 1\n");
   EXPECT_EQ(run("pcd '" + folder_.path() + "' '" + out_ + "'"), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("odd.pcd: its points do not lie as a pinhole camera sees them") && says("nothing was written"))
+  EXPECT_TRUE(says("odd.pcd: its points do not lie on the rays of a pinhole camera") && says("nothing was written"))
       << output_;
   EXPECT_FALSE(std::filesystem::exists(out_));
   EXPECT_EQ(run("pcd '" + folder_.path() + "/none' '" + out_ + "'"), ExitCode::unreadable_input);

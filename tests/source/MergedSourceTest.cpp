@@ -81,13 +81,13 @@ bool hasLogsApart(const std::vector<std::pair<std::string, std::vector<double>>>
   return source.report().has_logs_apart;
 }
 
-TEST(MergedSource, tellsThatALogLiesInTimeFarFromAllOthers) {
+TEST(MergedSource, reportsThatALogLiesFarFromAllOthersInTime) {
   EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {5, 20}}}));
   EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {12, 20}}})) << "the next part of one log";
   EXPECT_TRUE(hasLogsApart({{"a", {1, 10}}, {"b", {3600, 3610}}}));
   EXPECT_TRUE(hasLogsApart({{"a", {3600, 3610}}, {"b", {1, 10}}, {"c", {2, 12}}}));
   EXPECT_FALSE(hasLogsApart({{"a", {1, 1000}}, {"b", {500, 510}}})) << "one within the other";
-  EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {}}})) << "a log without stamps tells nothing";
+  EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}, {"b", {}}})) << "a log without stamps is not judged";
   EXPECT_FALSE(hasLogsApart({{"a", {1, 10}}}));
   std::vector<std::unique_ptr<ObservationSource>> sources;
   for (const double start : {1.0, 3600.0}) {

@@ -38,7 +38,7 @@ CObservation3DRangeScan camera(int rows = 48, int columns = 64) {
   return scan;
 }
 
-// What is said of `good` after `spoil`.
+// The reason why `good` cannot be used after `spoil`; empty if it can.
 template <class Observation>
 std::string reasonOf(Observation good, const std::function<void(Observation&)>& spoil) {
   EXPECT_EQ(whyUnusable(good).value_or(""), "");
@@ -81,7 +81,8 @@ TEST(ObservationGate, DepthImagesHaveACalibrationAndAUnit) {
             "their camera's calibration is not finite");
   EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.cameraParams.dist[2] = kInf; }),
             "their camera's calibration is not finite");
-  EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.cameraParams.fy(0); }), "") << "extractors say who calibrates it";
+  EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.cameraParams.fy(0); }), "")
+      << "extractors report that the camera is not calibrated";
   EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.rangeUnits = -0.001F; }), "their unit of depth is not positive");
 }
 
@@ -93,7 +94,8 @@ TEST(ObservationGate, MotionsAndTheirCovariancesAreFinite) {
   const auto covariance = [](const std::function<void(Eigen::Matrix<double, 6, 6>&)>& spoil) {
     return reasonOf<Motion>({}, [&](Motion& m) { spoil(m.covariance); });
   };
-  const std::string none = "their covariance is not valid: it is not finite, not symmetric, or negative in a direction";
+  const std::string none =
+      "their covariance is not valid: it is not finite, not symmetric, or has a negative variance in some direction";
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = kInf; }), none);
   EXPECT_EQ(covariance([](auto& c) { c(0, 1) = 0.1; }), none) << "not symmetric";
   EXPECT_EQ(covariance([](auto& c) { c(5, 5) = -0.1; }), none);
@@ -112,7 +114,7 @@ TEST(ObservationGate, MeasurementsAreFinite) {
   good.sensedData[0].yaw = 0.1;
   good.sensedData[0].pitch = 0;
   EXPECT_EQ(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].yaw = static_cast<float>(kNan); }),
-            "a bearing or range of theirs is not finite");
+            "one of their bearings or ranges is not finite");
   good.validCovariances = true;
   good.sensedData[0].covariance.setIdentity();
   EXPECT_NE(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].covariance(1, 1) = -1; }), "");

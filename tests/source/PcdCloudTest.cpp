@@ -37,7 +37,7 @@ class PcdCloudTest : public ::testing::Test {
   static void put(std::string& bytes, Number number) {
     bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
   }
-  // Four points; the last is none.
+  // Four points, the last of which is not a number.
   static std::string points(bool field_by_field) {
     const std::uint32_t labels[] = {1, 20, 30, 0}, rgb[] = {0xFF102030, 0xFF405060, 0, 1};
     const float nan = std::nanf(""), x[] = {0, 1, 2, nan}, y[] = {3, 4, 5, nan}, z[] = {6, 7, 8, nan};
@@ -79,7 +79,7 @@ TEST_F(PcdCloudTest, binaryIsReadPointByPoint) {
 
 TEST_F(PcdCloudTest, compressedIsReadFieldByField) {
   const std::string plain = points(true);
-  std::string literal;  // runs of what is to be taken as it is
+  std::string literal;  // runs of literal bytes
   for (std::size_t i = 0; i < plain.size(); i += 32) {
     const std::string run = plain.substr(i, 32);
     literal += static_cast<char>(run.size() - 1) + run;
@@ -92,7 +92,7 @@ TEST_F(PcdCloudTest, compressedIsReadFieldByField) {
 }
 
 TEST_F(PcdCloudTest, repetitionsAreUnfolded) {
-  // One field of 24 bytes: "ab", then 9 of what was two back, then 13 of it.
+  // One field of 24 bytes: "ab", then 9 bytes and 13 bytes repeated from two back.
   std::string data(
       "\x01"
       "ab",
@@ -130,7 +130,7 @@ TEST_F(PcdCloudTest, numbersThatAreNoWholeOnesAreNoLabels) {
   EXPECT_EQ(read(floats + "WIDTH 4\nHEIGHT 1\nDATA binary\n" + bytes).labels, (std::vector<std::uint32_t>{0, 0, 0, 7}));
 }
 
-TEST_F(PcdCloudTest, aHeaderThatClaimsMuchTakesNoMemory) {
+TEST_F(PcdCloudTest, aHeaderThatStatesAHugeSizeTakesNoMemory) {
   // 2^24 points of 252 bytes, and no data.
   const std::string top =
       "FIELDS x y z rest\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 60\nWIDTH 16777216\nHEIGHT 1\n"
@@ -158,9 +158,11 @@ TEST_F(PcdCloudTest, whatIsNoCloudIsRefused) {
   EXPECT_NE(failure(header("morse")).find("'morse'"), std::string::npos);
   EXPECT_NE(failure(header("binary") + points(false).substr(1)).find("too early"), std::string::npos);
   EXPECT_NE(failure(header("ascii") + "1 2 3").find("too early"), std::string::npos);
-  EXPECT_NE(failure(header("binary", "WIDTH 100000000\nHEIGHT 1\n")).find("too many"), std::string::npos);
-  EXPECT_NE(failure("FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nDATA binary\n12345678").find("lacks x"),
+  EXPECT_NE(failure(header("binary", "WIDTH 100000000\nHEIGHT 1\n")).find("more than 16777216 points"),
             std::string::npos);
+  EXPECT_NE(
+      failure("FIELDS a b\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\nWIDTH 1\nDATA binary\n12345678").find("lacks a field x"),
+      std::string::npos);
   EXPECT_THROW(readPcd(folder_ / "none.pcd"), base::Error);
 }
 

@@ -134,8 +134,8 @@ TEST_F(RawlogSourceTest, openingCanBeStopped) {
   }
 }
 
-// More objects than a child process can tell of without somebody who listens.
-TEST_F(RawlogSourceTest, aLogIsReadWhileItIsTriedAndCanBeLeftAtAnyMoment) {
+// More objects than a child process can report before its parent reads the reports.
+TEST_F(RawlogSourceTest, aLogIsReadWhileTheChildReadsAheadAndCanBeLeftAtAnyTime) {
   const std::string one = (Bytes() << scan(1)).string();
   std::string all;
   for (int i = 0; i < (testing::kIsSanitized ? 5000 : 100000); ++i) all += one;

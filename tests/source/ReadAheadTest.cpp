@@ -21,7 +21,7 @@ std::vector<double> seconds(int count) {
   return list;
 }
 
-// Counts how far it was read, from any thread; throws in the middle if it is to.
+// Counts how far it was read, from any thread; throws at the observation number fails_at.
 class Counted : public ListSource {
  public:
   using ListSource::ListSource;
@@ -59,7 +59,7 @@ class Blocking : public ListSource {
 
 void settle(const std::atomic<int>& asked, int expected) {
   while (asked < expected) std::this_thread::yield();
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // for one who would go too far
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // for a thread that would read too far
 }
 
 std::string everythingIn(const SourceReport& report, double progress) {
@@ -158,7 +158,7 @@ TEST(ReadAhead, anErrorComesOutInItsPlaceAndIsTheEnd) {
   EXPECT_EQ(ahead.next(), nullptr);
 }
 
-TEST(ReadAhead, canBeLeftAtAnyMomentAndReadsNoFurther) {
+TEST(ReadAhead, canBeLeftAtAnyTimeAndReadsNoFurther) {
   for (int taken = 0; taken < 30; ++taken) {
     auto counted = std::make_unique<Counted>("wheels", seconds(100000));
     ReadAhead ahead(std::move(counted), {}, {10, std::size_t{1} << 30});

@@ -9,7 +9,7 @@
 
 #include "Logs.h"
 
-// Real logs; each property has its simulated twin in the other tests of this folder.
+// Real logs; the other tests of this folder check the same properties on simulated ones.
 namespace omnimapper::source::recordings_test {
 namespace {
 
@@ -81,7 +81,7 @@ TEST(Recordings, malagaHasOneMotionForEachFrameButTheFirst) {
   EXPECT_EQ(countOf(report, "odometry", kMotion), 224u);
 }
 
-// Actions without stamps: the span between the frames around it is the one in which the robot truly moved so.
+// Actions without stamps: the true motion between the frames around an action is that of the action.
 TEST(Recordings, simulatedActionsFitTheTruthBetweenTheFramesAroundThem) {
   const auto path = testing::mrptDataset("graphslam-engine-demos/action_observations_map/simul.rawlog");
   OMNIMAPPER_NEEDS(path);
@@ -94,7 +94,7 @@ TEST(Recordings, simulatedActionsFitTheTruthBetweenTheFramesAroundThem) {
   const auto motions = logs::motionsOf(readAll(source));
   ASSERT_EQ(motions.size(), 1732u);
   ASSERT_EQ(truth.size(), 1734u);
-  double squares = 0, way = 0;
+  double squares = 0, travel = 0;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const auto& [begin, from] = truth[i];
     const auto& [end, to] = truth[i + 1];
@@ -102,11 +102,11 @@ TEST(Recordings, simulatedActionsFitTheTruthBetweenTheFramesAroundThem) {
     ASSERT_NEAR(base::secondsBetween(base::parseUnix(end), motions[i]->timestamp), 0, 2e-6);
     const auto difference = (to - from) - mrpt::poses::CPose2D(motions[i]->begin_from_end);
     squares += difference.norm() * difference.norm();
-    way += (to - from).norm();
+    travel += (to - from).norm();
   }
   const double rms = std::sqrt(squares / 1732);
   EXPECT_LT(rms, 0.05) << "one frame off it is 0.12 and more";
-  EXPECT_GT(way / 1732, 0.05) << "the robot does move";
+  EXPECT_GT(travel / 1732, 0.05) << "the robot does move";
 }
 
 TEST(Recordings, acesHasAllItsScansWithTheStampsOfTheRelations) {
@@ -135,7 +135,7 @@ TEST(Recordings, intelHasAllItsScansWithTheRepairedStampsOfTheReference) {
   EXPECT_EQ(stamps.size(), 13631u);
   EXPECT_EQ(log.odometry(), CarmenOdometry::scans);
   EXPECT_EQ(countOf(log.report(), "ODOM", kOdometry), 13631u);
-  // 631 stamps are earlier than the one before; the scans after each have to wait for the clock, too.
+  // 631 stamps are earlier than the one before; the stamps after each are replaced, too, until the clock has caught up.
   EXPECT_EQ(log.report().repaired_stamps, 3076u);
   for (const auto& stamp : stampsIn(*reference, 1)) EXPECT_EQ(stamps.count(stamp), 1u) << stamp;
 }

@@ -105,7 +105,7 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
   EXPECT_EQ(RgbdFolder(folder_.path()).unpaired(), 0U) << "as some copies have it";
 }
 
-TEST_F(RgbdFolderTest, aListOfAssociationsTellsThePairsInItsOrder) {
+TEST_F(RgbdFolderTest, aListOfAssociationsGivesThePairsInItsOrder) {
   writeText("associations.txt", "# depth, colour\n0 depth/x.png 0 rgb/y.png\n1 depth/z.png 1 rgb/w.png\n");
   RgbdFolder numbered(folder_.path(), freiburg1());
   ASSERT_EQ(numbered.pairs().size(), 2U);
@@ -186,9 +186,9 @@ TEST_F(RgbdFolderTest, imagesOfAnotherSizeAreLeftOutAndCounted) {
 }
 
 TEST_F(RgbdFolderTest, whatIsWrongIsSaidWithItsPlace) {
-  EXPECT_NE(failure().find("is of no form that is known"), std::string::npos);
+  EXPECT_NE(failure().find("is no folder of RGB-D images in a known form"), std::string::npos);
   writeTum();
-  EXPECT_NE(failure().find("name it (--intrinsics"), std::string::npos) << failure();
+  EXPECT_NE(failure().find("name the camera with --intrinsics"), std::string::npos) << failure();
   RgbdFolderOptions options;
   options.intrinsics = "freiburg7";
   EXPECT_NE(failure(options).find("freiburg7: is neither the name of a known camera"), std::string::npos);

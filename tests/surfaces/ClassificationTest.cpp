@@ -64,7 +64,7 @@ TEST(Classify, TheFrontOfAWardrobeStandsBeforeAWall) {
   const auto both = classify({front, wall}, 0);
   EXPECT_EQ(both[0].is, SurfaceClass::cabinet);
   EXPECT_EQ(both[1].is, SurfaceClass::wall);
-  EXPECT_NE(both[0].reason.find("close before a wall"), std::string::npos) << both[0].reason;
+  EXPECT_NE(both[0].reason.find("close in front of a wall"), std::string::npos) << both[0].reason;
   // A wall of the next room is farther behind.
   EXPECT_EQ(classify({front, upright(0, 4, 6, 0, 2.5)}, 0)[0].is, SurfaceClass::wall);
 }
@@ -81,12 +81,12 @@ TEST(Classify, CornersThatStickOutCountForLittle) {
   EXPECT_EQ(classOf(door), SurfaceClass::door);
 }
 
-TEST(Classify, WhatNobodyKnowsIsASurfaceAndTheReasonIsTold) {
-  Surface leaning = level(1, 1, 1);
-  leaning.plane = geometry::Plane3::through({0, 0, 1}, Vector3d(0, 0.7, 0.7).normalized());
-  const auto judged = classify({leaning}, 0).front();
+TEST(Classify, WhatIsNotKnownIsASurfaceAndTheReasonIsGiven) {
+  Surface tilted = level(1, 1, 1);
+  tilted.plane = geometry::Plane3::through({0, 0, 1}, Vector3d(0, 0.7, 0.7).normalized());
+  const auto judged = classify({tilted}, 0).front();
   EXPECT_EQ(judged.is, SurfaceClass::surface);
-  EXPECT_EQ(judged.reason.rfind("leaning, ", 0), 0U) << judged.reason;
+  EXPECT_EQ(judged.reason.rfind("tilted, ", 0), 0U) << judged.reason;
   EXPECT_EQ(classOf(level(1.9, 3, 3)), SurfaceClass::surface);
 }
 

@@ -18,7 +18,7 @@ std::string errorOf(const std::string& text) {
   return "";
 }
 
-// A table top 0.74 m high; the map is that alone.
+// A table top 0.74 m high, which is the only surface of the map.
 Surface tableTop() {
   Surface surface;
   surface.plane = {Eigen::Vector3d::UnitZ(), -0.74};
@@ -70,10 +70,10 @@ TEST(Examples, TheKnownOnesAreOfAllClassesThatSurfacesHave) {
 TEST(Examples, OfNoneNothingIsKnown) {
   const auto judged = classify({tableTop()}, 0, {}).front();
   EXPECT_EQ(judged.is, SurfaceClass::surface);
-  EXPECT_NE(judged.reason.find("like nothing that is known"), std::string::npos) << judged.reason;
+  EXPECT_NE(judged.reason.find("similar to no known example"), std::string::npos) << judged.reason;
 }
 
-TEST(Examples, WhatStandsTogetherIsToldHoweverTheRoomIsTurned) {
+TEST(Examples, WhatStandsTogetherIsFoundHoweverTheRoomIsTurned) {
   // A box: front and side meet at a corner, the top ends above them.
   const auto upright = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& normal) {
     Surface surface;

@@ -1,4 +1,4 @@
-// Which way is up by surfaces: rooms of a few planes, worked by hand.
+// Direction of up by surfaces, in rooms of a few planes computed by hand.
 #include <gtest/gtest.h>
 #include <omnimapper/surfaces/levelOfSurfaces.h>
 
@@ -40,7 +40,7 @@ struct Place {
   SurfacesLevel level() const { return levelOfSurfaces(areas, viewpoints); }
 };
 
-// 4 by 6 m, with a table, a seat and no ceiling in sight.
+// 4 by 6 m, with a table and a seat; no ceiling is seen.
 Place room() {
   Place place;
   place.add({0, 0, 1}, {0, 0, 0}, 20);
@@ -69,7 +69,7 @@ TEST(LevelOfSurfaces, OfARoomIsFoundHoweverItsFrameIsTurned) {
   }
 }
 
-TEST(LevelOfSurfaces, ACameraMountedUpsideDownIsToldByFloorAndTables) {
+TEST(LevelOfSurfaces, ACameraMountedUpsideDownIsFoundByFloorAndTables) {
   auto place = room();
   place.lookAround(180 * kDegree);
   const auto level = place.level();

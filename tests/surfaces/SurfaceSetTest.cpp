@@ -74,7 +74,7 @@ TEST(CellGrid, APointIsInTheCellWhoseMiddleIsNearest) {
   EXPECT_FALSE(grid.cellAt({std::numeric_limits<double>::quiet_NaN(), 3, 1}));
 }
 
-TEST(CellGrid, AWalkThatIsNotFiniteOrTooFarCoversNothing) {
+TEST(CellGrid, APolygonThatIsNotFiniteOrTooFarCoversNothing) {
   const geometry::Plane3 floor{Vector3d::UnitZ(), 0};
   const std::vector<Vector3d> square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   for (const double far : {std::nan(""), HUGE_VAL, 1.7e308, -1.7e308}) {

@@ -36,14 +36,16 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   const mapper::SensorPoses sensor_poses(options.sensors, config);
   const auto log = source::openRawlogs(logs, config.section("source").read<source::SourceOptions>(), stop);
   const auto facts = gatherFacts(*log, sensor_poses, stop, &progress);
-  if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing is said of half a log");
+  if (stop())
+    throw base::Error(base::ExitCode::interrupted,
+                      "interrupted before the log was read to its end; half a log is not judged");
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
   std::string text;
   bool is_fallback = false;  // the section may be of another plugin, whose keys are not known here
   if (config.section("odometry").find("fallback", text)) base::option_text::parse(text, is_fallback);
   const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, is_fallback};
-  std::string ini;  // that is proposed for
+  std::string ini;  // the INI that settings are proposed for
   std::vector<Setting> settings;
   if (!inis.empty()) {
     const bool keeps = canMeasure(facts, given);
@@ -60,7 +62,7 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   std::filesystem::remove(output_folder + "/check.ini", error);
   if (!inis.empty())
     base::writeFile(output_folder + "/check.ini", [&](std::ostream& out) {
-      out << (settings.empty() ? base::kWrittenFromALog + ", which proposes nothing.\n" : toIni(settings));
+      out << (settings.empty() ? base::kWrittenFromALog + ": no settings are proposed.\n" : toIni(settings));
     });
   return result;
 }

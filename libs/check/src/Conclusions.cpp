@@ -1,4 +1,4 @@
-// What follows from the facts for the mapper: which laser, which odometry, where a laser really is.
+// Conclusions from the facts for the mapper: which laser and odometry to use, and where a laser really is.
 #include "Conclusions.h"
 
 #include <omnimapper/check/judge.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFewestValid = 0.02;  // share of the beams
 constexpr std::size_t kFewestPairs = 8;
-constexpr double kMost = 0.7;  // share of the pairs that has to agree on a contradiction
+constexpr double kMost = 0.7;  // share of the pairs that must show a contradiction
 
 bool isMost(std::size_t part, std::size_t all) {
   return all >= kFewestPairs && static_cast<double>(part) > kMost * static_cast<double>(all);
@@ -59,7 +59,7 @@ std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::st
   return motions;
 }
 
-// Both directions at once are hardly a sensor's place; neither are several lasers that are wrong in the same way.
+// A wrong sensor pose hardly explains both directions at once, or several lasers that are wrong in the same way.
 bool isReversed(const LogFacts& facts, const std::string& odometry) {
   const auto motions = motionsWith(facts, odometry);
   if (motions.empty()) return false;
@@ -90,10 +90,10 @@ constexpr double kNotMeasured = 1e3;  // [m]
 
 struct Candidate {
   std::string label;
-  double noise;  // [m] after 1 m of way
+  double noise;  // [m] after 1 m travelled
 };
 
-// The odometries that tell the motion, the one nearest to the scans first.
+// Odometries that measure the motion, first the one that agrees best with the scans.
 std::vector<Candidate> usableOdometries(const LogFacts& facts) {
   const auto lasers = usableLasers(facts);
   std::vector<Candidate> candidates;
@@ -153,13 +153,13 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   const bool sure_position = found.position_sigma < kSurePosition;
   const bool wrong_position = sure_position && offset > std::max(kWrongPosition, kTrust * found.position_sigma);
   if (!wrong_yaw && !wrong_position) return std::nullopt;
-  // A small angle would be as much the odometry's as the sensor's.
+  // A small angle may be an error of the odometry as well as of the sensor pose.
   return CPose3D(sure_position ? found.x : 0, sure_position ? found.y : 0, 0, wrong_yaw ? found.yaw : 0, 0, 0) +
          reported;
 }
 
 bool clockStands(const LogFacts& facts) {
-  constexpr std::size_t kSome = 10;  // observations, by which a sensor is judged
+  constexpr std::size_t kSome = 10;  // observations that a sensor must have to be judged
   bool stands = false;
   for (const auto& [sensor, stamps] : facts.sensors) {
     if (stamps.count < kSome) continue;

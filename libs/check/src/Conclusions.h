@@ -11,20 +11,20 @@ namespace omnimapper::check {
 enum class Contradiction { none, forward, turning, both };
 
 Contradiction contradictionOf(const MotionFacts& motion);
-/// Odometry at rest while the scans move, most of the time.
+/// Whether the odometry is at rest in most pairs of scans that show motion.
 bool isFrozen(const MotionFacts& motion);
-/// Whether the odometry runs backwards, rather than a laser being mounted otherwise than said.
+/// Whether the odometry is reversed, rather than a laser mounted otherwise than its pose states.
 bool isReversed(const LogFacts& facts, const std::string& odometry);
-/// Whether the log has several odometries, of which usableOdometry() is nearer to the scans than the others by far, or
-/// the only one that tells the motion.
+/// Whether the log has several odometries, and usableOdometry() agrees with the scans much better than the others or is
+/// the only one that measures the motion.
 bool isOneOdometryBest(const LogFacts& facts);
-/// Whether the scans are not of a plane like the floor's.
+/// Whether the scanned plane is not parallel to the floor.
 bool isTilted(const ScanFacts& scans);
-/// Whether beams that met nothing are marked as valid, at one range.
+/// Whether beams that met nothing are marked as valid, all at one range.
 bool saturates(const ScanFacts& scans);
-/// Whether most stamps of every sensor that has some repeat the one before: the clock stood, not one sensor.
+/// Whether most stamps of every sensor repeat the one before, so that the clock stands still and not one sensor.
 bool clockStands(const LogFacts& facts);
-/// Of all usable lasers with that odometry, the best first.
+/// Comparisons of that odometry with all usable lasers, the best laser first.
 std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::string& odometry);
 
 }  // namespace omnimapper::check

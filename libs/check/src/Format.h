@@ -9,12 +9,12 @@
 
 namespace omnimapper::check {
 
-/// "1.50"; no "-0".
+/// Fixed-point text such as "1.50", without "-0".
 std::string fixed(double value, int decimals);
-/// "37 %", or "0.4 %" where whole numbers would hide it.
+/// Text such as "37 %", or "0.4 %" where whole numbers would hide the share.
 std::string percent(double share);
 using base::counted;
-/// 'laser', or "(no label)".
+/// The label in quotes, 'laser', or "(no label)".
 std::string quoted(const std::string& label);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostImages = 24;
 constexpr std::size_t kMostLabels = 10;
 
-void tell(LevelFacts& facts, const std::optional<Eigen::Vector3d>& up, const Eigen::Matrix3d& covariance) {
+void setLevel(LevelFacts& facts, const std::optional<Eigen::Vector3d>& up, const Eigen::Matrix3d& covariance) {
   if (!up) return;
   facts.is_known = true;
   facts.up = *up;
@@ -30,7 +30,7 @@ void tell(LevelFacts& facts, const std::optional<Eigen::Vector3d>& up, const Eig
 
 }  // namespace
 
-double LevelFacts::lean() const {
+double LevelFacts::tilt() const {
   return std::atan2(std::hypot(up.x(), up.y()), up.z());
 }
 
@@ -48,13 +48,13 @@ void LevelStatistics::add(const mrpt::obs::CObservation& observation) {
   }
 }
 
-// Images far apart in the log tell most: of too many every second one is dropped.
+// Images spread over the whole log determine the level best, so every second one is dropped when there are too many.
 void LevelStatistics::addImage(const mrpt::obs::CObservation3DRangeScan& image) {
   static const perception::PlaneExtractor extractor({}, {});
   try {
     images_.push_back({image.sensorLabel, extractor.extract(image)});
   } catch (const base::Error&) {
-    return;  // other findings tell of images that nobody can use
+    return;  // other findings report images that cannot be used
   }
   if (images_.size() < kMostImages) return;
   std::vector<Image> kept;
@@ -88,7 +88,7 @@ LevelFacts LevelStatistics::byImu(const std::string& label, const matching::Stea
   LevelFacts facts;
   facts.by = "the accelerometer " + check::quoted(label);
   facts.reason = gravity.reason;
-  tell(facts, gravity.up, gravity.covariance);
+  setLevel(facts, gravity.up, gravity.covariance);
   return facts;
 }
 
@@ -112,7 +112,7 @@ LevelFacts LevelStatistics::byPlanes(const std::vector<Pose>* poses) const {
   LevelFacts facts;
   facts.by = "the surfaces that " + std::to_string(viewpoints.size()) + " images of " + check::quoted(label) + " show";
   facts.reason = level.reason;
-  tell(facts, level.up, level.covariance);
+  setLevel(facts, level.up, level.covariance);
   return facts;
 }
 

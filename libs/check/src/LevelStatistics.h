@@ -12,12 +12,12 @@
 
 namespace omnimapper::check {
 
-/// What inertial sensors and the planes in some of the depth images tell of which way is up: in the frame of given
-/// poses, or, for a robot on wheels, in its base.
+/// Determines which way is up, from inertial sensors and from the planes in some of the depth images: in the frame of
+/// given poses, or, for a robot on wheels, in its base.
 class LevelStatistics {
  public:
   void add(const mrpt::obs::CObservation& observation);
-  /// `has_wheels`: the base is level by assumption.
+  /// `has_wheels`: the robot has wheel odometry, so its base should be level and is judged too.
   std::vector<LevelFacts> facts(bool has_wheels) const;
 
  private:
@@ -37,7 +37,7 @@ class LevelStatistics {
   std::map<std::string, matching::SteadySpans> imus_;  // by label
   std::map<std::string, std::vector<Pose>> poses_;     // by label
   std::vector<Image> images_;                          // a few, evenly spread
-  std::size_t seen_ = 0, stride_ = 1;                  // depth images; every so many is looked at
+  std::size_t seen_ = 0, stride_ = 1;                  // depth images so far; every stride-th is used
 };
 
 }  // namespace omnimapper::check

@@ -16,7 +16,7 @@ bool isFinite(const mrpt::poses::CPose2D& pose) {
   return std::isfinite(pose.x()) && std::isfinite(pose.y()) && std::isfinite(pose.phi());
 }
 
-// What two odometries of one robot may differ by over a span: readings that are held or interpolated, and slip.
+// Whether two odometries differ over a span by more than slip and held or interpolated readings can explain.
 bool areContrary(const mrpt::poses::CPose2D& a, const mrpt::poses::CPose2D& b) {
   constexpr double kLeast = 0.15, kLeastTurn = 0.15;  // [m] [rad]
   constexpr double kShare = 0.3;

@@ -10,15 +10,15 @@
 
 namespace omnimapper::check {
 
-/// Counts the odometry of one label, and answers for the motion as the mapper would have it.
+/// Statistics on the odometry of one label, and its motion between two times as the mapper would compute it.
 class OdometryStatistics {
  public:
-  /// Whether it is odometry at all.
+  /// Whether the observation is odometry.
   static bool isOdometry(const mrpt::obs::CObservation& observation);
   void add(const mrpt::obs::CObservation& observation);
   const OdometryFacts& facts() const { return facts_; }
   std::optional<mrpt::poses::CPose2D> between(base::Stamp begin, base::Stamp end) const;
-  /// Those of its readings that are valid, in order of arrival.
+  /// Valid stamps of its readings, in order of arrival.
   const std::vector<base::Stamp>& stamps() const { return stamps_; }
 
  private:
@@ -31,8 +31,8 @@ class OdometryStatistics {
   matching::WheelOdometry source_{matching::WheelOdometryOptions()};
 };
 
-/// Holds two odometries against one another over spans of a second or more that begin and end with readings of the one
-/// that has fewer; of a long log some hundred.
+/// Compares two odometries over spans of a second or more that begin and end with readings of the one that has fewer;
+/// in a long log over some hundred spans.
 OdometryPair compareOdometries(const std::string& a, const OdometryStatistics& of_a, const std::string& b,
                                const OdometryStatistics& of_b);
 

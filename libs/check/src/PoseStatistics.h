@@ -5,7 +5,7 @@
 
 namespace omnimapper::check {
 
-/// Counts the absolute poses of one label. Those that are not finite are left out.
+/// Statistics on the absolute poses of one label. Those that are not finite are left out.
 class PoseStatistics {
  public:
   void add(const mrpt::obs::CObservationRobotPose& observation);

@@ -12,7 +12,7 @@ namespace omnimapper::check {
 
 using ScanPtr = std::shared_ptr<const mrpt::obs::CObservation2DRangeScan>;
 
-/// Two scans of one laser, half a second or so apart.
+/// Two scans of one laser, about half a second after one another.
 struct ScanPair {
   ScanPtr begin, end;
 };
@@ -29,10 +29,10 @@ class ScanPairs {
   ScanPtr begin_;
 };
 
-/// Motion of the base over a pair by scan matching.
+/// Motion of the base between the scans of a pair, by scan matching and by odometry.
 struct MatchedMotion {
   base::Stamp begin, end;
-  mrpt::poses::CPose2D by_scans;  ///< base at the end in the base at the begin
+  mrpt::poses::CPose2D by_scans;  ///< pose of the base at the end in the base at the begin
   std::optional<mrpt::poses::CPose2D> by_odometry;
   double wall_distance;  ///< [m] root mean square of the points of one to the walls of the other
   double seconds() const { return base::secondsBetween(begin, end); }
@@ -40,10 +40,11 @@ struct MatchedMotion {
 
 using OdometryBetween = std::function<std::optional<mrpt::poses::CPose2D>(base::Stamp, base::Stamp)>;
 
-/// Copies of the scans with that aperture [rad].
+/// Copies of the pairs, with that aperture [rad] in their scans.
 std::vector<ScanPair> withAperture(const std::vector<ScanPair>& pairs, double aperture);
 
-/// Matches each pair, from rest and from the odometry's motion, and gives those that fit and whose walls fix the pose.
+/// Matches each pair, starting from rest and from the odometry's motion, and returns the matches that are good and
+/// whose walls determine the pose.
 std::vector<MatchedMotion> matchPairs(const std::vector<ScanPair>& pairs, const OdometryBetween& odometry);
 
 }  // namespace omnimapper::check

@@ -12,10 +12,10 @@ namespace omnimapper::check {
 
 namespace {
 
-constexpr std::size_t kSampledBeam = 7;  // every so many beams
+constexpr std::size_t kSampledBeam = 7;  // every seventh valid beam is sampled
 constexpr std::size_t kMostSamples = 1'000'000;
 
-// What the mapper takes for a beam that met something.
+// Whether the mapper would take the beam as one that met something.
 bool isValid(const mrpt::obs::CObservation2DRangeScan& scan, std::size_t beam) {
   static const perception::LaserPointsOptions limits;
   const double range = scan.getScanRange(beam);
@@ -34,7 +34,7 @@ bool all(const mrpt::obs::CObservation2DRangeScan& scan, Test test) {
 }  // namespace
 
 bool ScanFacts::isAtOrigin() const {
-  // Importers turn it by half a beam.
+  // Importers turn the sensor by half a beam.
   constexpr double kLittle = 2 * base::option_text::kRadiansPerDegree;
   const auto& p = base_from_sensor;
   return p.translation().norm() < 1e-6 && std::abs(p.yaw()) < kLittle && std::abs(p.pitch()) < kLittle &&

@@ -7,7 +7,7 @@
 
 namespace omnimapper::check {
 
-/// Counts the scans of one label.
+/// Statistics on the scans of one label.
 class ScanStatistics {
  public:
   void add(const mrpt::obs::CObservation2DRangeScan& scan);

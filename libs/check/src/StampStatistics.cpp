@@ -10,11 +10,12 @@ namespace omnimapper::check {
 namespace {
 constexpr double kJumpAhead = 60;    // [s]
 constexpr double kGapOfPeriods = 5;  // and of a second at least
-// Nine in ten steps of a sensor with a rate are shorter than this many of its period; of fhw and belgioioso, which were
-// recorded by the distance driven, 2.0.
+// If a sensor has a fixed rate, nine in ten of its steps are shorter than its period times this factor. In fhw and
+// belgioioso, which were recorded by the distance driven, the factor is 2.0.
 constexpr double kUnevenSteps = 1.5;
 
-// One stamp gone wrong must not make the log a year long: what is far from nearly all others is left out.
+// First and last stamp without those far from nearly all others, so that one wrong stamp does not make the log a year
+// long.
 void setEnds(const std::vector<base::Stamp>& stamps, StampFacts& facts) {
   if (stamps.empty()) return;
   const auto low = quantile(stamps, 0.01), high = quantile(stamps, 0.99);
@@ -65,13 +66,13 @@ void StampStatistics::addStep(double step, const StreamClock& clock) {
   } else if (step == 0) {
     ++facts_.repeated;
   } else {
-    // Where another sensor went on meanwhile, this one paused; a clock that is set is set for all.
+    // If another sensor went on meanwhile, this one paused; a clock that was set was set for all sensors.
     const bool with_all = step >= kJumpAhead && base::isValid(clock.beforePause()) && previous_ <= clock.beforePause();
     (with_all ? leaps_ : steps_).push_back({previous_, static_cast<float>(step)});
   }
 }
 
-// The step that `part` of all are shorter than [s]; 0 without any.
+// The step [s] that the share `part` of all steps is shorter than; 0 without any.
 double StampStatistics::stepQuantile(double part) const {
   if (steps_.empty()) return 0;
   std::vector<float> seconds;
@@ -83,7 +84,7 @@ double StampStatistics::period() const {
   return stepQuantile(0.5);
 }
 
-// Of a log that is recorded by the distance driven: its steps differ by nature, and a robot that rests leaves none.
+// Whether the log was recorded by the distance driven: then its steps differ anyway, and there are none at rest.
 bool StampStatistics::isByDistance() const {
   return stepQuantile(0.9) > kUnevenSteps * period();
 }

@@ -11,20 +11,19 @@ namespace omnimapper::check {
 class StreamClock {
  public:
   void add(base::Stamp stamp);
-  /// Of all so far, unless the clock was set back since; "no stamp" before the first.
+  /// Newest stamp so far, since the clock was last set back; "no stamp" before the first.
   base::Stamp newest() const { return newest_; }
-  /// The stamp before which all sensors paused when last they did so for a minute or more; "no stamp" if they never
-  /// did.
+  /// Last stamp before the latest pause of all sensors of a minute or more; "no stamp" if there was none.
   base::Stamp beforePause() const { return before_pause_; }
 
  private:
   base::Stamp newest_, before_pause_;
 };
 
-/// Counts the stamps of one sensor.
+/// Statistics on the stamps of one sensor.
 class StampStatistics {
  public:
-  /// `clock` has been given this stamp before.
+  /// The stamp must have been added to `clock` before.
   void add(base::Stamp stamp, const StreamClock& clock);
   StampFacts facts() const;
   /// The pauses that facts() counts as gaps: the stamps before and after each.
@@ -36,7 +35,7 @@ class StampStatistics {
     float seconds;
   };
   void addStep(double step, const StreamClock& clock);
-  /// Forward steps; those by which the clock may have been set only where they are taken for pauses.
+  /// Forward steps, including leaps of all sensors if the log was recorded by distance, where these are pauses.
   std::vector<Step> pauses() const;
   double stepQuantile(double part) const;
   double period() const;
@@ -45,11 +44,11 @@ class StampStatistics {
   StampFacts facts_;
   base::Stamp previous_;
   std::vector<base::Stamp> stamps_;
-  std::vector<Step> steps_;  // forward, the following left out
+  std::vector<Step> steps_;  // forward, without leaps_
   std::vector<Step> leaps_;  // forward by a minute or more, with all other sensors
 };
 
-/// Farther than this behind is a clock that was set back, not an observation that came late [s].
+/// A stamp farther behind than this is of a clock that was set back, not of a late observation [s].
 constexpr double kJumpBack = 10;
 
 }  // namespace omnimapper::check

@@ -16,8 +16,8 @@ std::string shortName(const std::string& class_name) {
 
 std::string sensorTable(const LogFacts& facts) {
   char row[300];
-  std::snprintf(row, sizeof row, "%-16s %-26s %8s %9s %10s %11s %9s\n", "sensor", "class", "count", "median/s",
-                "longest s", "out of order", "no stamp");
+  std::snprintf(row, sizeof row, "%-16s %-26s %8s %9s %10s %11s %9s\n", "sensor", "class", "count", "rate 1/s",
+                "max gap s", "out of order", "no stamp");
   std::string text = row;
   for (const auto& [sensor, stamps] : facts.sensors) {
     std::snprintf(row, sizeof row, "%-16s %-26s %8zu %9s %10s %12zu %9zu\n",
@@ -39,46 +39,48 @@ std::string scanLines(const LogFacts& facts) {
   std::string text;
   for (const auto& [label, scans] : facts.scans) {
     text += quoted(label) + ": " + std::to_string(scans.beams) + " beams over " + fixed(degrees(scans.aperture), 0) +
-            " deg, " + percent(scans.valid_share) + " valid, half of them under " + fixed(scans.median_range, 1) +
-            " m, at most " + fixed(scans.longest, 1) + " m (limit " + fixed(scans.max_range, 1) + " m)\n  at " +
-            poseText(scans.base_from_sensor) + " on the base" +
-            (scans.isAtOrigin() ? ": nobody said where it is" : "") + "\n";
+            " deg, " + percent(scans.valid_share) + " of them valid; median range " + fixed(scans.median_range, 1) +
+            " m, largest " + fixed(scans.longest, 1) + " m (limit of the sensor " + fixed(scans.max_range, 1) +
+            " m)\n  pose on the base: " + poseText(scans.base_from_sensor) +
+            (scans.isAtOrigin() ? "; it was probably never set" : "") + "\n";
   }
   return text;
 }
 
 std::string millimetres(double metres) {
-  constexpr double kLeast = 0.001;  // [m] less than this no scan matching measures
+  constexpr double kLeast = 0.001;  // [m] smallest noise that scan matching can measure
   return metres < kLeast ? "less than 1 mm" : fixed(1000 * metres, 0) + " mm";
 }
 
 std::string noiseText(const MotionFacts& motion) {
   std::vector<std::string> parts;
-  if (motion.position_noise_per_root_m) parts.push_back(millimetres(*motion.position_noise_per_root_m) + " after 1 m");
-  if (motion.yaw_noise_per_root_m) parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_m), 2) + " deg after 1 m");
+  if (motion.position_noise_per_root_m)
+    parts.push_back(millimetres(*motion.position_noise_per_root_m) + " after 1 m travelled");
+  if (motion.yaw_noise_per_root_m)
+    parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_m), 2) + " deg after 1 m travelled");
   if (motion.yaw_noise_per_root_turn) {
     parts.push_back(fixed(degrees(*motion.yaw_noise_per_root_turn), 2) + " deg after a turn of 1 rad");
   }
-  return parts.empty() ? "" : "; noise " + joined(parts, ", ");
+  return parts.empty() ? "" : "; noise of the odometry: " + joined(parts, ", ");
 }
 
 std::string odometryLines(const LogFacts& facts) {
   std::string text;
   for (const auto& [label, odometry] : facts.odometry) {
-    text += quoted(label) + ": " + fixed(odometry.travel, 1) + " m and " + fixed(degrees(odometry.turn) / 360, 1) +
-            " turns by odometry\n";
+    text += quoted(label) + ": " + fixed(odometry.travel, 1) + " m travelled and " +
+            fixed(degrees(odometry.turn) / 360, 1) + " full turns, by odometry\n";
   }
   for (const auto& motion : facts.motions) {
     if (motion.odometry.empty()) continue;
-    text += "  " + quoted(motion.odometry) + " against " + quoted(motion.laser) + ": " +
-            std::to_string(motion.matched) + " of " + std::to_string(motion.tried) + " pairs of scans match, " +
-            std::to_string(motion.moved) + " in motion" + noiseText(motion) + "\n";
+    text += "  " + quoted(motion.odometry) + " compared with " + quoted(motion.laser) + ": " +
+            std::to_string(motion.matched) + " of " + std::to_string(motion.tried) + " pairs of scans were matched, " +
+            std::to_string(motion.moved) + " of these show motion" + noiseText(motion) + "\n";
   }
   return text;
 }
 
 std::string findingLines(const std::vector<Finding>& findings) {
-  if (findings.empty()) return "\nNothing is wrong with it.\n";
+  if (findings.empty()) return "\nNothing is wrong with this log.\n";
   std::string text = "\n";
   for (const auto& finding : findings) {
     const char* weight = finding.weight == Weight::problem   ? "PROBLEM  "
@@ -116,17 +118,19 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   if (!report.message.empty()) text += report.message + "\n";
   text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
   if (inis.empty()) return text;
-  text += "\nSettings for what it holds:\n" + iniLines(inis);
+  text += "\nINIs that fit this log, first the one that uses most of its sensors:\n" + iniLines(inis);
   if (settings.empty() && inis.front().file == ini && inis.front().needs_settings) return text;
   if (settings.empty()) {
     const bool is_broken = !findings.empty() && findings.front().weight == Weight::problem;
     return text +
-           (is_broken ? "Nothing that could be set anew in " + ini + " mends the problems above"
-                      : "Nothing in " + ini + " need be set anew for it" +
-                            (findings.empty() ? "" : ": it copes with what is said above")) +
+           (is_broken ? "No setting of " + ini + " solves the problems above"
+                      : "No setting of " + ini + " needs to be changed for this log" +
+                            (findings.empty() ? "" : ", in spite of the findings above")) +
            ".\n";
   }
-  return text + "\nTo go over " + ini + " (-i " + ini + " -i THIS):\n\n" + toIni(settings);
+  return text + "\nSettings that improve " + ini +
+         " for this log. With -o FOLDER they are written to a file; use them as -i " + ini +
+         " -i FOLDER/check.ini:\n\n" + toIni(settings);
 }
 
 }  // namespace omnimapper::check

@@ -10,8 +10,8 @@
 
 namespace omnimapper::check {
 
-/// One screen: how the log could be read, a line for each sensor, findings, INIs that fit, what to change in
-/// `ini`, one of these or the user's own.
+/// One screen of text: how the log could be read, a line for each sensor, findings, INIs that fit, and the settings to
+/// change in `ini`, which is one of these or the user's own.
 std::string checkText(const std::string& title, const source::SourceReport& report, const LogFacts& facts,
                       const std::vector<Finding>& findings, const std::vector<FittingIni>& inis, const std::string& ini,
                       const std::vector<Setting>& settings);

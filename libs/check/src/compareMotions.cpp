@@ -17,14 +17,15 @@ namespace {
 using mrpt::poses::CPose2D;
 using Mounting = MotionFacts::Mounting;
 
-constexpr double kMoved = 0.1, kTurned = 0.1;  // [m] [rad] what a match tells from rest for sure
+constexpr double kMoved = 0.1, kTurned = 0.1;  // [m] [rad] smallest motion that a match distinguishes from rest
 constexpr double kStillTravel = 1e-4, kStillTurn = 1e-4;
 constexpr std::size_t kFewestMotions = 8;
 constexpr double kMatchSigma = 0.01;        // [m] of a match at best
 constexpr double kMatchAngleSigma = 0.003;  // [rad]
 
 // Rows of the equations R(yaw) t_scans - (R_odometry - 1) c = t_odometry, in (a, b, c_x, c_y) with a = s cos yaw, b = s
-// sin yaw: the motion of the true base and that of the base as the sensor's reported pose has it are conjugate.
+// sin yaw. They hold because the motion of the true base and that of the base by the reported sensor pose are
+// conjugate.
 struct Rows {
   Eigen::Matrix<double, 2, 4> left;
   Eigen::Vector2d right;
@@ -51,7 +52,7 @@ std::vector<double> residuals(const std::vector<Rows>& rows, const Eigen::Vector
   return all;
 }
 
-// Least squares, then again without what lies far off: slips and matches gone wrong.
+// Least squares, repeated without outliers such as slips and wrong matches.
 std::optional<Fit> fit(const std::vector<Rows>& rows) {
   Fit result;
   double limit = std::numeric_limits<double>::infinity();
@@ -85,7 +86,7 @@ std::optional<Mounting> mountingOf(const std::vector<MatchedMotion>& motions) {
   const auto& s = found->solution;
   Mounting mounting;
   mounting.scale = s.head<2>().norm();
-  if (mounting.scale < 0.1) return std::nullopt;  // the odometry tells no way
+  if (mounting.scale < 0.1) return std::nullopt;  // the odometry measures no translation
   mounting.yaw = std::atan2(s[1], s[0]);
   mounting.x = s[2];
   mounting.y = s[3];
@@ -94,7 +95,7 @@ std::optional<Mounting> mountingOf(const std::vector<MatchedMotion>& motions) {
   return mounting;
 }
 
-// Standard deviation after one unit, of squared errors per unit, robustly by their median.
+// Standard deviation after one unit of travel or turn, estimated robustly from the median of squared errors per unit.
 std::optional<double> noiseOf(const std::vector<double>& squared_per_unit, double chi2_median) {
   if (squared_per_unit.size() < kFewestMotions) return std::nullopt;
   return std::sqrt(std::max(0.0, quantile(squared_per_unit, 0.5) / chi2_median));
@@ -138,7 +139,7 @@ void countDirections(const MatchedMotion& motion, MotionFacts& facts) {
   }
 }
 
-// What the scans' turning says of the odometry's: the median of their ratios.
+// Turn by odometry divided by turn by scans: the median over all pairs that turn.
 std::optional<double> turnScaleOf(const std::vector<MatchedMotion>& motions) {
   std::vector<double> ratios;
   for (const auto& motion : motions) {
@@ -153,7 +154,7 @@ MotionFacts compare(const std::vector<MatchedMotion>& motions) {
   MotionFacts facts;
   facts.matched = motions.size();
   std::vector<double> speeds, wall_distances;
-  std::vector<MatchedMotion> told;  // by an odometry that moves when the scans do
+  std::vector<MatchedMotion> comparable;  // those for which the odometry shows motion too
   for (const auto& motion : motions) {
     speeds.push_back(motion.by_scans.norm() / motion.seconds());
     wall_distances.push_back(motion.wall_distance);
@@ -165,30 +166,30 @@ MotionFacts compare(const std::vector<MatchedMotion>& motions) {
       continue;
     }
     countDirections(motion, facts);
-    if (moved) told.push_back(motion);
+    if (moved) comparable.push_back(motion);
   }
   if (!speeds.empty()) facts.speed = quantile(speeds, 0.9);
   if (!wall_distances.empty()) facts.wall_distance = quantile(wall_distances, 0.5);
-  facts.turn_scale = turnScaleOf(told);
-  facts.mounting = mountingOf(told);
+  facts.turn_scale = turnScaleOf(comparable);
+  facts.mounting = mountingOf(comparable);
   const auto& mounting = facts.mounting;
-  measureNoise(told, mounting ? CPose2D(mounting->x, mounting->y, mounting->yaw) : CPose2D(), facts);
+  measureNoise(comparable, mounting ? CPose2D(mounting->x, mounting->y, mounting->yaw) : CPose2D(), facts);
   return facts;
 }
 
 }  // namespace
 
-// The turning of the odometry only raises the question: it has an error of its own. Which aperture it is the scans say,
-// which fit one another best with their own. So it is found on five real logs of 180 deg and one of 220 deg that were
-// declared as 90 and 270 (mit-csail, intel, aces, fhw, belgioioso, driving_in_office).
+// The turns of the odometry, which have errors too, only raise the suspicion that the declared aperture is wrong. The
+// right one is that with which the scans match best. It was found this way on five real logs of 180 deg and one of 220
+// deg that were declared as 90 and 270 (mit-csail, intel, aces, fhw, belgioioso, driving_in_office).
 MotionFacts compareMotions(const std::vector<ScanPair>& pairs, double aperture, const OdometryBetween& odometry) {
-  constexpr double kWrong = 0.15;       // turning by odometry over turning by scans, less 1
-  constexpr double kFitsBetter = 0.95;  // share of the distance from the walls
-  constexpr double kFewer = 0.9;        // share of the pairs that fit
+  constexpr double kWrong = 0.15;       // turn by odometry divided by turn by scans, minus 1
+  constexpr double kFitsBetter = 0.95;  // factor on the distance from the walls
+  constexpr double kFewer = 0.9;        // share of the matched pairs
   MotionFacts facts = compare(matchPairs(pairs, odometry));
   const auto excess = [](const MotionFacts& some) { return std::abs(some.turn_scale.value_or(0) - 1); };
   if (!facts.turn_scale || excess(facts) < kWrong) return facts;
-  // Those of lasers that are sold, and what the odometry speaks for where that is none of them.
+  // Apertures of lasers on the market, and the one that the odometry suggests if it is none of these.
   std::vector<double> apertures;
   for (const double sold : {90, 100, 120, 180, 190, 220, 240, 270, 360}) {  // [deg]
     apertures.push_back(sold * base::option_text::kRadiansPerDegree);

@@ -8,8 +8,8 @@
 
 namespace omnimapper::check {
 
-/// What pairs of scans that declare an aperture [rad] say of odometry, its noise and the sensor's place; with another
-/// aperture where the one they declare is wrong. Labels and `tried` are the caller's to fill in.
+/// Judges odometry, its noise and the sensor's pose by pairs of scans that declare an aperture [rad], with another
+/// aperture if the declared one is wrong. The caller fills in labels and `tried`.
 MotionFacts compareMotions(const std::vector<ScanPair>& pairs, double aperture, const OdometryBetween& odometry);
 
 }  // namespace omnimapper::check

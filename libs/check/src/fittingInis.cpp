@@ -32,7 +32,7 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && has_odometry && !has_laser) {
     inis.push_back(
         {"ini/rgbd_robot.ini",
-         "walls, tables and floors of the range camera, its way by images and wheels",
+         "walls, tables and floors of the range camera; its motion from images and wheels",
          {{"visual_odometry", "odometry", "no_motion"}, {"planes"}, {"plane_landmarks", "view_links"}, true}});
   }
   if (sees_depth && (has_laser || has_odometry)) {
@@ -41,15 +41,16 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
                     {of_lasers, {"planes", "laser_lines", "laser_points"}, {"plane_landmarks", "loop_closure"}, true}});
   }
   if (has_laser) {
-    inis.push_back(
-        {"ini/laser2d.ini", "a grid of the laser's scans", {of_lasers, {"laser_points"}, {"loop_closure"}, true}});
+    inis.push_back({"ini/laser2d.ini",
+                    "an occupancy grid of the laser's scans",
+                    {of_lasers, {"laser_points"}, {"loop_closure"}, true}});
     inis.push_back({"ini/laser_walls.ini",
-                    "the same, with walls as landmarks",
+                    "an occupancy grid of the laser's scans, and walls as landmarks",
                     {of_lasers, {"laser_points", "laser_lines"}, {"walls", "loop_closure", "relations"}, true}});
   }
   const bool has_signs = holds<obs::CObservationDoorSigns>(facts);
   if ((has_signs || holds<mrpt::obs::CObservationImage>(facts)) && (has_laser || has_odometry)) {
-    const std::string what = has_signs ? "door signs with their texts" : "door signs, if its pictures show some";
+    const std::string what = has_signs ? "door signs with their texts" : "door signs, if the pictures show some";
     inis.push_back({"ini/signs.ini",
                     what + (has_laser ? ", and walls" : ""),
                     {of_lasers,
@@ -66,32 +67,32 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   }
   if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && !has_laser && !has_odometry) {
     inis.push_back({"ini/rgbd_handheld.ini",
-                    "the way and the points of a range camera by its images alone",
+                    "trajectory and points of a range camera, from its images alone",
                     {{"visual_odometry", "no_motion"}, {}, {"view_links"}, false}});
   }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
-                    "points and markers by their ranges and bearings",
+                    "points and markers, from ranges and bearings",
                     {{"odometry", "no_motion"}, {}, {"points"}, false}});
   }
   const bool sees_clouds =
       holds<mrpt::obs::CObservationPointCloud>(facts) || holds<mrpt::obs::CObservationVelodyneScan>(facts);
   if (has_odometry && sees_clouds && !sees_depth) {
     inis.push_back({"ini/home_planes.ini",
-                    "planes of point clouds: --set planes.class=CloudPlaneExtractor",
+                    "planes of point clouds; needs --set planes.class=CloudPlaneExtractor",
                     {{"odometry", "no_motion"}, {"planes"}, {"plane_landmarks"}, true},
                     true});
   }
   if (sees_clouds && !sees_depth && holds<mrpt::obs::CObservationRobotPose>(facts)) {
     inis.push_back({"ini/rgbd_planes.ini",
-                    "planes of point clouds on given poses: --set planes.class=CloudPlaneExtractor",
+                    "planes of point clouds on given poses; needs --set planes.class=CloudPlaneExtractor",
                     {{"given_motion", "no_motion"}, {"planes"}, {"poses", "plane_landmarks"}, false},
                     true});
   }
   if (has_odometry && holds<mrpt::obs::CObservationImage>(facts) &&
       !holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
-                    "ArUco markers, if its pictures show some: README, \"Landmarks\", has the settings",
+                    "ArUco markers, if the pictures show some; for the settings see README, \"Landmarks\"",
                     {{"odometry", "no_motion"}, {}, {"points"}, false},
                     true,
                     true});

@@ -19,13 +19,13 @@ namespace {
 
 using mrpt::obs::CObservation2DRangeScan;
 
-// The end of the first so many elements.
+// Iterator behind the first `count` elements.
 template <class Map>
 typename Map::const_iterator beginningOf(const Map& map, std::size_t count) {
   return std::next(map.begin(), static_cast<std::ptrdiff_t>(std::min(count, map.size())));
 }
 
-// Everything that is counted while the log goes by.
+// Collects all statistics while the log is read.
 class Gatherer {
  public:
   void add(const mrpt::obs::CObservation::Ptr& observation) {
@@ -47,7 +47,7 @@ class Gatherer {
     }
     if (const auto scan = std::dynamic_pointer_cast<const CObservation2DRangeScan>(observation)) {
       auto& laser = lasers_[label];
-      laser.tally.add(*scan);
+      laser.statistics.add(*scan);
       laser.pairs.add(scan);
       if (base::isValid(stamp)) laser.stamps.push_back(stamp);
     }
@@ -56,11 +56,11 @@ class Gatherer {
   LogFacts facts() const {
     LogFacts facts;
     facts.unusable = uncalibrated_;
-    for (const auto& [sensor, tally] : stamps_) facts.sensors[sensor] = stampFacts(tally);
-    for (const auto& [label, tally] : odometry_) facts.odometry[label] = tally.facts();
-    for (const auto& [label, tally] : poses_) facts.poses[label] = tally.facts();
+    for (const auto& [sensor, statistics] : stamps_) facts.sensors[sensor] = stampFacts(statistics);
+    for (const auto& [label, statistics] : odometry_) facts.odometry[label] = statistics.facts();
+    for (const auto& [label, statistics] : poses_) facts.poses[label] = statistics.facts();
     facts.levels = level_.facts(!odometry_.empty());
-    // No robot has more of them; a log that says so would be compared for minutes.
+    // No robot has more lasers or odometries; comparing a log with more labels would take minutes.
     constexpr std::size_t kMost = 10;
     const auto compared = beginningOf(odometry_, kMost);
     for (auto a = odometry_.begin(); a != compared; ++a) {
@@ -69,7 +69,7 @@ class Gatherer {
       }
     }
     for (const auto& [label, laser] : lasers_) {
-      facts.scans[label] = laser.tally.facts();
+      facts.scans[label] = laser.statistics.facts();
       if (facts.scans.size() > kMost) continue;
       for (auto odometry = odometry_.begin(); odometry != compared; ++odometry) {
         facts.motions.push_back(motionOf(label, laser, odometry->first, &odometry->second));
@@ -82,14 +82,14 @@ class Gatherer {
 
  private:
   struct Laser {
-    ScanStatistics tally;
+    ScanStatistics statistics;
     ScanPairs pairs;
     std::vector<base::Stamp> stamps;
   };
 
-  StampFacts stampFacts(const StampStatistics& tally) const {
-    StampFacts facts = tally.facts();
-    for (const auto& [begin, end] : tally.gaps()) {
+  StampFacts stampFacts(const StampStatistics& statistics) const {
+    StampFacts facts = statistics.facts();
+    for (const auto& [begin, end] : statistics.gaps()) {
       if (isRest(begin, end)) {
         ++facts.rests;
       } else {
@@ -101,21 +101,21 @@ class Gatherer {
 
   bool isRest(base::Stamp begin, base::Stamp end) const {
     constexpr double kStayed = 1.5, kFaced = 1;  // [m] [rad]
-    bool is_told = false;
+    bool is_measured = false;
     for (const auto& [label, odometry] : odometry_) {
       const auto motion = odometry.between(begin, end);
       if (motion && (motion->norm() > kStayed || std::abs(motion->phi()) > kFaced)) return false;
-      is_told = is_told || motion;
+      is_measured = is_measured || motion;
     }
-    return is_told;
+    return is_measured;
   }
 
   static MotionFacts motionOf(const std::string& label, const Laser& laser, const std::string& odometry,
-                              const OdometryStatistics* tally) {
+                              const OdometryStatistics* statistics) {
     const auto between = [&](base::Stamp begin, base::Stamp end) {
-      return tally ? tally->between(begin, end) : std::nullopt;
+      return statistics ? statistics->between(begin, end) : std::nullopt;
     };
-    auto facts = compareMotions(laser.pairs.pairs(), laser.tally.facts().aperture, between);
+    auto facts = compareMotions(laser.pairs.pairs(), laser.statistics.facts().aperture, between);
     facts.laser = label;
     facts.odometry = odometry;
     facts.tried = laser.pairs.pairs().size();

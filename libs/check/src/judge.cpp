@@ -42,7 +42,7 @@ class Judge {
     for (const auto& [sensor, stamps] : facts_.sensors) {
       if (base::isValid(stamps.first)) first = std::min(first, stamps.first);
     }
-    return fixed(base::secondsBetween(first, stamp), 1) + " s after the start";
+    return fixed(base::secondsBetween(first, stamp), 1) + " s after the start of the log";
   }
 
   void judgeContent() {
@@ -50,14 +50,16 @@ class Judge {
     const auto is_sure = [](const FittingIni& ini) { return !ini.is_a_guess; };
     const bool is_mappable = std::any_of(inis.begin(), inis.end(), is_sure);
     if (!facts_.scans.empty() && usableLasers(facts_).empty()) {
-      add(is_mappable ? Weight::warning : Weight::problem, "no laser has scans that can be matched");
+      add(is_mappable ? Weight::warning : Weight::problem,
+          "no laser has scans that can be matched: they are empty, lack valid beams, or their plane is tilted against "
+          "the floor");
     } else if (!is_mappable && inis.empty()) {
       add(Weight::problem,
-          "there is nothing to map: no 2D scans, no depth images; planes and point clouds need odometry or poses "
-          "beside "
-          "them, ranges and bearings and pictures of markers need odometry");
+          "there is nothing to map: the log has no 2D scans and no depth images. Planes and point clouds need odometry "
+          "or poses beside them; ranges and bearings, and pictures of markers, need odometry");
     } else if (!is_mappable) {
-      add(Weight::warning, "there may be nothing to map: pictures tell something only where they show ArUco markers");
+      add(Weight::warning,
+          "there may be nothing to map: the pictures can be used only if they show ArUco markers or door signs");
     }
   }
 
@@ -65,33 +67,39 @@ class Judge {
     const std::string who = quoted(label) + ": ";
     const auto weigh = [&](std::size_t bad) { return 2 * bad > stamps.count ? Weight::problem : Weight::warning; };
     if (stamps.no_stamp > 0) {
-      add(weigh(stamps.no_stamp), who + std::to_string(stamps.no_stamp) + " of " +
-                                      counted(stamps.count, "observation") + " without a stamp: left out");
+      add(weigh(stamps.no_stamp),
+          who + std::to_string(stamps.no_stamp) + " of " + counted(stamps.count, "observation") +
+              " are without a stamp and are left out of the map; record this sensor with stamps");
     }
     if (stamps.repeated > 0) {
       add(weigh(stamps.repeated),
-          who + "the stamp of the one before is repeated " + counted(stamps.repeated, "time") + ": left out" +
-              (clockStands(facts_) ? "; the stamps stand still: [source] step_s stamps the log anew" : ""));
+          who + "a stamp is repeated by the next observation " + counted(stamps.repeated, "time") +
+              "; only the first one of each stamp is used" +
+              (clockStands(facts_) ? ". The stamps of all sensors stand still: set [source] step_s to get new ones"
+                                   : ""));
     }
     if (stamps.jumps > 0) {
       add(Weight::problem, who + "the clock jumps " + counted(stamps.jumps, "time") + ", by up to " +
-                               fixed(stamps.largest_jump, 0) + " s: cut the log there ([source] start_s, end_s)");
+                               fixed(stamps.largest_jump, 0) +
+                               " s; map the parts before and after it separately ([source] start_s, end_s)");
     }
     if (stamps.backward > 0) {
-      add(Weight::warning, who + "stamps run backwards " + counted(stamps.backward, "time"));
+      add(Weight::warning,
+          who + "stamps run backwards " + counted(stamps.backward, "time") + ", by less than 10 s each");
     }
     if (stamps.lateness > mapper::EngineOptions().window) {
       add(Weight::warning, who + "comes up to " + fixed(stamps.lateness, 1) +
-                               " s after later stamps of others, more than [mapper] window_s");
+                               " s after later stamps of other sensors; set [mapper] window_s to more than that");
     }
     if (stamps.gaps > stamps.rests) {
       constexpr double kLong = 5;  // [s] a robot may have gone far
       add(stamps.longest_drive > kLong ? Weight::warning : Weight::note,
-          who + counted(stamps.gaps - stamps.rests, "gap") + ", the longest of " + fixed(stamps.longest_drive, 1) +
-              " s (usually " + fixed(stamps.period, 3) + " s)");
+          who + counted(stamps.gaps - stamps.rests, "gap") + " in which the robot may have moved, the longest of " +
+              fixed(stamps.longest_drive, 1) + " s (the usual interval is " + fixed(stamps.period, 3) + " s)");
     }
     if (stamps.rests > 0) {
-      add(Weight::note, who + counted(stamps.rests, "gap") + " in which the robot moved by less than 1.5 m");
+      add(Weight::note,
+          who + counted(stamps.rests, "gap") + " in which the robot moved by less than 1.5 m according to odometry");
     }
   }
 
@@ -101,17 +109,19 @@ class Judge {
     for (const auto& label : labels) {
       if (base::fitsIni(label)) continue;
       add(Weight::warning, quoted(label) +
-                               ": no INI can name this label, so no setting of it is proposed: it holds a "
-                               "comma, a '$', a comment or what is not printable; record it with another");
+                               ": no INI can name this label, because it holds a comma, a '$', a comment or characters "
+                               "that cannot be printed; no settings are proposed for it. Record this sensor with "
+                               "another label");
     }
   }
 
-  // A sensor of which most cannot be used does not work, whatever the rest is worth.
+  // A sensor most of whose observations cannot be used does not work, even if the others are good.
   void judgeUnusable() {
     if (facts_.missing_images > 0) {
       add(Weight::warning, counted(facts_.missing_images, "observation") +
-                               " left out: an external file cannot be read, the first " + facts_.first_missing_image +
-                               "; put the files there, or name their folder as [source] images_folder");
+                               " left out because an external file cannot be read, the first " +
+                               facts_.first_missing_image +
+                               "; put the files there, or set their folder in [source] images_folder");
     }
     for (const auto& [key, left_out] : facts_.unusable) {
       const auto& [label, reason] = key;
@@ -120,7 +130,7 @@ class Judge {
         if (sensor.first == label) usable += stamps.count;
       }
       add(2 * left_out.observations > usable ? Weight::problem : Weight::warning,
-          quoted(label) + ": " + counted(left_out.observations, "observation") + " left out: " + reason +
+          quoted(label) + ": " + counted(left_out.observations, "observation") + " left out because " + reason +
               ", the first " + sinceStart(left_out.first_stamp));
     }
   }
@@ -129,41 +139,50 @@ class Judge {
     const std::string who = quoted(label) + ": ";
     const auto part = [&](std::size_t count) { return std::to_string(count) + " of " + counted(scans.scans, "scan"); };
     const auto weigh = [&](std::size_t bad) { return 2 * bad > scans.scans ? Weight::problem : Weight::warning; };
-    if (scans.empty > 0) add(weigh(scans.empty), who + part(scans.empty) + " without beams");
-    if (scans.beams == 1) add(Weight::problem, who + "has one beam: it cannot be matched");
+    if (scans.empty > 0) add(weigh(scans.empty), who + part(scans.empty) + " have no beams");
+    if (scans.beams == 1) add(Weight::problem, who + "its scans have one beam and cannot be matched");
     if (scans.blind > 0) {
       std::string how;
-      if (scans.all_zero > 0) how += ", " + std::to_string(scans.all_zero) + " all zeros";
-      if (scans.all_maximum > 0) how += ", " + std::to_string(scans.all_maximum) + " all at maximum range";
-      add(weigh(scans.blind), who + part(scans.blind) + " without a valid beam" + how);
+      if (scans.all_zero > 0) how += ", " + std::to_string(scans.all_zero) + " of them all zeros";
+      if (scans.all_maximum > 0) how += ", " + std::to_string(scans.all_maximum) + " of them all at maximum range";
+      add(weigh(scans.blind), who + part(scans.blind) + " have no valid beam" + how);
     }
     if (10 * scans.repeated > scans.scans) {
-      add(weigh(scans.repeated), who + part(scans.repeated) + " repeat the one before to the last bit: is it stuck?");
+      add(weigh(scans.repeated),
+          who + part(scans.repeated) + " are exactly equal to the one before: is the sensor stuck?");
     }
-    if (scans.other_beams > 0) add(Weight::note, who + part(scans.other_beams) + " with another number of beams");
+    if (scans.other_beams > 0)
+      add(Weight::note, who + part(scans.other_beams) + " have another number of beams than the first one");
     if (saturates(scans)) {
-      add(Weight::warning, who + percent(scans.longest_share) + " of the valid beams at exactly " +
-                               fixed(scans.longest, 2) + " m: nothing came back, but they are marked as valid");
+      add(Weight::warning, who + percent(scans.longest_share) + " of the valid beams measure exactly " +
+                               fixed(scans.longest, 2) +
+                               " m: probably nothing came back, but they are marked as valid; limit the range "
+                               "([laser_points] max_range_m)");
     }
     if (isTilted(scans)) {
-      add(Weight::problem,
-          who + "scans a plane tilted by " + fixed(degrees(scans.tilt()), 0) + " deg: not for 2D maps");
+      add(Weight::problem, who + "scans a plane tilted by " + fixed(degrees(scans.tilt()), 0) +
+                               " deg against the floor, so it is not used for 2D maps; if its sensor pose is wrong, "
+                               "correct it in [mapper] sensors");
     }
-    if (scans.isUpsideDown()) add(Weight::note, who + "mounted upside down, as its sensor pose says");
-    if (scans.sensor_pose_moves) add(Weight::note, who + "moves on the base, as its sensor poses say");
+    if (scans.isUpsideDown()) add(Weight::note, who + "is mounted upside down according to its sensor pose");
+    if (scans.sensor_pose_moves) add(Weight::note, who + "moves on the base according to its sensor poses");
   }
 
   void judgeOdometry() {
     if (facts_.odometry.empty()) {
-      if (!usableLasers(facts_).empty()) add(Weight::warning, "there is no odometry: the motion is left to the scans");
+      if (!usableLasers(facts_).empty())
+        add(Weight::warning, "there is no odometry: the motion is estimated from the scans alone");
       return;
     }
     for (const auto& [label, odometry] : facts_.odometry) {
       const std::string who = quoted(label) + ": ";
-      if (odometry.not_finite > 0) add(Weight::warning, who + counted(odometry.not_finite, "reading") + " not finite");
+      if (odometry.not_finite > 0)
+        add(Weight::warning, who + counted(odometry.not_finite, "reading") + " whose pose is not finite");
       if (odometry.jumps > 0) {
         add(Weight::problem, who + "jumps " + counted(odometry.jumps, "time") + ", by up to " +
-                                 fixed(odometry.largest_jump, 2) + " m " + sinceStart(odometry.largest_at));
+                                 fixed(odometry.largest_jump, 2) + " m, the largest " +
+                                 sinceStart(odometry.largest_at) +
+                                 "; cut the log there ([source] start_s, end_s) or map without this odometry");
       }
       const auto motions = motionsWith(facts_, label);
       if (motions.empty()) continue;
@@ -176,7 +195,7 @@ class Judge {
     const double covered = facts_.covered.at({motion.laser, odometry});
     if (covered >= 0.95) return;
     const std::string who = quoted(odometry) + " and " + quoted(motion.laser) + ": ";
-    const std::string rest = percent(1 - covered) + " of the scans lie outside of the odometry's time";
+    const std::string rest = percent(1 - covered) + " of the scans lie outside of the time span of the odometry";
     if (covered >= 0.5) return add(Weight::warning, who + rest);
     const auto first = [&](const std::string& label) {
       base::Stamp stamp;
@@ -185,22 +204,26 @@ class Judge {
       }
       return stamp;
     };
-    add(Weight::problem, who + rest + "; it starts " +
+    add(Weight::problem, who + rest + "; the odometry starts " +
                              fixed(base::secondsBetween(first(motion.laser), first(odometry)), 1) +
-                             " s after them: two clocks, or two logs?");
+                             " s after the scans: do their clocks differ, or are they of two logs?");
   }
 
   void judgeMotion(const std::string& who, const MotionFacts& motion, bool reversed) {
     if (motion.frozen > 0) {
       const bool frozen = isFrozen(motion);
       add(frozen || 5 * motion.frozen > motion.moved ? Weight::problem : Weight::warning,
-          who + "at rest in " + std::to_string(motion.frozen) + " of " + std::to_string(motion.moved) +
-              " pairs of scans that move" + (frozen ? ": frozen" : "") + ", first " + sinceStart(motion.first_frozen));
+          who + "measures no motion in " + std::to_string(motion.frozen) + " of " + std::to_string(motion.moved) +
+              " pairs of scans that show motion" + (frozen ? ": it is frozen" : "") + ", first " +
+              sinceStart(motion.first_frozen));
     }
-    if (reversed) add(Weight::problem, who + "runs against the scans: reversed" + reversedText(motion));
+    if (reversed)
+      add(Weight::problem, who + "is reversed compared with the scans" + reversedText(motion) +
+                               "; correct its signs, or map without it");
     if (reversed || isFrozen(motion)) return;
     if (motion.turn_scale && std::abs(*motion.turn_scale - 1) > 0.1) {
-      add(Weight::warning, who + "turns " + fixed(*motion.turn_scale, 2) + " rad where the scans turn 1 rad");
+      add(Weight::warning,
+          who + "measures a turn of " + fixed(*motion.turn_scale, 2) + " rad where the scans measure 1 rad");
     }
     if (motion.mounting && std::abs(motion.mounting->scale - 1) > 0.05) {
       add(Weight::warning, who + "measures " + fixed(motion.mounting->scale, 2) + " m where the scans measure 1 m");
@@ -210,11 +233,11 @@ class Judge {
                            double unit) {
       if (!measured || *measured < 2 * value) return;
       add(Weight::warning, who + "its noise, " + fixed(*measured / unit, decimals) + what + ", is " +
-                               fixed(*measured / value, 1) + " times the default");
+                               fixed(*measured / value, 1) + " times the default of [odometry]");
     };
-    noise(motion.position_noise_per_root_m, defaults.position_noise_per_root_m, " m after 1 m", 2, 1);
+    noise(motion.position_noise_per_root_m, defaults.position_noise_per_root_m, " m after 1 m travelled", 2, 1);
     noise(motion.yaw_noise_per_root_turn, defaults.yaw_noise_per_root_turn, " rad after a turn of 1 rad", 2, 1);
-    noise(motion.yaw_noise_per_root_m, defaults.yaw_noise_per_root_m, " deg after 1 m", 1,
+    noise(motion.yaw_noise_per_root_m, defaults.yaw_noise_per_root_m, " deg after 1 m travelled", 1,
           base::option_text::kRadiansPerDegree);
   }
 
@@ -233,14 +256,15 @@ class Judge {
     for (const auto& pair : facts_.odometry_pairs) {
       constexpr double kShare = 0.05;
       if (pair.contrary < 3 || static_cast<double>(pair.contrary) < kShare * static_cast<double>(pair.spans)) continue;
-      add(Weight::warning,
-          quoted(pair.a) + " and " + quoted(pair.b) + ": the two odometries contradict each other in " +
-              std::to_string(pair.contrary) + " of " + counted(pair.spans, "span") + " with motion, first " +
-              sinceStart(pair.first_contrary) + "; [odometry] label and [scan_odometry] odometry_label choose one");
+      add(Weight::warning, quoted(pair.a) + " and " + quoted(pair.b) +
+                               ": the two odometries contradict each other in " + std::to_string(pair.contrary) +
+                               " of " + counted(pair.spans, "time span") + " with motion, first " +
+                               sinceStart(pair.first_contrary) +
+                               "; choose one with [odometry] label and [scan_odometry] odometry_label");
     }
   }
 
-  // Whether something told which way is up in the frame of these poses.
+  // Whether the direction of up was measured in the frame of these poses.
   bool isMeasured(const std::string& poses) const {
     return std::any_of(facts_.levels.begin(), facts_.levels.end(), [&](const LevelFacts& level) {
       return level.of_poses && level.is_known && level.poses == poses;
@@ -248,34 +272,34 @@ class Judge {
   }
 
   void judgeLevels() {
-    constexpr double kLean = 3 * base::option_text::kRadiansPerDegree, kSigmas = 3;
+    constexpr double kTilt = 3 * base::option_text::kRadiansPerDegree, kSigmas = 3;
     constexpr double kMuch = 10 * base::option_text::kRadiansPerDegree;      // walls are no longer upright
-    constexpr double kMostLean = 45 * base::option_text::kRadiansPerDegree;  // of a robot on wheels
+    constexpr double kMostTilt = 45 * base::option_text::kRadiansPerDegree;  // of a robot on wheels
     for (const auto& level : facts_.levels) {
-      const double lean = level.lean();
-      if (!level.is_known || lean < std::max(kLean, kSigmas * level.sigma)) continue;
-      if (!level.of_poses && lean > kMostLean) continue;
-      // The turn that takes up to z: roll, then pitch.
+      const double tilt = level.tilt();
+      if (!level.is_known || tilt < std::max(kTilt, kSigmas * level.sigma)) continue;
+      if (!level.of_poses && tilt > kMostTilt) continue;
+      // The rotation that takes the measured up to z: first roll, then pitch.
       const double roll = std::atan2(level.up.y(), level.up.z());
       const double pitch = -std::atan2(level.up.x(), std::hypot(level.up.y(), level.up.z()));
-      const std::string by = "by " + level.by + " up is " + fixed(degrees(lean), 1) + " +- " +
+      const std::string by = "according to " + level.by + ", up is " + fixed(degrees(tilt), 1) + " +- " +
                              fixed(degrees(level.sigma), 1) + " deg from ";
       const std::string turn = "roll " + fixed(degrees(roll), 1) + " and pitch " + fixed(degrees(pitch), 1) + " deg";
       if (level.of_poses) {
-        add(lean > kMuch ? Weight::problem : Weight::warning,
-            quoted(level.poses) + ": the poses are not level: " + by + "the z axis of their frame; turn them by " +
-                turn + ", or map in space ([mapper] motion = spatial), where surfaces are judged by that direction");
+        add(tilt > kMuch ? Weight::problem : Weight::warning,
+            quoted(level.poses) + ": the poses are not level: " + by + "the z axis of their frame; rotate them by " +
+                turn + ", or map in space ([mapper] motion = spatial), where surfaces are judged by the measured up");
       } else {
         add(Weight::warning, "the base is not level: " + by +
-                                 "its z axis; if the sensor is mounted otherwise than its "
-                                 "pose says, tell it in [mapper] sensors, turned by " +
+                                 "its z axis; if the pose of the sensor on the base is wrong, set it in [mapper] "
+                                 "sensors, rotated by " +
                                  turn);
       }
     }
   }
 
   void judgePoses() {
-    // Frames whose y or x points up are 90 deg off; a camera in the hand often looks down by half of that.
+    // Frames whose y or x axis points up are tilted by 90 deg; a camera in the hand often looks down by half of that.
     constexpr double kTilted = 45 * base::option_text::kRadiansPerDegree;
     constexpr double kOnItsSide = 70 * base::option_text::kRadiansPerDegree;
     for (const auto& [label, poses] : facts_.poses) {
@@ -289,36 +313,38 @@ class Judge {
       add(Weight::problem,
           quoted(label) + ": the poses are not level: on average the base is tilted by " +
               fixed(degrees(poses.tilt), 0) +
-              " deg against the z axis of their frame, by which floors and walls are distinguished; turn "
-              "the poses so that z points up, or tell [mapper] sensors where the sensor is on the base");
+              " deg against the z axis of their frame, by which floors and walls are distinguished; rotate "
+              "the poses so that z points up, or set the pose of the sensor on the base in [mapper] sensors");
     }
   }
 
   void judgeSensorPose(const std::string& laser) {
     const auto& scans = facts_.scans.at(laser);
     if (const auto aperture = betterAperture(facts_, laser)) {
-      add(Weight::problem, quoted(laser) + ": its scans declare " + fixed(degrees(scans.aperture), 0) +
-                               " deg from the first beam to the last, but turn with the robot as scans of " +
-                               fixed(degrees(*aperture), 0) + " deg do, and fit one another better with it");
+      add(Weight::problem, quoted(laser) + ": its scans declare an aperture of " + fixed(degrees(scans.aperture), 0) +
+                               " deg, but they match and turn with the odometry better with " +
+                               fixed(degrees(*aperture), 0) +
+                               " deg; set aperture_deg of this laser in [mapper] sensors");
     }
     const auto better = betterSensorPose(facts_, laser);
     const std::string who = quoted(laser) + ": ";
-    const std::string missing = "its sensor pose is missing: at the origin of the base, nothing said";
+    const std::string missing = "its sensor pose is missing: in the log it is at the origin of the base";
     if (!better) {
-      if (scans.isAtOrigin()) add(Weight::warning, who + missing + "; if it is elsewhere, tell [mapper] sensors");
+      if (scans.isAtOrigin()) add(Weight::warning, who + missing + "; if it is elsewhere, set it in [mapper] sensors");
       return;
     }
     const auto change = *better - scans.base_from_sensor;
     const bool upside_down = change.getRotationMatrix()(2, 2) < 0;
     const bool backwards = !upside_down && std::abs(degrees(change.yaw())) > 150;
     const bool little = !upside_down && !backwards && std::abs(degrees(change.yaw())) < 10;
-    const std::string verdict = upside_down          ? "is mounted upside down, which its sensor pose does not say"
-                                : backwards          ? "looks backwards, which its sensor pose does not say"
+    const std::string verdict = upside_down          ? "is mounted upside down, which its sensor pose does not state"
+                                : backwards          ? "looks backwards, which its sensor pose does not state"
                                 : scans.isAtOrigin() ? missing
-                                                     : "is mounted otherwise than its sensor pose says";
-    add(little ? Weight::warning : Weight::problem,
-        who + verdict + ": by its motion x " + fixed(better->x(), 2) + " m, y " + fixed(better->y(), 2) + " m, yaw " +
-            fixed(degrees(better->yaw()), 0) + " deg, roll " + fixed(degrees(better->roll()), 0) + " deg");
+                                                     : "is mounted otherwise than its sensor pose states";
+    add(little ? Weight::warning : Weight::problem, who + verdict + "; according to its motion, set x " +
+                                                        fixed(better->x(), 2) + " m, y " + fixed(better->y(), 2) +
+                                                        " m, yaw " + fixed(degrees(better->yaw()), 0) + " deg, roll " +
+                                                        fixed(degrees(better->roll()), 0) + " deg in [mapper] sensors");
   }
 
   const LogFacts& facts_;

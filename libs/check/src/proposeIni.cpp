@@ -50,11 +50,12 @@ class Proposal {
     settings_.push_back({section, key, value, reason});
   }
 
-  // A list without those of `names`, if it has any, and others.
+  // Proposes the list without `names`, if it has some of these and others too.
   void proposeWithout(const std::vector<std::string>& names, std::vector<std::string> list, const std::string& section,
                       const std::string& key, const std::string& reason) {
     const auto end = std::remove_if(list.begin(), list.end(), [&](const auto& name) { return has(names, name); });
-    if (end == list.end() || (end == list.begin() && key != "extractors")) return;  // a map may do without extractors
+    if (end == list.end() || (end == list.begin() && key != "extractors"))
+      return;  // a map may be made without extractors
     list.erase(end, list.end());
     set(section, key, joined(list, ", "), reason);
   }
@@ -64,9 +65,8 @@ class Proposal {
     std::vector<std::string> useless;
     if (is_blind) useless.push_back(kLaserOdometry);
     if (!is_driven) useless.push_back("odometry");
-    const std::string no_laser = facts_.scans.empty() ? "there is no laser" : "no laser can be matched";
-    const std::string no_odometry =
-        facts_.odometry.empty() ? "there is no odometry" : "the odometry is worse than none";
+    const std::string no_laser = facts_.scans.empty() ? "there is no laser" : "no laser has scans that can be matched";
+    const std::string no_odometry = facts_.odometry.empty() ? "there is no odometry" : "the odometry cannot be used";
     proposeWithout(useless, plugins_.pose, "mapper", "pose_plugins", is_driven ? no_laser : no_odometry);
     const bool shows_signs = std::any_of(facts_.sensors.begin(), facts_.sensors.end(), [](const auto& sensor) {
       return sensor.first.second == CLASS_ID(mrpt::obs::CObservationImage)->className ||
@@ -82,19 +82,20 @@ class Proposal {
                      no_laser);
   }
 
-  // How long a step really took nobody knows: what depends on it are speeds alone.
+  // The true duration of a step is not known, but only speeds depend on it.
   void proposeStamps() {
-    if (clockStands(facts_)) set("source", "step_s", "0.1", "the stamps stand still: a step each tenth of a second");
+    if (clockStands(facts_))
+      set("source", "step_s", "0.1", "the stamps stand still; this makes new ones, one each tenth of a second");
   }
 
   void proposeEngine() {
     double lateness = 0;
     for (const auto& [sensor, stamps] : facts_.sensors) lateness = std::max(lateness, stamps.lateness);
     if (lateness > mapper::EngineOptions().window) {
-      set("mapper", "window_s", fixed(std::ceil(11 * lateness) / 10, 1), "observations come so late");
+      set("mapper", "window_s", fixed(std::ceil(11 * lateness) / 10, 1), "largest delay of an observation");
     }
     if (lasers_.size() > 1 && canBeNamed(lasers_.front())) {
-      set("mapper", "reference_sensor", lasers_.front(), "the laser that sees most");
+      set("mapper", "reference_sensor", lasers_.front(), "the laser with the largest valid field of view");
     }
   }
 
@@ -108,7 +109,7 @@ class Proposal {
       std::string section = sectionName(laser);
       while (has(sections, section)) section += "_";
       sections.push_back(section);
-      poses.push_back({section, "label", laser, better_pose ? "its place on the base by its motion" : ""});
+      poses.push_back({section, "label", laser, better_pose ? "pose on the base according to its motion" : ""});
       const auto add = [&](const std::string& key, double value, int decimals) {
         if (std::stod(fixed(value, decimals)) != 0) poses.push_back({section, key, fixed(value, decimals), ""});
       };
@@ -136,15 +137,15 @@ class Proposal {
 
   void proposeLasers() {
     const bool can_be_named = std::all_of(lasers_.begin(), lasers_.end(), [](const std::string& laser) {
-      return canBeNamed(laser) && laser.find(' ') == std::string::npos;  // the items of a list
+      return canBeNamed(laser) && laser.find(' ') == std::string::npos;  // a list is separated by blanks, too
     });
     if (can_be_named && !lasers_.empty() && lasers_.size() < facts_.scans.size()) {
       std::vector<std::string> labels;
       for (const auto& laser : lasers_) labels.push_back(perception::LaserPointsExtractor::labelOf(laser));
-      set("loop_closure", "labels", joined(labels, ", "), "the other lasers see nothing that can be matched");
+      set("loop_closure", "labels", joined(labels, ", "), "the other lasers have no scans that can be matched");
     }
     if (laser_odometry_ && !lasers_.empty() && facts_.scans.size() > 1 && canBeNamed(lasers_.front())) {
-      set(kLaserOdometry, "label", lasers_.front(), "it follows one laser: that which sees most");
+      set(kLaserOdometry, "label", lasers_.front(), "it uses one laser: the one with the largest valid field of view");
     }
     double limit = 0, median = 0;
     for (const auto& laser : lasers_) {
@@ -153,12 +154,13 @@ class Proposal {
       median = std::max(median, scans.median_range);
     }
     if (limit > 0) {
-      set("laser_points", "max_range_m", fixed(limit, 2), "beams at more met nothing");
-      if (laser_odometry_) set(kLaserOdometry, "max_range_m", fixed(limit, 2), "the same");
-      if (has(plugins_.extractors, kLaserLines)) set(kLaserLines, "max_range_m", fixed(limit, 2), "the same");
+      set("laser_points", "max_range_m", fixed(limit, 2), "at longer ranges the beams met nothing");
+      if (laser_odometry_) set(kLaserOdometry, "max_range_m", fixed(limit, 2), "as in [laser_points]");
+      if (has(plugins_.extractors, kLaserLines))
+        set(kLaserLines, "max_range_m", fixed(limit, 2), "as in [laser_points]");
     }
     if (median > 0 && median < 1.2) {
-      set("trigger", "distance_m", "0.3", "the sensor sees little at once");
+      set("trigger", "distance_m", "0.3", "the ranges are short, so key frames must be close together");
       set("trigger", "angle_deg", "15", "");
     }
   }
@@ -172,22 +174,23 @@ class Proposal {
       constexpr double kPeriod = 0.15;  // [s]
       const double speed = motions.empty() ? 0 : motions.front()->speed;
       if (speed * kPeriod > kStep) {
-        set("trigger", "period_without_odometry_s", fixed(kStep / speed, 2), "the robot drives that fast");
+        set("trigger", "period_without_odometry_s", fixed(kStep / speed, 2),
+            "the robot drives fast, so key frames must be frequent");
       }
       return;
     }
-    // Left alone the mapper chooses as it goes, also where one of them pauses: only who is much worse is shut out.
+    // By default the mapper chooses an odometry as it goes, also when one pauses. Only much worse ones are excluded.
     if (isOneOdometryBest(facts_) && canBeNamed(*label)) {
-      set("odometry", "label", *label, "of several the one nearest to the scans");
-      if (laser_odometry_) set(kLaserOdometry, "odometry_label", *label, "the same");
+      set("odometry", "label", *label, "of several odometries the one that agrees best with the scans");
+      if (laser_odometry_) set(kLaserOdometry, "odometry_label", *label, "as in [odometry]");
     }
-    // The noise of what only fills gaps of the laser's odometry changes next to nothing.
+    // The noise hardly matters if this odometry only fills gaps of the laser's odometry.
     if (motions.empty() || (plugins_.odometry_is_fallback && laser_odometry_ && !lasers_.empty())) return;
     const matching::WheelOdometryOptions defaults;
     const auto propose = [&](const std::string& key, const std::optional<double>& measured, double value, double unit) {
       constexpr double kALot = 2;
       if (measured && *measured > kALot * value) {
-        set("odometry", key, fixed(*measured / unit, unit < 1 ? 1 : 3), "noise against scan matching");
+        set("odometry", key, fixed(*measured / unit, unit < 1 ? 1 : 3), "noise measured against scan matching");
       }
     };
     const auto& motion = *motions.front();

@@ -18,7 +18,7 @@ AbsoluteTrajectoryError absoluteTrajectoryError(const Trajectory& estimate, cons
 
 namespace {
 
-// The turn that all poses share, the mean over them [rad].
+// Mean rotation between estimate and reference over all poses [rad].
 double commonTurn(const std::vector<PosePair>& pairs) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& pair : pairs) mean += geometry::logSo3(pair.reference.rotation * pair.estimate.rotation.conjugate());
@@ -33,22 +33,23 @@ std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment) {
   const auto& first = error.paired.pairs.front();
   if (alignment == Alignment::none && (first.reference.translation - first.estimate.translation).norm() > kFar)
     hints +=
-        "The first poses lie more than 1 m apart. If each trajectory has a frame of its own: --align yaw, or se3\n";
+        "The first poses of estimate and reference lie more than 1 m apart. If the trajectories are in different "
+        "frames, use --align yaw or --align se3.\n";
   const bool is_fitted = alignment == Alignment::yaw || alignment == Alignment::se3 || alignment == Alignment::sim3;
   constexpr double kNotable = geometry::kPi / 180;  // [rad]
   const double common = commonTurn(error.paired.pairs);
   if (is_fitted && error.rotation.rmse <= kTurned && common > kNotable &&
       2 * common * common > error.rotation.rmse * error.rotation.rmse)
     hints +=
-        "Most of the rotation error is the same at all poses: alignment turns the estimate by its positions alone, and "
-        "these tell the turn loosely where they lie close together. --align first takes it from the first pose\n";
+        "Most of the rotation error is the same at all poses: the alignment rotates the estimate by its positions "
+        "alone, which hardly determine the rotation if they lie close together. --align first takes the rotation from "
+        "the first pose.\n";
   if (error.rotation.rmse <= kTurned) return hints;
-  hints += "The poses are turned by a lot.";
+  hints += "The orientations of estimate and reference differ by more than 10 deg.";
   if (alignment == Alignment::none || alignment == Alignment::first || alignment == Alignment::yaw)
-    hints += " Frames that are not level alike, as of a camera in the hand, need --align se3.";
+    hints += " If one of the frames is not level, as that of a camera in the hand, use --align se3.";
   return hints +
-         " If the truth is that of a camera which looks along z, take OUT.truth.tum of omnimapper-import in its "
-         "place.\n";
+         " If the reference is of a camera that looks along z, use OUT.truth.tum of omnimapper-import instead.\n";
 }
 
 }  // namespace omnimapper::eval

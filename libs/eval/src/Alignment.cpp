@@ -9,7 +9,7 @@ namespace omnimapper::eval {
 
 namespace {
 
-// Positions of all pairs about their means, a column each.
+// Positions of all pairs relative to their means, one column each.
 struct CentredPositions {
   Eigen::Vector3d estimate_mean = Eigen::Vector3d::Zero(), reference_mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3Xd estimate, reference;
@@ -27,7 +27,7 @@ struct CentredPositions {
   }
 
  private:
-  // What is left of a body that stands still is rounding, and would be taken for a direction.
+  // Sets rounding errors to zero; those of a body that stands still would be taken for a direction of motion.
   static void centre(Eigen::Matrix3Xd& positions, const Eigen::Vector3d& mean) {
     const double rounding = 1e-13 * (1 + mean.norm());
     positions.colwise() -= mean;
@@ -35,7 +35,7 @@ struct CentredPositions {
   }
 };
 
-// The turn about z that brings the centred estimate nearest to the centred reference.
+// The rotation about z that brings the centred estimate nearest to the centred reference.
 Eigen::Quaterniond fitYaw(const CentredPositions& positions) {
   const Eigen::Matrix3d moments = positions.reference * positions.estimate.transpose();
   const double sine = moments(1, 0) - moments(0, 1);
@@ -45,10 +45,10 @@ Eigen::Quaterniond fitYaw(const CentredPositions& positions) {
 
 struct Turn {
   Eigen::Quaterniond rotation;
-  double gain;  // sum over pairs of reference . R estimate, centred
+  double gain;  // sum over all pairs of reference . R estimate, both centred
 };
 
-// Umeyama's rotation: the singular vectors of the moments, the least one flipped where they would mirror.
+// Umeyama's rotation, from the singular vectors of the moments; the smallest one is flipped if they would mirror.
 Turn fitRotation(const CentredPositions& positions) {
   const Eigen::Matrix3d moments = positions.reference * positions.estimate.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moments, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -63,7 +63,7 @@ Turn fitRotation(const CentredPositions& positions) {
   return {Eigen::Quaterniond(rotation).normalized(), singular[0] + singular[1] + sign * singular[2]};
 }
 
-// The similarity of that turn and scale which maps mean to mean.
+// The similarity with that rotation and scale that maps mean to mean.
 Similarity about(const CentredPositions& positions, const Eigen::Quaterniond& rotation, double scale) {
   return {scale, {rotation, positions.reference_mean - scale * (rotation * positions.estimate_mean)}};
 }
@@ -92,7 +92,7 @@ Alignment alignmentNamed(const std::string& name) {
 Similarity fitAlignment(const std::vector<PosePair>& pairs, Alignment alignment) {
   if (pairs.empty()) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      "no pose of the estimate has a partner in the reference: nothing to align");
+                      "no pose of the estimate is paired with one of the reference: there is nothing to align");
   }
   if (alignment == Alignment::none) return {};
   if (alignment == Alignment::first) return {1, pairs.front().reference * inverse(pairs.front().estimate)};
@@ -103,7 +103,7 @@ Similarity fitAlignment(const std::vector<PosePair>& pairs, Alignment alignment)
   const double estimate_spread = positions.estimate.squaredNorm();
   if (!(estimate_spread > 0) || !(turn.gain > 0)) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      "estimate or reference never moves: no scale can be fitted; align by se3");
+                      "estimate or reference never moves, so no scale can be fitted; use --align se3");
   }
   return about(positions, turn.rotation, turn.gain / estimate_spread);
 }

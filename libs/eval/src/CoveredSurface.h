@@ -12,14 +12,15 @@
 
 namespace omnimapper::eval {
 
-/// The grid on the plane of a surface that covers these points. Throws Error(unreadable_input) that names the surface.
+/// A grid on the plane of a surface that covers the points `corners`. Throws Error(unreadable_input) that names the
+/// surface.
 inline surfaces::CellGrid gridAround(const surfaces::Surface& surface, const std::vector<Eigen::Vector3d>& corners,
                                      double cell) {
   try {
     return surfaces::CellGrid::around(surface.plane, corners, cell);
   } catch (const std::invalid_argument& error) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      "surface '" + surface.name + "': " + error.what() + "; it reaches too far");
+                      "surface '" + surface.name + "': " + error.what() + ", because it reaches too far");
   }
 }
 
@@ -41,7 +42,7 @@ struct CoveredSurface {
     for (const auto& part : of.parts) cells.fill(part.outline, part.holes);
     for (const auto& corner : cornersOf(of)) box.extend(corner);
   }
-  /// With the cells of what was seen of it; of a surface that does not tell, with all.
+  /// The surface with the cells that were seen; with all cells if it has no `seen`.
   static CoveredSurface bySeen(const surfaces::Surface& of, double cell) {
     CoveredSurface covered(of, cell);
     if (!of.seen) return covered;
@@ -60,7 +61,7 @@ struct CoveredSurface {
   }
 };
 
-/// Whether a part of one may lie on the other, by their normals and where they reach.
+/// Whether a part of one may lie on the other, by their normals and bounding boxes.
 inline bool mayMeet(const CoveredSurface& a, const CoveredSurface& b, const MapQualityOptions& options) {
   if (a.surface->plane.normal.dot(b.surface->plane.normal) < std::cos(options.max_turn)) return false;
   return a.box.exteriorDistance(b.box) <= options.max_distance;

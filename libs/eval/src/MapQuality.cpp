@@ -15,7 +15,7 @@ using surfaces::Surface;
 using surfaces::SurfaceClass;
 using surfaces::SurfaceSet;
 
-/// What was seen of a true surface: all of it if nobody tells.
+/// Whether a point of a true surface was seen; a surface without `seen` counts as seen as a whole.
 bool isSeenAt(const CoveredSurface& truth, const Eigen::Vector3d& point) {
   if (!truth.surface->seen) return truth.contains(point);
   const auto cell = truth.surface->seen->cellAt(point);
@@ -51,7 +51,8 @@ class Judge {
   }
 
  private:
-  // Of each cell of a surface in the map, row by row: the true surface there, or none; none where it is not set.
+  // For each cell of a surface in the map, row by row: index of the true surface there; kNone if there is none or the
+  // cell is not set.
   using TrueCells = std::vector<int>;
   static constexpr int kNone = -1;
 
@@ -63,7 +64,8 @@ class Judge {
   bool isOn(const CoveredSurface& truth, const Eigen::Vector3d& point) const {
     return std::abs(signedDistance(truth.surface->plane, point)) <= options_.max_distance && truth.contains(point);
   }
-  // The nearest of several, so that a door leaf before a wall is the leaf; one that was seen before others.
+  // Of several true surfaces the nearest is taken, so that a door leaf in front of a wall is not the wall; surfaces
+  // that were seen are preferred.
   TrueCells trueCellsOf(const CoveredSurface& mapped) const {
     std::vector<std::size_t> near;
     for (std::size_t t = 0; t < truth_.size(); ++t)
@@ -114,7 +116,7 @@ class Judge {
     return is == SurfaceClass::poster ? SurfaceClass::wall : is;
   }
 
-  // Share of what was seen of a true surface that one of the map covers.
+  // Share of the seen part of true surface `t` that surface `i` of the map covers.
   double coverOf(std::size_t i, std::size_t t) const {
     std::size_t seen = 0, covered = 0;
     const auto count = [&](const Eigen::Vector3d& point, CellGrid::Cell) {
@@ -128,8 +130,8 @@ class Judge {
   static void forEachSeen(const CoveredSurface& truth, const Use& use) {
     forEachSetCell(truth.surface->seen ? *truth.surface->seen : truth.cells, use);
   }
-  // A wall that goes across a closed door covers the wall, not the door leaf: what it covers there stands for the
-  // nearest true surface, and must be of the same class.
+  // A wall drawn across a closed door covers the wall, not the door leaf: the part there represents the nearest true
+  // surface, which must be of the same class.
   bool coversAt(std::size_t i, std::size_t t, const Eigen::Vector3d& point_on_true) const {
     if (!mayMeet(map_[i], truth_[t]) ||
         std::abs(signedDistance(map_[i].surface->plane, point_on_true)) > options_.max_distance)
@@ -140,9 +142,9 @@ class Judge {
     return stands_for != kNone && classAt(static_cast<std::size_t>(stands_for)) == classAt(t);
   }
 
-  // `on`: how many cells lie on which true surface.
+  // `on`: number of cells on each true surface.
   double overlapOf(std::size_t i, const std::map<std::size_t, std::size_t>& on) const {
-    constexpr double kMuch = 0.2;  // of the map's surface
+    constexpr double kMuch = 0.2;  // share of the map's surface
     std::vector<std::size_t> stands_for;
     std::vector<Eigen::Vector3d> corners = cornersOf(*map_[i].surface);
     for (const auto& [t, cells] : on) {
@@ -161,7 +163,7 @@ class Judge {
         for (const std::size_t t : stands_for) is_seen = is_seen || isSeenAt(truth_[t], point);
         const bool is_mapped = map_[i].contains(point);
         if (is_mapped && !is_seen) is_poster = isPosterAt(i, point);
-        if (is_poster) continue;  // hides its wall
+        if (is_poster) continue;  // a poster hides its wall
         both += is_mapped && is_seen;
         either += is_mapped || is_seen;
       }
@@ -207,7 +209,7 @@ class Judge {
     quality.sought.push_back(std::move(sought));
   }
 
-  // Where they lie on each other they stand for the same true surface, or for none.
+  // Two surfaces are a double only where both represent the same true surface, or none.
   void addDoubles(MapQuality& quality) const {
     for (std::size_t k = 0; k < quality.drawn.size(); ++k) {
       for (std::size_t l = k + 1; l < quality.drawn.size(); ++l) {
@@ -234,7 +236,7 @@ class Judge {
 
   MapQualityOptions options_;
   std::vector<CoveredSurface> truth_, map_;
-  std::vector<TrueCells> on_true_;  // of each surface of the map
+  std::vector<TrueCells> on_true_;  // for each surface of the map
 };
 
 }  // namespace
@@ -288,7 +290,7 @@ double MapQuality::medianOverlap() const {
 }
 
 std::vector<surfaces::Example> examplesOf(const MapQuality& quality, const SurfaceSet& map) {
-  constexpr double kMuch = 0.6;  // of a surface, on true ones: what lies on others by half is an example of nothing
+  constexpr double kMuch = 0.6;  // smallest share of a surface on true ones that makes it an example of its class
   const auto facts = surfaces::factsOf(map.surfaces, 0);
   std::vector<surfaces::Example> examples;
   for (const auto* list : {&quality.drawn, &quality.candidates}) {

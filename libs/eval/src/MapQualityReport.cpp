@@ -25,12 +25,12 @@ std::string labelTable(const MapQuality& quality) {
     std::string others;
     for (const auto& [is, count] : by_truth)
       if (is != said) others += (others.empty() ? "" : ", ") + std::to_string(count) + " " + toString(is);
-    if (!others.empty()) text += "      truly: " + others + "\n";
+    if (!others.empty()) text += "      true class: " + others + "\n";
   }
   return text;
 }
 
-/// What is to be seen of a drawn surface at first sight.
+/// Error of a drawn surface that the plan shows in colour; of several errors the worst.
 enum class Fault { none, wrong_class, doubled, spurious };
 
 Fault faultOf(const JudgedSurface& judged, const MapQuality& quality, const SurfaceSet& map) {
@@ -62,12 +62,12 @@ void drawPlan(std::ostream& out, const std::string& title, const MapQuality& qua
   plan.addLegend(colourOf(Fault::none), "right", 90);
   plan.addLegend(colourOf(Fault::wrong_class), "wrong class", 130);
   plan.addLegend(colourOf(Fault::doubled), "doubled", 110);
-  plan.addLegend(colourOf(Fault::spurious), "on nothing true", 150);
-  plan.addLegend("#000000", "true, seen and not in the map", 230);
-  plan.addLegend("#d4d4d4", "true", 60);
+  plan.addLegend(colourOf(Fault::spurious), "on no true surface", 150);
+  plan.addLegend("#000000", "seen but not in the map", 230);
+  plan.addLegend("#d4d4d4", "true surface", 60);
   for (const auto& surface : truth.surfaces)
     if (surface.is != SurfaceClass::floor && surface.is != SurfaceClass::ceiling) plan.draw(surface, "#d4d4d4", 5);
-  // What is wrong lies above what is right.
+  // Wrong surfaces are drawn over right ones.
   for (const Fault fault : {Fault::none, Fault::wrong_class, Fault::doubled, Fault::spurious}) {
     for (const auto& judged : quality.drawn) {
       if (faultOf(judged, quality, map) == fault) plan.draw(map.surfaces[judged.index], colourOf(fault), 2.5);
@@ -83,14 +83,15 @@ std::string table(const MapQuality& quality) {
   std::string text = "surfaces of the map: " + std::to_string(quality.drawn.size()) + " drawn, " +
                      std::to_string(quality.candidates.size()) + " candidates (" +
                      std::to_string(quality.trueCandidates()) + " on true surfaces)\n";
-  text += countLine("true surfaces that were seen, in the map once", quality.foundOnce(), quality.sought.size());
+  text += countLine("true surfaces that were seen, once in the map", quality.foundOnce(), quality.sought.size());
   text += countLine("  in the map at all", quality.found(), quality.sought.size());
-  text += countLine("pairs that are doubled, to drawn surfaces", quality.doubles.size(), quality.drawn.size());
-  text += countLine("drawn on nothing true", quality.spurious(), quality.drawn.size());
+  text += countLine("doubled pairs, relative to drawn surfaces", quality.doubles.size(), quality.drawn.size());
+  text += countLine("drawn surfaces on no true surface", quality.spurious(), quality.drawn.size());
   text += line("outline, intersection over union (median)", base::fixed(quality.medianOverlap(), 3), "");
-  text += countLine("class right", quality.rightLabels(), quality.drawn.size() - quality.spurious());
+  text += countLine("drawn surfaces with the right class", quality.rightLabels(),
+                    quality.drawn.size() - quality.spurious());
   text += labelTable(quality);
-  text += "area that was seen and is in the map\n";
+  text += "seen area that is in the map\n";
   for (const auto& [is, area] : quality.area)
     text += line(toString(is), percent(area.covered, area.seen), "of " + base::fixed(area.seen, 1) + " m^2");
   return text;

@@ -8,7 +8,8 @@
 
 namespace omnimapper::eval {
 
-/// The choice of that name. Throws Error(command_line) that lists the names.
+/// The choice with that name. `what` names the kind of choice in the error. Throws Error(command_line) that lists the
+/// names.
 template <class Choice>
 Choice namedChoice(const std::string& name, const char* what,
                    const std::vector<std::pair<const char*, Choice>>& choices) {

@@ -18,9 +18,9 @@ PairedTrajectories pairTrajectories(const Trajectory& estimate, const Trajectory
                      : associate(estimate, reference, options.tolerance);
   if (result.pairs.empty()) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      "no pose of the estimate has a partner in the reference: the estimate " + spanOf(estimate) +
-                          ", the reference " + spanOf(reference) +
-                          "; are they of the same log, or the tolerance too small?");
+                      "no pose of the estimate can be paired with one of the reference: the estimate " +
+                          spanOf(estimate) + ", the reference " + spanOf(reference) +
+                          "; are they of the same log, or is the tolerance too small?");
   }
   result.unpaired = estimate.size() - result.pairs.size();
   result.reference_from_estimate = fitAlignment(result.pairs, options.alignment);

@@ -8,13 +8,13 @@ namespace omnimapper::eval {
 
 namespace {
 
-// Which poses of the reference are still free; finds the next free one on either side of a place.
+// Keeps which poses of the reference are not paired yet, and finds the next free one on either side of a place.
 class FreePoses {
  public:
   explicit FreePoses(std::size_t count) : next_(count + 2), previous_(count + 2) {
     for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = previous_[i] = i;
   }
-  // Places are 1 .. count; 0 and count + 1 are the ends and never taken.
+  // Places are 1 .. count; 0 and count + 1 are the ends, which are never taken.
   std::size_t atOrAfter(std::size_t place) { return follow(next_, place); }
   std::size_t atOrBefore(std::size_t place) { return follow(previous_, place); }
   bool isFree(std::size_t place) const { return next_[place] == place; }
@@ -49,7 +49,7 @@ std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& re
     const base::Stamp stamp = estimate[i].stamp;
     const auto after = std::lower_bound(reference.begin(), reference.end(), stamp,
                                         [](const StampedPose& pose, base::Stamp t) { return pose.stamp < t; });
-    const std::size_t place = static_cast<std::size_t>(after - reference.begin());  // of the last one before
+    const std::size_t place = static_cast<std::size_t>(after - reference.begin());  // of the last pose before
     const std::size_t left = free_poses.atOrBefore(place), right = free_poses.atOrAfter(place + 1);
     const bool has_left = left > 0, has_right = right <= reference.size();
     const base::Duration to_left = has_left ? stamp - reference[left - 1].stamp : base::Duration::max();
@@ -59,12 +59,12 @@ std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& re
   };
 
   for (std::size_t i = 0; i < estimate.size(); ++i) offerNearestFree(i);
-  std::vector<std::size_t> partner(estimate.size(), 0);
+  std::vector<std::size_t> place_of(estimate.size(), 0);
   while (!candidates.empty()) {
     const Candidate best = candidates.top();
     candidates.pop();
     if (free_poses.isFree(best.reference)) {
-      partner[best.estimate] = best.reference;
+      place_of[best.estimate] = best.reference;
       free_poses.take(best.reference);
     } else {
       offerNearestFree(best.estimate);
@@ -73,8 +73,8 @@ std::vector<PosePair> associate(const Trajectory& estimate, const Trajectory& re
 
   std::vector<PosePair> pairs;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    if (partner[i] == 0) continue;
-    pairs.push_back({estimate[i].stamp, estimate[i].world_from_body, reference[partner[i] - 1].world_from_body});
+    if (place_of[i] == 0) continue;
+    pairs.push_back({estimate[i].stamp, estimate[i].world_from_body, reference[place_of[i] - 1].world_from_body});
   }
   return pairs;
 }

@@ -27,7 +27,9 @@ std::vector<Relation> readRelations(const std::string& path) {
     relations.push_back({line.stamp(0), line.stamp(1), {rotation, {line.number(2), line.number(3), line.number(4)}}});
     return true;
   });
-  if (relations.empty()) throw base::Error(base::ExitCode::unreadable_input, path + ": holds no relation");
+  if (relations.empty())
+    throw base::Error(base::ExitCode::unreadable_input,
+                      path + ": holds no relation; expected lines t1 t2 x y z roll pitch yaw");
   return relations;
 }
 
@@ -56,7 +58,7 @@ RelationError relationError(const Trajectory& estimate, const std::vector<Relati
   if (result.stamps.empty()) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "the estimate has no pose at the stamps of any of the " + std::to_string(relations.size()) +
-                          " relations; are they of the same log, or the tolerance too small?");
+                          " relations; are they of the same log, or is the tolerance too small?");
   }
   result.share_within = static_cast<double>(within) / static_cast<double>(result.stamps.size());
   result.translation = statisticsOf(result.translation_errors);

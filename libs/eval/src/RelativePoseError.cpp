@@ -13,7 +13,7 @@ namespace {
 using base::Error;
 using base::ExitCode;
 
-// Where each pair stands on the axis along which the delta is measured: number, seconds or metres, rising.
+// Position of each pair along the axis in which the delta is given: number, seconds or metres, rising.
 std::vector<double> placesOnAxis(const std::vector<PosePair>& pairs, DeltaUnit unit) {
   std::vector<double> places(pairs.size(), 0.0);
   for (std::size_t i = 1; i < pairs.size(); ++i) {
@@ -32,8 +32,8 @@ std::vector<double> placesOnAxis(const std::vector<PosePair>& pairs, DeltaUnit u
   return places;
 }
 
-// Index after `from` whose place is nearest to one delta later; `from` itself if that misses it by more than a tenth,
-// or at all if frames are counted.
+// Index after `from` whose place is nearest to one delta later. `from` itself if that differs from the delta by more
+// than a tenth, or by anything if frames are counted.
 std::size_t oneDeltaLater(const std::vector<double>& places, std::size_t from, const Delta& delta) {
   const double wanted = places[from] + delta.value;
   const double tolerance = delta.unit == DeltaUnit::frames ? 0 : 0.1 * delta.value;
@@ -46,8 +46,8 @@ std::size_t oneDeltaLater(const std::vector<double>& places, std::size_t from, c
 void refuseBadDelta(const Delta& delta) {
   const bool is_whole = std::floor(delta.value) == delta.value;
   if (delta.value > 0 && std::isfinite(delta.value) && (delta.unit != DeltaUnit::frames || is_whole)) return;
-  throw Error(ExitCode::out_of_range,
-              "delta = " + std::to_string(delta.value) + " is out of range: must be > 0, and a whole number of frames");
+  throw Error(ExitCode::out_of_range, "delta = " + std::to_string(delta.value) +
+                                          " is out of range: it must be > 0, and a whole number if it counts frames");
 }
 
 }  // namespace

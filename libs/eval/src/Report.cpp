@@ -43,7 +43,7 @@ void saveNumbersAndCurves(const std::string& folder, const std::string& title, c
 
 std::string table(const AbsoluteTrajectoryError& error) {
   std::string title = "absolute trajectory error: " + std::to_string(error.translation.count) + " pairs, " +
-                      std::to_string(error.paired.unpaired) + " poses without partner";
+                      std::to_string(error.paired.unpaired) + " unpaired poses";
   if (error.paired.reference_from_estimate.scale != 1) {
     title += ", scale " + std::to_string(error.paired.reference_from_estimate.scale);
   }
@@ -52,7 +52,7 @@ std::string table(const AbsoluteTrajectoryError& error) {
 
 std::string table(const RelativePoseError& error) {
   return head("relative pose error: " + std::to_string(error.translation.count) + " spans, " +
-              std::to_string(error.unpaired) + " poses without partner") +
+              std::to_string(error.unpaired) + " unpaired poses") +
          row("translation", error.translation, 1, "m") + row("rotation", error.rotation, kDegrees, "deg");
 }
 

@@ -8,7 +8,7 @@
 
 namespace omnimapper::eval {
 
-/// "12.3 %", or "-" of nothing.
+/// The share as "12.3 %", or "-" if the whole is 0.
 inline std::string percent(double part, double whole) {
   return whole > 0 ? base::fixed(100 * part / whole, 1) + " %" : "-";
 }

@@ -10,7 +10,7 @@ namespace {
 
 using surfaces::CellGrid;
 
-/// A surface as it grows by planes that lie on it.
+/// A surface that grows by adding planes of views that lie on it.
 class GrowingSurface {
  public:
   GrowingSurface(const ViewPlane& first, const MapQualityOptions& options)

@@ -8,7 +8,7 @@
 
 namespace omnimapper::eval {
 
-/// A plane of a view, with the cells that count.
+/// A plane of a view, with the cells that count for the comparison.
 struct ViewPlane {
   std::size_t view = 0, plane = 0;
   CoveredSurface covered;
@@ -17,12 +17,12 @@ struct ViewPlane {
 /// Share of the cells of `smaller` that lie on the cells of `larger`.
 double sharedShare(const CoveredSurface& smaller, const CoveredSurface& larger, const MapQualityOptions& options);
 
-/// Whether they lie on each other: a fifth of the smaller one is shared.
+/// Whether the surfaces lie on each other: they share overlap_share of the smaller one.
 bool areSame(const CoveredSurface& a, const CoveredSurface& b, const MapQualityOptions& options);
 
-/// Planes that lie on each other, united from the largest on. All of what is united lies on the plane of the largest,
-/// so that a chain of planes does not climb from a table to the books on it. Each plane is part of one; the largest
-/// first.
+/// Unites planes that lie on each other, beginning with the largest. Every part of a united surface lies on the plane
+/// of its largest, so that a chain of planes does not climb from a table to the books on it. Each plane is part of
+/// exactly one surface; the largest surface comes first.
 std::vector<SeenSurface> unitePlanes(const std::vector<ViewPlane>& planes, const MapQualityOptions& options);
 
 }  // namespace omnimapper::eval

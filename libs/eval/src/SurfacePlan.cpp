@@ -18,13 +18,13 @@ bool isUpright(const surfaces::Surface& surface) {
 }
 
 std::vector<std::vector<Vector2d>> fromAbove(const surfaces::Surface& surface) {
-  std::vector<std::vector<Vector2d>> walks;
+  std::vector<std::vector<Vector2d>> polylines;
   for (const auto& part : surface.parts) {
     if (part.outline.empty()) continue;
     if (!isUpright(surface)) {
-      auto& walk = walks.emplace_back();
-      for (const auto& corner : part.outline) walk.push_back(corner.head<2>());
-      walk.push_back(part.outline.front().head<2>());
+      auto& polyline = polylines.emplace_back();
+      for (const auto& corner : part.outline) polyline.push_back(corner.head<2>());
+      polyline.push_back(part.outline.front().head<2>());
       continue;
     }
     const Vector2d along(-surface.plane.normal.y(), surface.plane.normal.x());
@@ -32,9 +32,9 @@ std::vector<std::vector<Vector2d>> fromAbove(const surfaces::Surface& surface) {
         std::minmax_element(part.outline.begin(), part.outline.end(), [&](const auto& a, const auto& b) {
           return along.dot(a.template head<2>()) < along.dot(b.template head<2>());
         });
-    walks.push_back({low->head<2>(), high->head<2>()});
+    polylines.push_back({low->head<2>(), high->head<2>()});
   }
-  return walks;
+  return polylines;
 }
 
 draw::Axes axesAround(const std::vector<const surfaces::SurfaceSet*>& sets) {
@@ -69,15 +69,15 @@ void SurfacePlan::addLegend(const std::string& colour, const std::string& text, 
 }
 
 void SurfacePlan::draw(const surfaces::Surface& surface, const std::string& colour, double pen) {
-  for (const auto& walk : fromAbove(surface)) {
+  for (const auto& polyline : fromAbove(surface)) {
     std::vector<Vector2d> pixels;
-    for (const auto& point : walk) pixels.push_back(axes_.pixel(point));
+    for (const auto& point : polyline) pixels.push_back(axes_.pixel(point));
     svg_.polyline(pixels, colour, isUpright(surface) ? pen : pen / 2);
   }
 }
 
 void SurfacePlan::draw(const surfaces::CellGrid& cells, const std::string& colour) {
-  std::set<std::tuple<long, long, long, long>> drawn;  // of an upright surface many rows give the same line
+  std::set<std::tuple<long, long, long, long>> drawn;  // many rows of an upright surface give the same line
   for (int row = 0; row < cells.rows(); ++row) {
     for (int begin = 0; begin < cells.columns(); ++begin) {
       if (!cells.isSet({begin, row})) continue;

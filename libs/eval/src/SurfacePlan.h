@@ -8,16 +8,16 @@
 
 namespace omnimapper::eval {
 
-/// A drawing of surfaces as seen from above: of an upright one the line that it stands on, of another its outlines.
+/// A drawing of surfaces as seen from above: upright ones as the line that they stand on, others by their outlines.
 class SurfacePlan {
  public:
-  /// It is large enough for all surfaces of the sets.
+  /// The drawing is large enough for all surfaces of the sets.
   SurfacePlan(std::ostream& out, const std::string& title, const std::vector<const surfaces::SurfaceSet*>& sets);
 
-  /// Says what a colour means, to the right of what was said before; `width` [px] is what the text takes.
+  /// Adds the meaning of a colour to the legend, to the right of the entries before; `width` [px]: width of the entry.
   void addLegend(const std::string& colour, const std::string& text, double width);
   void draw(const surfaces::Surface& surface, const std::string& colour, double pen);
-  /// The cells that are set.
+  /// Draws the cells that are set.
   void draw(const surfaces::CellGrid& cells, const std::string& colour);
 
  private:

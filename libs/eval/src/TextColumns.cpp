@@ -21,8 +21,8 @@ bool parseWhole(const std::string& text, Number& value) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-// "1.3050e+03" as "1305.0": the decimals as they stand, so that nothing is lost in a double. Text without an exponent
-// is returned unchanged, and so is what is no number.
+// Writes "1.3050e+03" as "1305.0", digit by digit, so that no digit is lost in a double. Text without an exponent, and
+// text that is no number, is returned unchanged.
 std::string withoutExponent(const std::string& text) {
   const auto e = text.find_first_of("eE");
   int exponent = 0;

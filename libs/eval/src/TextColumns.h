@@ -8,16 +8,17 @@
 
 namespace omnimapper::eval {
 
-/// One line of a text file of numbers: the columns that blanks or tabs part, and where they stand.
+/// One line of a text file of numbers: the columns, separated by blanks or tabs, and the place of the line.
 struct TextColumns {
   std::string at;  ///< "file:line: ", for messages
   std::vector<std::string> texts;
 
-  /// Throws Error(unreadable_input) unless there are so many columns; `names` are those of a line that is right.
+  /// Throws Error(unreadable_input) unless there are `count` columns; `names`: names of the expected columns.
   void expect(std::size_t count, const std::string& names) const;
-  /// Throws Error(unreadable_input) if the column is no finite number.
+  /// The number in a column. Throws Error(unreadable_input) if it is no finite number.
   double number(std::size_t column) const;
-  /// Exact to the tick, from plain or scientific decimals. Throws Error(unreadable_input) if it is no time.
+  /// The stamp in a column, exact to the tick, from plain or scientific decimals. Throws Error(unreadable_input) if it
+  /// is no time.
   base::Stamp stamp(std::size_t column) const;
 };
 

@@ -58,13 +58,13 @@ std::optional<geometry::Se3> interpolatedPose(const Trajectory& trajectory, base
 }
 
 std::vector<double> distanceTravelled(const Trajectory& trajectory) {
-  std::vector<double> way(trajectory.size(), 0.0);
+  std::vector<double> travel(trajectory.size(), 0.0);
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const Eigen::Vector3d step =
         trajectory[i].world_from_body.translation - trajectory[i - 1].world_from_body.translation;
-    way[i] = way[i - 1] + step.norm();
+    travel[i] = travel[i - 1] + step.norm();
   }
-  return way;
+  return travel;
 }
 
 }  // namespace omnimapper::eval

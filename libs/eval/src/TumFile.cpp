@@ -25,7 +25,7 @@ StampedPose tumPose(const TextColumns& line) {
     throw Error(
         ExitCode::unreadable_input,
         line.at +
-            "columns 5 to 8 are no unit quaternion qx qy qz qw; a file of relations is for omnimapper-eval relations");
+            "columns 5 to 8 are no unit quaternion qx qy qz qw; for a file of relations use omnimapper-eval relations");
   }
   return {line.stamp(0), {q.normalized(), {line.number(1), line.number(2), line.number(3)}}};
 }
@@ -43,8 +43,8 @@ Trajectory readPoses(const std::string& path, StampedPose (*poseOf)(const TextCo
     const auto [place, is_new] = places.emplace(poses.back().stamp, line.at);
     if (!is_new) {
       throw Error(ExitCode::unreadable_input,
-                  line.at + "the stamp " + line.texts[0] + " stands already at " + place->second +
-                      "remove one; if this is the map of two logs of the same time, judge each by a map of its own");
+                  line.at + "the stamp " + line.texts[0] + " is used already at " + place->second +
+                      "remove one; if this is the map of two logs of the same time, map and judge each log alone");
     }
     return true;
   });

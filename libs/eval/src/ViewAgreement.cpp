@@ -14,7 +14,7 @@ namespace {
 
 using surfaces::CellGrid;
 
-// [m^2] of the cells that are set and covered.
+// Area of the cells that are set and covered [m^2].
 double areaWhere(const CellGrid& cells, const std::function<bool(const Eigen::Vector3d&)>& is_covered) {
   std::size_t count = 0;
   forEachSetCell(cells, [&](const Eigen::Vector3d& middle, CellGrid::Cell) { count += is_covered(middle); });
@@ -68,7 +68,7 @@ class ViewJudge {
   bool isOn(const CoveredSurface& drawn, const Eigen::Vector3d& point) const {
     return std::abs(signedDistance(drawn.surface->plane, point)) <= options_.same.max_distance && drawn.contains(point);
   }
-  // Of the drawn surfaces, those that may have a part of a surface.
+  // Indices of the drawn surfaces that may cover a part of a surface with this plane and box.
   std::vector<std::size_t> near(const geometry::Plane3& plane, const Eigen::AlignedBox3d& box) const {
     std::vector<std::size_t> near;
     for (std::size_t d = 0; d < drawn_.size(); ++d) {
@@ -80,7 +80,7 @@ class ViewJudge {
   }
 
   void addSplit(ViewAgreement& agreement) const {
-    // For two drawn surfaces the planes of views that lie on both.
+    // For each pair of drawn surfaces, the planes of views that lie on both.
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> on_both;
     for (std::size_t p = 0; p < planes_.size(); ++p) {
       std::vector<std::size_t> on;
@@ -102,7 +102,7 @@ class ViewJudge {
     }
   }
   std::string nameOf(std::size_t p) const { return views_[planes_[p].view].name; }
-  // Two planes of different views that are the same surface.
+  // Two planes of different views that show the same surface; none if there are none.
   std::optional<std::pair<std::size_t, std::size_t>> twoThatAgree(const std::vector<std::size_t>& planes) const {
     for (std::size_t i = 0; i < planes.size(); ++i) {
       for (std::size_t j = i + 1; j < planes.size(); ++j) {
@@ -185,7 +185,7 @@ class ViewJudge {
   ViewAgreementOptions options_;
   const std::vector<View>& views_;
   std::vector<CoveredSurface> drawn_;
-  std::vector<std::size_t> index_;  // of each drawn one in the map's set
+  std::vector<std::size_t> index_;  // of each drawn surface in the map's set
   std::vector<ViewPlane> planes_;
 };
 

@@ -49,7 +49,7 @@ std::size_t middleOf(const std::vector<std::size_t>& sorted) {
 void drawViewPlan(std::ostream& out, const std::string& title, const ViewAgreement& agreement, const SurfaceSet& map) {
   constexpr char kRight[] = "#15803d", kDoubled[] = "#2563eb", kSplit[] = "#dc2626", kMissing[] = "#525252";
   constexpr char kSplitOfOne[] = "#d97706";
-  // What was seen twice shows how large the place is, where the map is empty, too.
+  // The area that was seen twice determines the size of the drawing, so that an empty map has one, too.
   SurfaceSet seen;
   for (const auto& one : agreement.seen) {
     auto& outline = seen.surfaces.emplace_back().parts.emplace_back().outline;
@@ -60,7 +60,7 @@ void drawViewPlan(std::ostream& out, const std::string& title, const ViewAgreeme
   }
   SurfacePlan plan(out, title, {&map, &seen});
   plan.addLegend(kRight, "agrees", 90);
-  plan.addLegend(kMissing, "seen in two views and not in the map", 270);
+  plan.addLegend(kMissing, "seen in two views but not in the map", 270);
   plan.addLegend(kDoubled, "doubled", 100);
   plan.addLegend(kSplitOfOne, "one in a single view, two in the map", 260);
   plan.addLegend(kSplit, "one in two views, two in the map", 250);
@@ -68,7 +68,7 @@ void drawViewPlan(std::ostream& out, const std::string& title, const ViewAgreeme
   const auto draw = [&](std::size_t i, const char* colour) { plan.draw(map.surfaces[i], colour, 2.5); };
   for (std::size_t i = 0; i < map.surfaces.size(); ++i)
     if (!map.surfaces[i].is_candidate) draw(i, kRight);
-  // What is wrong lies above what is right.
+  // Wrong surfaces are drawn over right ones.
   for (const auto& [a, b] : agreement.doubles) draw(a, kDoubled), draw(b, kDoubled);
   for (const auto& split : agreement.split_of_one)
     draw(split.surfaces.first, kSplitOfOne), draw(split.surfaces.second, kSplitOfOne);
@@ -81,24 +81,24 @@ std::string table(const ViewAgreement& agreement) {
   std::string text = base::counted(agreement.views, "view") + ", " + base::counted(agreement.planes, "plane") +
                      " in them; " + std::to_string(agreement.drawn) + " surfaces drawn in the map\n";
   const auto count = [](std::size_t number) { return std::to_string(number); };
-  text += line("pairs, one in two views and two in the map", count(agreement.split.size()), "");
+  text += line("split pairs: one in two views", count(agreement.split.size()), "");
   text += line("  one in a single view only", count(agreement.split_of_one.size()), "");
-  text += countLine("pairs that are doubled, to drawn surfaces", agreement.doubles.size(), agreement.drawn);
-  text += areaLine("area of planes in views that the map has", agreement.area);
-  text += areaLine("  of what two views show", agreement.area_twice);
+  text += countLine("doubled pairs, relative to drawn surfaces", agreement.doubles.size(), agreement.drawn);
+  text += areaLine("area of planes in views that the map covers", agreement.area);
+  text += areaLine("  of the area that two views show", agreement.area_twice);
   constexpr std::size_t kMostLevels = 3;
   for (std::size_t i = 0; i < std::min(kMostLevels, agreement.levels.size()); ++i) {
     const LevelPieces& level = agreement.levels[i];
     text += line(i == 0 ? "largest level surface, pieces in the map" : "next level surface, pieces in the map",
                  count(level.of_map.size()),
                  "of " + base::fixed(level.area, 1) + " m^2 at z = " + base::fixed(level.height, 2) + " m");
-    text += line("  planes of a view on it, median", count(middleOf(level.in_views)),
+    text += line("  planes on it in a view, median", count(middleOf(level.in_views)),
                  "most " + count(level.in_views.empty() ? 0 : level.in_views.front()) + ", in " +
                      base::counted(level.in_views.size(), "view"));
   }
-  text += line("points of views from the map, median", metres(agreement.distance.median),
+  text += line("distance of points from the map, median", metres(agreement.distance.median),
                "95 % " + metres(agreement.distance_95));
-  text += countLine("  of the points on planes", agreement.distance.count, agreement.points);
+  text += countLine("  share of the points on planes", agreement.distance.count, agreement.points);
   return text;
 }
 

@@ -20,12 +20,12 @@ using geometry::Se3;
 using mrpt::obs::CObservation3DRangeScan;
 
 std::vector<Eigen::Vector3d> inWorld(const Se3& world_from_optical, const perception::Contour& contour) {
-  std::vector<Eigen::Vector3d> walk;
-  for (const auto& point : contour.polygon_in_sensor.vertices) walk.push_back(world_from_optical * point);
-  return walk;
+  std::vector<Eigen::Vector3d> polygon;
+  for (const auto& point : contour.polygon_in_sensor.vertices) polygon.push_back(world_from_optical * point);
+  return polygon;
 }
 
-/// One image, and where it was taken from.
+/// One image with the pose that it was taken from.
 class PosedImage {
  public:
   PosedImage(const perception::DepthImage& image, const Se3& world_from_optical, const ViewOptions& options)
@@ -48,7 +48,7 @@ class PosedImage {
   }
 
  private:
-  // Only where the pixel has a depth, as those on planes have.
+  // Point of a pixel in the optical frame [m]. The pixel must have a depth, as pixels on planes have.
   Eigen::Vector3d pointAt(int x, int y) const {
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width()) + static_cast<std::size_t>(x);
@@ -84,11 +84,11 @@ class PosedImage {
   const ViewOptions& options_;
 };
 
-/// Views as they come; where they are too many, every second of them goes.
+/// Collects views; when there are too many, every second one is dropped.
 class ThinnedViews {
  public:
   explicit ThinnedViews(std::size_t most) : most_(std::max<std::size_t>(1, most)) {}
-  /// Whether the next image is to be looked at.
+  /// Whether the next image is used.
   bool wantsNext() { return count_++ % step_ == 0; }
   void add(View view) {
     views_.push_back(std::move(view));
@@ -124,17 +124,18 @@ void refuseNone(const LogViews& views, const std::string& log, const Trajectory&
                 base::Stamp last) {
   if (views.images == 0) {
     throw base::Error(base::ExitCode::unreadable_input,
-                      log + ": holds no depth image; views of a map are images of a depth camera" +
+                      log + ": holds no depth image; the log must be of a depth camera" +
                           (views.message.empty() ? "" : "\n" + views.message));
   }
   if (views.posed > 0) return;
   if (trajectory.empty())
-    throw base::Error(base::ExitCode::unreadable_input, log + ": there is no pose for any of its depth images");
+    throw base::Error(base::ExitCode::unreadable_input,
+                      log + ": no depth image has a pose, because the trajectory is empty");
   throw base::Error(base::ExitCode::unreadable_input,
                     log + ": no depth image has a pose: the images are of " + base::formatUnix(first) + " to " +
                         base::formatUnix(last) + ", the poses of " + base::formatUnix(trajectory.front().stamp) +
                         " to " + base::formatUnix(trajectory.back().stamp) +
-                        "; are they of the same log, or the tolerance too small?");
+                        "; are they of the same log, or is the tolerance too small?");
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void CDerivedObservation::readHead(mrpt::serialization::CArchive& in) {
 
 void CDerivedObservation::getDescriptionAsText(std::ostream& out) const {
   CObservation::getDescriptionAsText(out);
-  out << "Made of the observation labelled: " << inAscii(source_label) << "\n"
+  out << "Derived from the observation labelled: " << inAscii(source_label) << "\n"
       << "Pose of the sensor on the base (x y z [m], yaw pitch roll [deg]): " << sensorPose.asString() << "\n";
   describe(out);
 }

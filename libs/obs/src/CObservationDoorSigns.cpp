@@ -16,14 +16,14 @@ namespace omnimapper::obs {
 
 namespace {
 
-constexpr double kDrawnRange = 2;  // [m] of a sign whose range nobody measured
+constexpr double kDrawnRange = 2;  // [m] of a sign whose range was not measured
 constexpr double kDrawnHeight = 0.25;
 
-// Width, height [px], channels, then the rows, so that what is read is what was seen: MRPT's own format is JPEG.
+// Writes width, height [px] and channels, then the rows. MRPT's own format is JPEG, which would lose detail.
 void writePatch(Archive& out, const mrpt::img::CImage& patch) {
   const std::size_t width = patch.isEmpty() ? 0 : patch.getWidth(), height = patch.isEmpty() ? 0 : patch.getHeight();
   if (width > UINT16_MAX || height > UINT16_MAX)
-    throw base::Error(base::ExitCode::internal, "CObservationDoorSigns: a patch wider or higher than 65535 pixels.");
+    throw base::Error(base::ExitCode::internal, "CObservationDoorSigns: a patch is wider or higher than 65535 pixels.");
   const std::size_t channels = width > 0 && patch.isColor() ? 3 : 1;
   out << static_cast<std::uint16_t>(width) << static_cast<std::uint16_t>(height) << static_cast<std::uint8_t>(channels);
   if (width == 0) return;
@@ -36,7 +36,7 @@ mrpt::img::CImage readPatch(Archive& in) {
   const std::size_t width = readNumber<std::uint16_t>(in), height = readNumber<std::uint16_t>(in);
   const std::size_t channels = readNumber<std::uint8_t>(in);
   if (channels != 1 && channels != 3) {
-    throw base::Error(base::ExitCode::damaged_input, "CObservationDoorSigns: a patch of " + std::to_string(channels) +
+    throw base::Error(base::ExitCode::damaged_input, "CObservationDoorSigns: a patch has " + std::to_string(channels) +
                                                          " channels; there must be 1 or 3.");
   }
   if (width == 0 || height == 0) return {};
@@ -87,7 +87,7 @@ ObservedDoorSign readSign(Archive& in) {
   return sign;
 }
 
-// The patch upright in the image's sense, square to the ray, in a frame.
+// Draws the patch with a frame, at right angles to the ray and upright as in the image.
 void drawPatch(mrpt::opengl::CSetOfObjects& scene, const ObservedDoorSign& sign, const Eigen::Vector3d& middle,
                const mrpt::img::TColor& colour) {
   Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(sign.ray);
@@ -130,7 +130,7 @@ void CObservationDoorSigns::serializeFrom(mrpt::serialization::CArchive& in, uin
   readHead(in);
   signs = readItems(in, readSign);
   for (auto& sign : signs) {
-    // Version 0 did not keep it, and nothing tells how large the image was.
+    // Version 0 has neither this flag nor the size of the image.
     const auto& corners = sign.corners_px;
     sign.is_cut = version > 0 ? readNumber<std::uint8_t>(in) != 0
                               : std::any_of(corners.begin(), corners.end(),

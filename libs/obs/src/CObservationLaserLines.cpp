@@ -20,8 +20,8 @@ constexpr double kWidth = 0.04;  // [m] of a drawn line
 LineEnd readEnd(Archive& in) {
   const auto code = readNumber<std::uint8_t>(in);
   if (code > static_cast<std::uint8_t>(LineEnd::view)) {
-    throw base::Error(base::ExitCode::damaged_input, "CObservationLaserLines: an end of kind " +
-                                                         std::to_string(int{code}) + ", of which there are 0 to 2.");
+    throw base::Error(base::ExitCode::damaged_input, "CObservationLaserLines: a line has an end of kind " +
+                                                         std::to_string(int{code}) + "; there must be 0, 1 or 2.");
   }
   return static_cast<LineEnd>(code);
 }
@@ -95,7 +95,7 @@ void CObservationLaserLines::describe(std::ostream& out) const {
     out << i << ": from (" << shortly(from.x()) << ", " << shortly(from.y()) << ") m [" << name(line.from_end)
         << "] to (" << shortly(to.x()) << ", " << shortly(to.y()) << ") m [" << name(line.to_end) << "], length "
         << shortly(length(line.segment_in_sensor)) << " m, angle " << shortly(line.angle * kDegreesPerRadian)
-        << " deg, distance " << shortly(line.distance) << " m, deviations "
+        << " deg, distance " << shortly(line.distance) << " m, standard deviations "
         << shortly(std::sqrt(line.covariance(0, 0)) * kDegreesPerRadian) << " deg and "
         << shortly(1000 * std::sqrt(line.covariance(1, 1))) << " mm, beams " << line.first_beam << " to "
         << line.last_beam << ", " << line.inliers << " of them on it with rms " << shortly(1000 * line.rms) << " mm\n";

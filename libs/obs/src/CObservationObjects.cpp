@@ -40,9 +40,10 @@ ObservedObject readObject(Archive& in) {
   object.points = readItems(in, readMatrix<Eigen::Vector3f>);
   object.colours = readItems(in, readColour);
   if (!object.colours.empty() && object.colours.size() != object.points.size()) {
-    throw base::Error(base::ExitCode::damaged_input, "CObservationObjects: " + std::to_string(object.colours.size()) +
-                                                         " colours for " + std::to_string(object.points.size()) +
-                                                         " points; there must be as many, or none.");
+    throw base::Error(base::ExitCode::damaged_input, "CObservationObjects: an object has " +
+                                                         std::to_string(object.colours.size()) + " colours for " +
+                                                         std::to_string(object.points.size()) +
+                                                         " points; there must be as many colours as points, or none.");
   }
   object.supporting_plane = readOptional(in, readNumber<std::uint32_t>);
   object.colour = readOptional(in, readColour);
@@ -100,7 +101,7 @@ void CObservationObjects::describe(std::ostream& out) const {
     const auto& object = objects[i];
     const auto &c = object.centroid, &size = object.box_size;
     out << i << ": centroid (" << shortly(c.x()) << ", " << shortly(c.y()) << ", " << shortly(c.z())
-        << ") m, deviations";
+        << ") m, standard deviations";
     for (int k = 0; k < 3; ++k) out << " " << shortly(1000 * std::sqrt(object.covariance(k, k)));
     out << " mm, box of " << shortly(size.x()) << " x " << shortly(size.y()) << " x " << shortly(size.z()) << " m, "
         << object.points.size() << " points" << (object.colours.empty() ? "" : " in colour");

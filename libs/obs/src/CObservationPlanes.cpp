@@ -75,8 +75,8 @@ void CObservationPlanes::describe(std::ostream& out) const {
     out << i << ": normal " << shortly(normal.x()) << " " << shortly(normal.y()) << " " << shortly(normal.z())
         << ", distance " << shortly(distance) << " m, area " << shortly(areaOf(plane)) << " m^2, " << plane.inliers
         << " points with rms " << shortly(1000 * plane.rms) << " mm, " << shortly(plane.roughness)
-        << " times the sensor's noise, deviations " << shortly(1000 * std::sqrt(plane.covariance(0, 0))) << " and "
-        << shortly(1000 * std::sqrt(plane.covariance(1, 1))) << " mrad, "
+        << " times the sensor's noise, standard deviations " << shortly(1000 * std::sqrt(plane.covariance(0, 0)))
+        << " and " << shortly(1000 * std::sqrt(plane.covariance(1, 1))) << " mrad, "
         << shortly(1000 * std::sqrt(plane.covariance(2, 2))) << " mm, outline of " << plane.outline.vertices.size()
         << " vertices, " << plane.holes.size() << " holes";
     if (plane.colour)
@@ -104,7 +104,7 @@ std::string CObservationPlanes::exportTxtDataRow() const {
 }
 
 void CObservationPlanes::draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const {
-  // What is opaque first: through a translucent face that was drawn before it, it would not be seen.
+  // Opaque parts are drawn first, because they would not show through a translucent face that was drawn before.
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const auto& plane = planes[i];
     auto edges = makeLines(indexColour(i), 3);
@@ -115,9 +115,9 @@ void CObservationPlanes::draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) cons
     addArrow(scene_in_sensor, plane.centroid, plane.centroid + arrow * plane.plane_in_sensor.normal, indexColour(i));
   }
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    auto walks = planes[i].holes;
-    walks.push_back(planes[i].outline);
-    addFilled(scene_in_sensor, planes[i].plane_in_sensor, walks, indexColour(i, 110));
+    auto polygons = planes[i].holes;
+    polygons.push_back(planes[i].outline);
+    addFilled(scene_in_sensor, planes[i].plane_in_sensor, polygons, indexColour(i, 110));
   }
 }
 

@@ -24,7 +24,7 @@ std::string stampText(base::Stamp stamp) {
   return stamp == base::Stamp() ? "none" : base::formatUnix(stamp);
 }
 
-// A number in full, for files that a program reads again.
+// Appends a number with all digits, for files that a program reads again.
 void appendNumber(std::string& row, double value) {
   char text[40];
   std::snprintf(text, sizeof text, " %24.17g", value);
@@ -62,7 +62,8 @@ void CObservationRelativeMotion::getSensorPose(mrpt::poses::CPose3D& sensor_pose
 
 void CObservationRelativeMotion::setSensorPose(const mrpt::poses::CPose3D& sensor_pose) {
   if (sensor_pose != mrpt::poses::CPose3D())
-    throw base::Error(base::ExitCode::internal, "CObservationRelativeMotion is a motion of the base: no sensor pose.");
+    throw base::Error(base::ExitCode::internal,
+                      "CObservationRelativeMotion has no sensor pose: it is a motion of the base.");
 }
 
 void CObservationRelativeMotion::getDescriptionAsText(std::ostream& out) const {

@@ -7,12 +7,12 @@ namespace omnimapper::obs {
 void refuseVersion(const std::string& class_name, int version) {
   throw base::Error(base::ExitCode::damaged_input,
                     class_name + " of version " + std::to_string(version) +
-                        ", newer than this program: read it with the version of OmniMapper that wrote it.");
+                        " is newer than this program; read it with the version of OmniMapper that wrote it.");
 }
 
 void readBytes(Archive& in, void* bytes, std::size_t count) {
   auto* at = static_cast<char*>(bytes);
-  // MRPT gives what is left where that is less, and throws where nothing is.
+  // MRPT returns fewer bytes if fewer are left, and throws if none are.
   while (count > 0) {
     const std::size_t read = in.ReadBuffer(at, count);
     at += read;
@@ -71,7 +71,8 @@ geometry::Se3 readSe3(Archive& in) {
 }
 
 void writeCount(Archive& out, std::size_t count) {
-  if (count > UINT32_MAX) throw base::Error(base::ExitCode::internal, "an observation of more than 2^32 parts");
+  if (count > UINT32_MAX)
+    throw base::Error(base::ExitCode::internal, "an observation has more than 2^32 parts, which cannot be written");
   out << static_cast<std::uint32_t>(count);
 }
 

@@ -13,22 +13,22 @@
 
 namespace omnimapper::obs {
 
-/// The parts that the observations of this library write and read. Numbers keep their bits. A file may be damaged: what
-/// is read takes memory as data comes, never by what a count says.
+/// Functions to write and read the parts of this library's observations. Numbers keep their bits. As a file may be
+/// damaged, reading allocates memory as data comes, never by what a count says.
 
 using Archive = mrpt::serialization::CArchive;
 
-/// Throws Error(damaged_input): written by a newer OmniMapper.
+/// Throws Error(damaged_input) for an object that a newer OmniMapper wrote.
 [[noreturn]] void refuseVersion(const std::string& class_name, int version);
 
-/// Exactly that many bytes; throws where the stream ends before.
+/// Reads exactly that many bytes; throws if the stream ends before.
 void readBytes(Archive& in, void* bytes, std::size_t count);
 std::vector<std::uint8_t> readBytes(Archive& in, std::size_t count);
 
 void writeText(Archive& out, const std::string& text);
 std::string readText(Archive& in);
 
-/// Translation and rotation matrix: MRPT's own format keeps a quaternion, which changes the last bits.
+/// Written as translation and rotation matrix, because the quaternion of MRPT's own format changes the last bits.
 void writePose(Archive& out, const mrpt::poses::CPose3D& pose);
 mrpt::poses::CPose3D readPose(Archive& in);
 void writePose(Archive& out, const geometry::Se3& pose);
@@ -45,7 +45,7 @@ Number readNumber(Archive& in) {
   return number;
 }
 
-/// Row by row.
+/// Writes a matrix row by row.
 template <class Scalar, int rows, int columns>
 void writeMatrix(Archive& out, const Eigen::Matrix<Scalar, rows, columns>& matrix) {
   for (int i = 0; i < rows; ++i)
@@ -64,7 +64,7 @@ void writeItems(Archive& out, const std::vector<Item>& items, const Write& write
   writeCount(out, items.size());
   for (const Item& item : items) write(out, item);
 }
-/// `read` takes at least a byte from the stream, which bounds what a wrong count can do.
+/// `read` must take at least one byte from the stream, so that a wrong count ends at the end of the stream.
 template <class Read>
 auto readItems(Archive& in, const Read& read) {
   const std::uint32_t count = readCount(in);

@@ -8,18 +8,18 @@ namespace omnimapper::obs {
 
 namespace {
 
-constexpr double kFarthest = 1e9;        // [m] what is beyond is not drawn: sums of it would be no numbers
-constexpr std::size_t kMostSlabs = 300;  // of more heights than that, evenly spaced ones serve the eye as well
+constexpr double kFarthest = 1e9;        // [m] edges beyond are not drawn, because sums of them might not be finite
+constexpr std::size_t kMostSlabs = 300;  // if there are more heights, evenly spaced ones are used instead
 
 struct Edge {
-  Eigen::Vector2d low, high;  // by y
+  Eigen::Vector2d low, high;  // ends with the lower and the higher y
 };
 
-std::vector<Edge> edgesOf(const std::vector<geometry::Polygon3>& walks, const Eigen::Vector3d& origin,
+std::vector<Edge> edgesOf(const std::vector<geometry::Polygon3>& polygons, const Eigen::Vector3d& origin,
                           const Eigen::Matrix<double, 3, 2>& basis) {
   std::vector<Edge> edges;
-  for (const auto& walk : walks) {
-    const auto& vertices = walk.vertices;
+  for (const auto& polygon : polygons) {
+    const auto& vertices = polygon.vertices;
     for (std::size_t i = 0, j = vertices.size() - 1; i < vertices.size(); j = i++) {
       const Eigen::Vector2d a = basis.transpose() * (vertices[i] - origin);
       const Eigen::Vector2d b = basis.transpose() * (vertices[j] - origin);
@@ -53,16 +53,17 @@ double across(const Edge& edge, double y) {
 
 }  // namespace
 
-// Cut into slabs between the heights of the vertices, any walk is made of trapezoids: nothing can go wrong with holes,
-// notches and walks that cross themselves, as it can where triangles are sought between vertices.
-mrpt::opengl::CSetOfTriangles::Ptr filled(const geometry::Plane3& plane, const std::vector<geometry::Polygon3>& walks) {
+// The polygons are cut into slabs between the heights of their vertices, in which they consist of trapezoids. Unlike
+// triangulation between vertices, this always works with holes, notches and polygons that cross themselves.
+mrpt::opengl::CSetOfTriangles::Ptr filled(const geometry::Plane3& plane,
+                                          const std::vector<geometry::Polygon3>& polygons) {
   auto triangles = mrpt::opengl::CSetOfTriangles::Create();
   if (!isFinite(plane.normal) || !(std::abs(plane.normal.norm() - 1) < 1e-3) || !std::isfinite(plane.distance)) {
     return triangles;
   }
   const Eigen::Vector3d origin = -plane.distance * plane.normal;
   const auto basis = geometry::tangentBasis(plane.normal);
-  const auto edges = edgesOf(walks, origin, basis);
+  const auto edges = edgesOf(polygons, origin, basis);
   const auto heights = heightsOf(edges);
   const auto corner = [&](double x, double y) {
     const Eigen::Vector3d p = origin + basis * Eigen::Vector2d(x, y);
@@ -87,8 +88,8 @@ mrpt::opengl::CSetOfTriangles::Ptr filled(const geometry::Plane3& plane, const s
 }
 
 void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
-               const std::vector<geometry::Polygon3>& walks, const mrpt::img::TColor& colour) {
-  const auto triangles = filled(plane, walks);
+               const std::vector<geometry::Polygon3>& polygons, const mrpt::img::TColor& colour) {
+  const auto triangles = filled(plane, polygons);
   if (triangles->getTrianglesCount() == 0) return;
   triangles->enableLight(false);
   triangles->setColor_u8(colour);

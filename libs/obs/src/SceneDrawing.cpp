@@ -11,11 +11,11 @@
 namespace omnimapper::obs {
 
 mrpt::img::TColor indexColour(std::size_t index, std::uint8_t alpha) {
-  // Turns of the hue by the golden section never come near one another soon.
+  // Steps of the hue by the golden section keep the colours of neighbouring indices apart.
   const double hue = 6 * std::fmod(0.05 + 0.6180339887498949 * static_cast<double>(index % 1000), 1.0);
   const auto part = [&](double shift) {
-    const double way = std::fmod(hue + shift, 6.0);
-    const double height = std::clamp(std::min(way, 4 - way), 0.0, 1.0);
+    const double position = std::fmod(hue + shift, 6.0);
+    const double height = std::clamp(std::min(position, 4 - position), 0.0, 1.0);
     return static_cast<std::uint8_t>(std::lround(255 * (0.1 + 0.8 * height)));
   };
   return {part(2), part(0), part(4), alpha};
@@ -64,8 +64,8 @@ void addStroke(mrpt::opengl::CSetOfTriangles& strokes, const Eigen::Vector3d& fr
 
 void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
               const mrpt::img::TColor& colour) {
-  const double way = (to - from).norm();
-  if (!isFinite(from) || !isFinite(to) || !(way > 1e-3)) return;
+  const double length = (to - from).norm();
+  if (!isFinite(from) || !isFinite(to) || !(length > 1e-3)) return;
   auto arrow = mrpt::opengl::CArrow::Create();
   mrpt::math::CVectorFixedDouble<3> begin, end;
   for (int i = 0; i < 3; ++i) {
@@ -73,8 +73,8 @@ void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, c
     end[i] = to[i];
   }
   arrow->setArrowEnds(begin, end);
-  arrow->setSmallRadius(static_cast<float>(0.03 * way));
-  arrow->setLargeRadius(static_cast<float>(0.09 * way));
+  arrow->setSmallRadius(static_cast<float>(0.03 * length));
+  arrow->setLargeRadius(static_cast<float>(0.09 * length));
   arrow->enableLight(false);
   arrow->setColor_u8(colour);
   scene.insert(arrow);
@@ -97,7 +97,7 @@ void addPicture(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& middl
   auto picture = mrpt::opengl::CTexturedPlane::Create(-width, width, -height, height);
   picture->assignImage(image);
   picture->CRenderizableShaderTexturedTriangles::enableLight(false);
-  // Its first row is at the lowest y of its own frame, so that y is down as in the image.
+  // The first row of the image is at the lowest y of the picture's frame, so y is down as in the image.
   const Eigen::Vector3d axes[] = {right.normalized(), down.normalized(), right.cross(down).normalized()};
   mrpt::math::CMatrixDouble33 rotation;
   mrpt::math::CVectorFixedDouble<3> place;

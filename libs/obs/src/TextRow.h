@@ -20,7 +20,7 @@ class TextRow {
     for (int i = 0; i < size; ++i) number(values[i]);
     return *this;
   }
-  /// What stands on and above the diagonal.
+  /// The entries on and above the diagonal.
   template <int size>
   TextRow& symmetric(const Eigen::Matrix<double, size, size>& values) {
     for (int i = 0; i < size; ++i)
@@ -37,11 +37,11 @@ class TextRow {
   std::string row_;
 };
 
-/// One number to be read by people.
+/// A number in few digits, for people to read.
 std::string shortly(double value);
 
-/// The same UTF-8 text with what is not ASCII as \u00fc and the like, bytes that are no UTF-8 as \xfc: windows of stock
-/// tools show nothing at all of a text with a character that their locale does not have.
+/// UTF-8 text with all other characters than ASCII written as \u00fc and the like, and bytes that are no UTF-8 as \xfc.
+/// Windows of stock tools show nothing of a text with a character that their locale does not have.
 std::string inAscii(const std::string& text);
 
 }  // namespace omnimapper::obs

@@ -16,7 +16,8 @@ using mrpt::poses::CPose2D;
 
 namespace {
 
-// Thrun, Burgard, Fox: Probabilistic Robotics (2005), 5.4: a turn, a way, a turn, each with a deviation of its own.
+// Motion model of Thrun, Burgard, Fox: Probabilistic Robotics (2005), 5.4: rotation, translation, rotation, each with
+// its own deviation.
 // Covariance of x y yaw in the axes of the start, to first order.
 Eigen::Matrix3d thrunCovariance(const CPose2D& increment,
                                 const CActionRobotMovement2D::TMotionModelOptions::TOptions_ThrunModel& model) {
@@ -27,7 +28,7 @@ Eigen::Matrix3d thrunCovariance(const CPose2D& increment,
       model.alfa1_rot_rot * std::abs(first_turn) + model.alfa2_rot_trans * travel,
       model.alfa3_trans_trans * travel + model.alfa4_trans_rot * (std::abs(first_turn) + std::abs(second_turn)),
       model.alfa1_rot_rot * std::abs(second_turn) + model.alfa2_rot_trans * travel);
-  Eigen::Matrix3d jacobian;                             // of x y yaw by first turn, way, second turn
+  Eigen::Matrix3d jacobian;                             // of x y yaw by first turn, translation, second turn
   jacobian << -increment.y(), std::cos(first_turn), 0,  //
       increment.x(), std::sin(first_turn), 0,           //
       1, 0, 1;

@@ -19,7 +19,7 @@ ActionSpans::Motions ActionSpans::addAction(const mrpt::obs::CActionCollection& 
     if (mode_ == ActionSpan::automatic) mode_ = ActionSpan::own;
   }
   if (mode_ != ActionSpan::own) return {};
-  // A first action from before the first frame only says where the next one begins.
+  // A first action from before the first frame only determines where the span of the next one begins.
   if (!has_motion_ && base::isValid(stamp) && stamp <= begin_) has_begin_ = false;
   return spanUntil(stamp);
 }
@@ -39,7 +39,7 @@ ActionSpans::Motions ActionSpans::spanUntil(base::Stamp end) {
     return {};
   }
   if (!base::isValid(begin_)) {
-    // Nothing had a stamp so far: what spans until here has none either.
+    // Nothing had a stamp so far, so the motions until here have none either.
     auto motions = takePending(base::Stamp(), base::Stamp());
     begin_ = end;
     return motions;

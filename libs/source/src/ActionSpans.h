@@ -12,8 +12,8 @@
 
 namespace omnimapper::source {
 
-/// Gives actions, which have no span of time of their own, the span they belong to (see ActionSpan). The spans follow
-/// each other without a gap: a motion whose end is not after its begin, or has no stamp, is joined to the next one.
+/// Assigns spans of time to actions, which state none (see ActionSpan). The spans follow each other without a gap: a
+/// motion whose end is not after its begin, or has no stamp, is joined to the next one.
 class ActionSpans {
  public:
   using Motions = std::vector<obs::CObservationRelativeMotion::Ptr>;
@@ -26,9 +26,9 @@ class ActionSpans {
   Motions addFrame(base::Stamp stamp);
   /// The stamp of the last action since the last frame, if it has one.
   base::Stamp pendingStamp() const { return pending_stamp_; }
-  /// Motions that have come to no span so far.
+  /// Number of actions that got no span so far.
   std::uint64_t dropped() const { return dropped_; }
-  /// To be called at the end: what is still waiting for its end has none.
+  /// To be called at the end of the log: actions that still wait for the end of their span get none.
   void finish() { dropPending(); }
 
  private:
@@ -40,9 +40,9 @@ class ActionSpans {
   std::string label_;
   std::map<std::string, ActionMotion> pending_;  // by origin
   base::Stamp pending_stamp_;
-  bool has_begin_ = false;   // whether there is something a span can begin at
+  bool has_begin_ = false;   // whether a span can begin: a frame or an action has been read
   bool has_motion_ = false;  // whether a motion was ever handed out
-  base::Stamp begin_;        // where; "no stamp" as long as nothing had one
+  base::Stamp begin_;        // of the next span; "no stamp" as long as nothing had one
   std::uint64_t dropped_ = 0;
 };
 

@@ -19,8 +19,8 @@ bool isRear(const CarmenScanLine& line) {
   return line.name == "RLASER";
 }
 
-// What SICK scanners give without saying: 180 deg, or 100 deg for the counts of beams of that mode. An even count
-// leaves the last angle out.
+// Angle between the beams of a SICK scanner [rad], for logs that do not state it. The field of view is 180 deg, or 100
+// deg for the numbers of beams of that mode. An even number of beams leaves out the last angle.
 double defaultStep(std::size_t beams) {
   const double field = beams == 101 || beams == 201 || beams == 401 ? 100.0 : 180.0;
   return field / static_cast<double>(beams % 2 == 0 ? beams : beams - 1) * kRadiansPerDegree;
@@ -72,7 +72,7 @@ mrpt::obs::CObservation2DRangeScan::Ptr CarmenLasers::scan(const CarmenScanLine&
   scan->rightToLeft = true;
   scan->maxRange = static_cast<float>(beams.max_range);
   scan->stdError = static_cast<float>(beams.sigma);
-  // MRPT's beams lie evenly around the sensor's x axis, so the sensor is turned to the middle of ours.
+  // MRPT's beams are symmetric about the sensor's x axis, so the sensor is turned to the middle of CARMEN's beams.
   const double aperture = beams.step * static_cast<double>(line.ranges.size() - 1);
   scan->aperture = static_cast<float>(aperture);
   const double yaw = base_from_laser.phi + beams.first_angle + 0.5 * aperture;

@@ -9,12 +9,13 @@
 
 namespace omnimapper::source {
 
-/// Makes MRPT scans of CARMEN's, with beams and mounting from the log's PARAM lines where the scan does not say them.
+/// Converts scans of CARMEN to MRPT's. Beams and mounting come from the log's PARAM lines if the scan's line does not
+/// state them.
 class CarmenLasers {
  public:
   void set(const CarmenParameter& parameter) { parameters_[parameter.name] = parameter.value; }
 
-  /// Label and stamp included.
+  /// The scan, with label and stamp.
   mrpt::obs::CObservation2DRangeScan::Ptr scan(const CarmenScanLine& line, base::Stamp stamp) const;
 
  private:

@@ -12,7 +12,7 @@ namespace omnimapper::source {
 
 namespace {
 
-// The fields of a line, taken one after another.
+// The fields of a line, read one after another.
 class Fields {
  public:
   explicit Fields(std::string_view line) {
@@ -40,14 +40,14 @@ class Fields {
     double value = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
     if (result.ec != std::errc() || result.ptr != text.data() + text.size() || !std::isfinite(value))
-      throw BadCarmenLine("'" + std::string(text) + "' is not a number");
+      throw BadCarmenLine("has '" + std::string(text) + "' where a number is expected");
     return value;
   }
 
   std::size_t count() {
     const double value = number();
     if (value < 0 || value != std::floor(value) || value > static_cast<double>(left()))
-      throw BadCarmenLine("has fewer readings than it says");
+      throw BadCarmenLine("has fewer readings than it states");
     return static_cast<std::size_t>(value);
   }
 
@@ -58,11 +58,13 @@ class Fields {
 
   // The rest of the line must be this: ipc_timestamp ipc_hostname logger_timestamp.
   base::Stamp stampAtEnd() {
-    if (left() != 3) throw BadCarmenLine("has " + std::to_string(left()) + " fields where 3 should end it");
+    if (left() != 3)
+      throw BadCarmenLine("has " + std::to_string(left()) +
+                          " fields after its numbers instead of 3 (stamp, host, stamp of the logger)");
     try {
       return base::parseUnix(std::string(fields_[next_]));
     } catch (const base::Error& error) {
-      throw BadCarmenLine(error.what());
+      throw BadCarmenLine(std::string("has a stamp that cannot be read: ") + error.what());
     }
   }
 
@@ -113,7 +115,7 @@ CarmenScanLine parseRobotLaser(Fields& fields) {
   fields.number();  // remission mode
   parseRanges(fields, scan);
   if (beams.step <= 0) beams.step = field_of_view / static_cast<double>(scan.ranges.size() - 1);
-  if (beams.step <= 0) throw BadCarmenLine("has no angle between its beams");
+  if (beams.step <= 0) throw BadCarmenLine("states no angle between its beams");
   for (std::size_t i = fields.count(); i > 0; --i) fields.number();
   scan.laser_pose = fields.pose();
   scan.robot_pose = fields.pose();
@@ -154,7 +156,7 @@ CarmenLine parseCarmenLine(std::string_view line) {
     scan.name = name;
     return scan;
   }
-  if (!isMessageName(name)) throw BadCarmenLine("begins with no message of CARMEN");
+  if (!isMessageName(name)) throw BadCarmenLine("does not begin with the name of a CARMEN message");
   return CarmenOtherLine{name};
 }
 

@@ -38,17 +38,17 @@ struct CarmenScanLine {
   std::vector<float> ranges;         ///< [m]
   mrpt::math::TPose2D laser_pose;    ///< odom_from_laser
   mrpt::math::TPose2D robot_pose;    ///< odom_from_base
-  std::optional<CarmenBeams> beams;  ///< where the line itself says them
+  std::optional<CarmenBeams> beams;  ///< only if the line itself states them
 };
 
-/// A line of no interest; `name` is its first word, "" for an empty one or a comment.
+/// A line that is not used; `name` is its first word, "" for an empty one or a comment.
 struct CarmenOtherLine {
   std::string name;
 };
 
 using CarmenLine = std::variant<CarmenOtherLine, CarmenParameter, CarmenOdometryLine, CarmenScanLine>;
 
-/// What is wrong with a line.
+/// What is wrong with a line, as a clause whose subject is the line: "ends too early".
 class BadCarmenLine : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -57,7 +57,7 @@ class BadCarmenLine : public std::runtime_error {
 /// Throws BadCarmenLine.
 CarmenLine parseCarmenLine(std::string_view line);
 
-/// Whether a line's first word is one of CARMEN's.
+/// Whether a line's first word is the name of a CARMEN message.
 bool isCarmenWord(std::string_view word);
 
 }  // namespace omnimapper::source

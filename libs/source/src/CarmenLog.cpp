@@ -23,19 +23,22 @@ constexpr const char* kScanOdometrySuffix = "_ODOM";
 constexpr std::size_t kBadLinesKept = 10;
 constexpr std::uint64_t kLinesUntilFirstWord = 1000;
 
-// Throws if none of the first lines begins with a word of CARMEN.
+// Throws if none of the first lines begins with the name of a CARMEN message.
 void checkKind(const std::string& path) {
   TextFileLines lines(path);
   for (std::string line; lines.number() < kLinesUntilFirstWord && lines.next(line);) {
     if (line.find('\0') != std::string::npos) break;
     if (isCarmenWord(line.substr(0, line.find(' ')))) return;
   }
-  if (!lines.file().problem().empty()) refuse(path, "cannot be decompressed (" + lines.file().problem() + ").");
-  refuse(path, "is no CARMEN log, for none of its first lines begins with ODOM, FLASER or another word of CARMEN: it " +
-                   describeInput(path));
+  if (!lines.file().problem().empty())
+    refuse(path, "cannot be decompressed (" + lines.file().problem() + "); copy or download it again.");
+  refuse(path,
+         "is no CARMEN log: none of its first 1000 lines begins with ODOM, FLASER or the name of another CARMEN "
+         "message; it " +
+             describeInput(path));
 }
 
-// Reads the log once for its clock: lines if there are ODOM lines and no label's stamps run backwards.
+// Reads the log once to check its clock: `lines` if there are ODOM lines and the stamps of no label run backwards.
 CarmenOdometry chooseOdometry(const std::string& path) {
   TextFileLines lines(path);
   std::map<std::string, base::Stamp> latest;
@@ -90,7 +93,7 @@ class CarmenLog::Stream {
   std::uint64_t unusedOdometry() const { return unused_odometry_; }
 
  private:
-  // Puts what the next line holds into waiting_. False at the end.
+  // Appends the observations of the next line to waiting_. Returns false at the end.
   bool readLine() {
     if (report_.ending != SourceReport::Ending::open) return false;
     if (!lines_.next(line_)) {
@@ -147,7 +150,7 @@ class CarmenLog::Stream {
     waiting_.push_back(lasers_.scan(line, stamp));
   }
 
-  // t'_i = max(t_i, t'_(i-1) + 1 ms); a first stamp of zero, which MRPT takes for none, counts as too early.
+  // t'_i = max(t_i, t'_(i-1) + 1 ms); a first stamp of zero, which means "no stamp" in MRPT, counts as too early.
   base::Stamp repaired(const std::string& label, base::Stamp stamp) {
     auto& before = latest_.emplace(label, base::stampFromUnix(0)).first->second;
     const base::Stamp earliest = before + base::durationFromSeconds(0.001);
@@ -169,13 +172,14 @@ class CarmenLog::Stream {
     const auto& file = lines_.file();
     const std::string place = file.path() + ": ";
     if (file.ending() == CompressedFile::Ending::corrupt) {
-      end(SourceReport::Ending::corrupt, place + "is corrupt (" + file.problem() + ")");
+      end(SourceReport::Ending::corrupt, place + "is corrupt (" + file.problem() + "); copy or download it again");
     } else if (file.ending() == CompressedFile::Ending::truncated) {
-      end(SourceReport::Ending::truncated, place + "is truncated (" + file.problem() + ")");
+      end(SourceReport::Ending::truncated, place + "is truncated (" + file.problem() + "); copy or download it again");
     } else if (bad_line_count_ > 0) {
       const bool is_cut = bad_line_count_ == 1 && last_line_is_cut_;
       end(is_cut ? SourceReport::Ending::truncated : SourceReport::Ending::corrupt,
-          place + (is_cut ? "ends in the middle of a line" : std::to_string(bad_line_count_) + " bad lines left out"));
+          place + (is_cut ? "is truncated: it ends in the middle of a line; copy or download it again"
+                          : "lines that cannot be read were left out: " + std::to_string(bad_line_count_)));
     } else {
       report_.ending = SourceReport::Ending::complete;
     }
@@ -183,10 +187,10 @@ class CarmenLog::Stream {
 
   void end(SourceReport::Ending ending, const std::string& what) {
     report_.ending = ending;
-    report_.message = what + ", line " + std::to_string(lines_.number()) + " is the last.";
+    report_.message = what + ". Line " + std::to_string(lines_.number()) + " is the last that was read.";
     if (!bad_lines_.empty())
-      report_.message +=
-          " First bad line: " + std::to_string(bad_lines_[0].number) + ", it " + bad_lines_[0].reason + ".";
+      report_.message += " The first line that cannot be read is line " + std::to_string(bad_lines_[0].number) +
+                         ": it " + bad_lines_[0].reason + ".";
   }
 
   TextFileLines lines_;

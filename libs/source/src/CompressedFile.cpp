@@ -16,17 +16,17 @@
 
 namespace omnimapper::source {
 
-/// One compressed member after another.
+/// Decodes one compressed member after another.
 class CompressedFile::Decoder {
  public:
   enum class Step { more, member_end, bad };
   virtual ~Decoder() = default;
-  /// Decodes from `in` to `out`, moving both on.
+  /// Decodes from `in` to `out` and advances both.
   virtual Step decode(const char*& in, std::size_t& in_size, char*& out, std::size_t& out_size) = 0;
   virtual void startMember() = 0;
   /// Whether a member can begin with this byte.
   virtual bool beginsWith(char byte) const = 0;
-  /// Why decode() said bad.
+  /// Why decode() returned Step::bad.
   virtual std::string problem() const = 0;
 };
 
@@ -68,7 +68,7 @@ class Bzip2Decoder : public CompressedFile::Decoder {
     BZ2_bzDecompressInit(&stream_, 0, 0);
   }
   bool beginsWith(char byte) const override { return byte == 'B'; }
-  std::string problem() const override { return "bzip2: bad data or check"; }
+  std::string problem() const override { return "bzip2: bad data or checksum"; }
 
   Step decode(const char*& in, std::size_t& in_size, char*& out, std::size_t& out_size) override {
     stream_.next_in = const_cast<char*>(in);
@@ -110,7 +110,7 @@ struct CompressedFile::State {
     if (file) std::fclose(file);
   }
 
-  // False at the end of the file on disk, or where it cannot be read.
+  // Returns false at the end of the file on disk, and where it cannot be read.
   bool refill() {
     if (in_size > 0) return true;
     in = chunk.data();
@@ -138,7 +138,7 @@ struct CompressedFile::State {
     in += n, in_size -= n, out += n, out_size -= n;
   }
 
-  // Between two members.
+  // Called between two members.
   void startMember() {
     if (decoder->beginsWith(*in)) {
       decoder->startMember();
@@ -168,13 +168,14 @@ CompressedFile::CompressedFile(const std::string& path) : state_(std::make_uniqu
   auto& s = *state_;
   s.path = path;
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) refuse(path, std::string(std::strerror(errno)) + ".");
+  if (::stat(path.c_str(), &status) != 0) refuse(path, std::string(std::strerror(errno)) + "; is the path right?");
   if (S_ISDIR(status.st_mode)) refuse(path, describeInput(path));
-  if (!S_ISREG(status.st_mode)) refuse(path, "is a pipe, a socket or a device; save what it gives in a file.");
+  if (!S_ISREG(status.st_mode))
+    refuse(path, "is a pipe, a socket or a device, which cannot be read as a log; save its data in a file.");
   s.size = static_cast<std::uint64_t>(status.st_size);
   s.file = std::fopen(path.c_str(), "rb");
-  if (!s.file) refuse(path, std::string(std::strerror(errno)) + ".");
-  if (!s.refill()) refuse(path, s.ending == Ending::end ? "is empty." : s.problem + ".");
+  if (!s.file) refuse(path, std::string(std::strerror(errno)) + "; may you read this file?");
+  if (!s.refill()) refuse(path, s.ending == Ending::end ? "is empty; copy or record it again." : s.problem + ".");
   if (s.in_size >= 2 && s.in[0] == '\x1f' && s.in[1] == '\x8b') s.decoder = std::make_unique<GzipDecoder>();
   if (s.in_size >= 3 && std::memcmp(s.in, "BZh", 3) == 0) s.decoder = std::make_unique<Bzip2Decoder>();
 }
@@ -184,7 +185,7 @@ CompressedFile::~CompressedFile() = default;
 std::size_t CompressedFile::read(void* buffer, std::size_t size) {
   auto& s = *state_;
   char* out = static_cast<char*>(buffer);
-  // The decoders count in 32 bits.
+  // The decoders count in 32 bits, so large reads are split.
   std::size_t left = size;
   while (left > 0 && s.ending == Ending::open) {
     if (!s.refill()) break;

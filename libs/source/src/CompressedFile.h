@@ -7,8 +7,9 @@
 
 namespace omnimapper::source {
 
-/// Reads a file that may be compressed with gzip or bzip2 (told by its first bytes) and, unlike zlib's own gzread(),
-/// says whether it ended well. Several compressed members in a row are one file; zeros after them are ignored.
+/// Reads a file that may be compressed with gzip or bzip2 (detected by its first bytes) and, unlike zlib's own
+/// gzread(), reports whether its end is intact. Several compressed members in a row are one file; zeros after them are
+/// ignored.
 class CompressedFile {
  public:
   enum class Ending { open, end, truncated, corrupt };
@@ -20,7 +21,7 @@ class CompressedFile {
   /// Bytes read into `buffer`; fewer than `size` only when the ending is not `open` any more.
   std::size_t read(void* buffer, std::size_t size);
   Ending ending() const;
-  /// What is wrong, where it is compressed: "gzip: incorrect data check". Empty if the ending is good.
+  /// What is wrong with the file: "gzip: incorrect data check". Empty if the ending is good.
   const std::string& problem() const;
   bool isCompressed() const;
   /// Uncompressed bytes handed out.

@@ -29,7 +29,7 @@ class FolderForProcess {
   std::string old_;
 };
 
-// MRPT takes the first characters of a name without looking how many there are.
+// MRPT reads the first characters of a name without checking its length.
 std::string inFolder(const std::string& file) {
   return file.size() > 2 ? mrpt::io::lazy_load_absolute_path(file) : file;
 }

@@ -24,7 +24,7 @@ void moveImage(mrpt::img::CImage& image, const std::string& folder, const std::s
   image.setExternalStorage(name);
 }
 
-// MRPT does not notice where its compressed file cannot be written whole: what it holds is counted.
+// MRPT does not notice if its compressed file cannot be written whole, so the bytes in the file are counted.
 void moveRanges(mrpt::obs::CObservation3DRangeScan& scan, const std::string& folder, const std::string& name) {
   const std::size_t expected = sizeof(std::uint16_t) * static_cast<std::size_t>(scan.rangeImage.size());
   scan.rangeImage_convertToExternalStorage(name, folder + "/");
@@ -57,9 +57,9 @@ mrpt::obs::CObservation::Ptr withImagesInside(const mrpt::obs::CObservation::Ptr
   for (const auto* image : imagesOf(*copy)) {
     if (!image->isExternallyStored()) continue;
     had_files = true;
-    mrpt::img::CImage inside;  // MRPT forgets that an image is in a file only where it makes a new one
+    mrpt::img::CImage inside;  // in MRPT only a new image is independent of the file
     image->scaleImage(inside, image->getWidth(), image->getHeight(), mrpt::img::IMG_INTERP_NN);
-    const_cast<mrpt::img::CImage&>(*image) = inside;  // of our own copy
+    const_cast<mrpt::img::CImage&>(*image) = inside;  // the copy is ours
   }
   if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(copy.get())) {
     had_files = had_files || scan->rangeImage_isExternallyStored() || scan->points3D_isExternallyStored();

@@ -19,14 +19,14 @@ FolderSource::FolderSource(const std::string& folder, bool (*takes)(const std::s
   if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     if (takes(entry->path())) files_.push_back(entry->path());
-  if (error) refuse(folder, error.message());
+  if (error) refuse(folder, error.message() + "; is the path right?");
   if (files_.empty()) refuse(folder, "holds no " + what + ": it " + describeInput(folder));
   std::sort(files_.begin(), files_.end());
   times_ = timesOfNames(files_);
 }
 
 mrpt::obs::CObservation::Ptr FolderSource::next() {
-  constexpr double kFirst = 1e9;  // [s] stamp of files whose names tell none
+  constexpr double kFirst = 1e9;  // [s] stamp of the first file, if the names are no times
   while (next_ < files_.size()) {
     const std::string& file = files_[next_];
     const double stamp = times_.empty() ? kFirst + static_cast<double>(next_) / rate_ : times_[next_];

@@ -12,7 +12,7 @@ struct Size {
   std::uint64_t width = 0, height = 0;
 };
 
-// Of numbers whose most significant byte comes first.
+// Reads a number whose most significant byte comes first.
 std::uint64_t numberAt(const std::string& bytes, std::size_t at, std::size_t size) {
   std::uint64_t number = 0;
   for (std::size_t i = 0; i < size; ++i) number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
@@ -37,7 +37,8 @@ std::optional<Size> sizeOfPng(const std::string& head) {
   return Size{numberAt(head, kWidthAt, 4), numberAt(head, kHeightAt, 4)};
 }
 
-// After eight bytes come chunks: four bytes of length, four of name, what is in it, four of its sum. The last is IEND.
+// After its first eight bytes a PNG consists of chunks: four bytes of length, four of name, the data, four of checksum.
+// The last chunk is IEND.
 bool hasPngEnd(std::istream& in) {
   in.clear();
   in.seekg(8);
@@ -50,16 +51,16 @@ bool hasPngEnd(std::istream& in) {
 }
 
 struct Jpeg {
-  Size size;             // none where no frame is told
-  bool is_whole = true;  // also where it cannot be told
+  Size size;             // 0 x 0 if no frame is found
+  bool is_whole = true;  // also if that cannot be determined
 };
 
-// A JPEG is segments: 0xff, a marker, two bytes of length. Those of the markers 0xc0 to 0xcf but 0xc4, 0xc8 and 0xcc
-// begin a frame and have a byte of precision, then height and width, two bytes each. After 0xda come the pixels, and
-// after them 0xff 0xd9, which is in no pixel.
+// A JPEG consists of segments: 0xff, a marker, two bytes of length. Those with the markers 0xc0 to 0xcf except 0xc4,
+// 0xc8 and 0xcc begin a frame and have a byte of precision, then height and width, two bytes each. The pixels follow
+// 0xda, and 0xff 0xd9, which does not occur in them, ends them.
 Jpeg readJpeg(std::istream& in) {
   Jpeg jpeg;
-  in.clear();  // the file may end within what was read of it
+  in.clear();  // the file may end within the bytes that were read as its head
   in.seekg(2);
   while (true) {
     const auto start = read(in, 4);
@@ -94,7 +95,8 @@ std::optional<std::string> whyTooLarge(const std::string& path) {
   const auto head = read(in, 24);
   const Size size = isJpeg(head) ? readJpeg(in).size : sizeOfPng(head).value_or(Size());
   if (size.width == 0 || size.height <= kMostPixels / size.width) return std::nullopt;
-  return std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels, more than any camera has";
+  return "has " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+         " pixels, more than any camera has";
 }
 
 bool isCutOff(const std::string& path) {

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kInColour = 1;  // MRPT: three channels of 8 bits, whatever the file has
+constexpr int kInColour = 1;  // for MRPT: three channels of 8 bits, whatever the file has
 
 bool isImage(const std::string& path) {
   const fs::path file(path);
@@ -29,16 +29,16 @@ bool isImage(const std::string& path) {
 
 mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_px) {
   std::error_code error;
-  if (!fs::is_regular_file(file, error)) refuse(file, "is no file");
+  if (!fs::is_regular_file(file, error)) refuse(file, "is no regular file");
   if (const auto why = whyTooLarge(file)) refuse(file, *why);
-  if (isCutOff(file)) refuse(file, "its end is missing: it was cut off; copy it anew");
+  if (isCutOff(file)) refuse(file, "its end is missing, so it was cut off; copy it again");
   auto image = mrpt::obs::CObservationImage::Create();
   bool is_decoded = false;
   try {
     is_decoded = image->image.loadFromFile(file, kInColour) && !image->image.isEmpty();
-  } catch (const std::exception&) {  // OpenCV's, for a file without bytes, which MRPT passes on
+  } catch (const std::exception&) {  // OpenCV throws for a file without bytes, and MRPT passes that on
   }
-  if (!is_decoded) refuse(file, "cannot be decoded");
+  if (!is_decoded) refuse(file, "cannot be decoded as an image");
   const double width = static_cast<double>(image->image.getWidth());
   const double height = static_cast<double>(image->image.getHeight());
   const double focal = focal_px > 0 ? focal_px : width;

@@ -22,9 +22,9 @@ std::optional<TimeSpan> spanOf(const SourceReport& report) {
   return span;
 }
 
-// Whether a log lies in time so far from all others that it is no part of the same drive.
-bool isOneApart(const std::vector<TimeSpan>& spans) {
-  constexpr double kNextPart = 60;  // [s] within which the next part of a log that was cut follows
+// Whether one log lies so far from all others in time that it is not part of the same drive.
+bool isOneFarFromOthers(const std::vector<TimeSpan>& spans) {
+  constexpr double kNextPart = 60;  // [s] within which the next part of a log that was split follows
   const auto areNear = [](const TimeSpan& a, const TimeSpan& b) {
     return base::secondsBetween(a.end, b.begin) < kNextPart && base::secondsBetween(b.end, a.begin) < kNextPart;
   };
@@ -74,7 +74,7 @@ SourceReport MergedSource::report() const {
     sum.add(report);
     if (const auto span = spanOf(report)) spans.push_back(*span);
   }
-  sum.has_logs_apart = sum.ending != SourceReport::Ending::open && spans.size() > 1 && isOneApart(spans);
+  sum.has_logs_apart = sum.ending != SourceReport::Ending::open && spans.size() > 1 && isOneFarFromOthers(spans);
   return sum;
 }
 

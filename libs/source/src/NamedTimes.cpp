@@ -9,7 +9,7 @@ namespace omnimapper::source {
 
 namespace {
 
-// None for a name that is no such number, or a time before 1973 or after 2286.
+// Unix time that the file is named by [s]; none if the name is no such number, or a time before 1973 or after 2286.
 std::optional<double> timeOf(const std::filesystem::path& file) {
   constexpr double kFirst = 1e8, kLast = 1e10, kNanosecond = 1e-9;
   const std::string stem = file.stem().string();

@@ -13,7 +13,7 @@ using mrpt::serialization::CSerializable;
 
 namespace {
 
-// Whether this can be the name of a C++ class, which nothing but luck makes of garbage.
+// Whether this can be the name of a C++ class; bytes of damaged data hardly ever are.
 bool isClassName(const std::string& name) {
   if (name.size() < 3 || !(std::isalpha(static_cast<unsigned char>(name[0])) || name[0] == '_')) return false;
   return std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -61,7 +61,7 @@ CSerializable::Ptr ObjectReader::next() {
     const auto may_read = may_read_after_ ? may_read_after_(objects_) : SandboxedReader::Answer::yes;
     if (may_read == SandboxedReader::Answer::not_known) break;
     if (may_read == SandboxedReader::Answer::no) {
-      end(Ending::corrupt, "has an object that cannot be read");
+      end(Ending::corrupt, "is corrupt: an object cannot be read; copy or download the log again");
       break;
     }
     if (in_rawlog_ && rawlog_left_ == 0) {
@@ -95,12 +95,12 @@ bool ObjectReader::readHeader(Header& header) {
     } else if (file_.ending() != CompressedFile::Ending::open) {
       endAtMissingBytes();
     } else {
-      end(Ending::corrupt, "has no object where one should begin");
+      end(Ending::corrupt, "is corrupt: no object begins where one should; copy or download the log again");
     }
     return false;
   }
   if (header.class_name != "nullptr" && !isClassName(header.class_name)) {
-    end(Ending::corrupt, "has no object where one should begin");
+    end(Ending::corrupt, "is corrupt: no object begins where one should; copy or download the log again");
     return false;
   }
   saw_header_ = true;
@@ -118,12 +118,12 @@ CSerializable::Ptr ObjectReader::readObject(const Header& header) {
     unregistered_class_ = header.class_name;
     end(Ending::unregistered_class,
         "has an object of class " + header.class_name +
-            ", which nobody registered: load the library that has it. What comes after it is not read");
+            ", which is not registered; load the library that defines it, else the log cannot be read beyond it");
     return nullptr;
   }
   const auto object = std::dynamic_pointer_cast<CSerializable>(id->createObject());
   if (!object) {
-    end(Ending::corrupt, "has an object of the abstract class " + header.class_name);
+    end(Ending::corrupt, "is corrupt: it has an object of the abstract class " + header.class_name);
     return nullptr;
   }
   archive_.readBody(object.get(), header);
@@ -153,9 +153,10 @@ void ObjectReader::leaveRawlog() {
 void ObjectReader::endAtMissingBytes() {
   const std::string why = file_.problem().empty() ? "" : " (" + file_.problem() + ")";
   if (file_.ending() == CompressedFile::Ending::corrupt) {
-    end(Ending::corrupt, "is corrupt" + why);
+    end(Ending::corrupt, "is corrupt" + why + "; copy or download the log again");
   } else {
-    end(Ending::truncated, "is truncated: it ends in the middle of an object" + why);
+    end(Ending::truncated,
+        "is truncated: it ends in the middle of an object" + why + "; copy or download the log again");
   }
 }
 
@@ -166,17 +167,17 @@ void ObjectReader::endAtException(const std::string& what) {
   }
   unregistered_class_ = unregisteredClassIn(what);
   if (unregistered_class_.empty()) {
-    end(Ending::corrupt, "has an object that cannot be read");
+    end(Ending::corrupt, "is corrupt: an object cannot be read; copy or download the log again");
   } else {
     end(Ending::unregistered_class, "has an object of class " + unregistered_class_ +
-                                        " inside another one, which nobody registered: load the library that has it. "
-                                        "What comes after it is not read");
+                                        " inside another one, which is not registered; load the library that defines "
+                                        "it, else the log cannot be read beyond it");
   }
 }
 
 void ObjectReader::end(Ending ending, const std::string& what) {
   ending_ = ending;
-  message_ = file_.path() + ": " + what + ", after " + std::to_string(objects_) + " objects and " +
+  message_ = file_.path() + ": " + what + ". What was read before: " + std::to_string(objects_) + " objects, " +
              std::to_string(bytes_) + " bytes (uncompressed).";
 }
 

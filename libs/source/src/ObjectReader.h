@@ -11,9 +11,9 @@
 
 namespace omnimapper::source {
 
-/// Reads one serialised object after another from a file and tells, where MRPT's own reader does not, an end from a
-/// truncation, from corruption, and from a class that nobody registered. A CRawlog saved as one object is taken apart,
-/// so that it is streamed too.
+/// Reads one serialised object after another from a file. Unlike MRPT's own reader it distinguishes the end of the file
+/// from truncation, corruption, and a class that is not registered. A CRawlog saved as one object is split into its
+/// objects, so that it is streamed too.
 class ObjectReader {
  public:
   enum class Ending { open, complete, truncated, corrupt, unregistered_class };
@@ -21,20 +21,20 @@ class ObjectReader {
   /// Throws as CompressedFile.
   explicit ObjectReader(const std::string& path) : file_(path), archive_(file_) {}
 
-  /// Asked before each object, with the number of objects before it. If the answer is no, the reading ends as corrupt;
-  /// if it is not known, next() returns null once, and the ending stays open.
+  /// Sets a function that is called before each object with the number of objects before it. If it answers no, the
+  /// reading ends as corrupt; if the answer is not known, next() returns null once, and the ending stays open.
   void ask(std::function<SandboxedReader::Answer(std::uint64_t)> may_read_after) {
     may_read_after_ = std::move(may_read_after);
   }
 
-  /// Null at the end, of whatever kind.
+  /// The next object; null at the end, of whatever kind.
   mrpt::serialization::CSerializable::Ptr next();
 
   Ending ending() const { return ending_; }
-  /// One sentence that names file and place; empty if all is well.
+  /// For the user: file, place and remedy; empty if all is well.
   const std::string& message() const { return message_; }
   const std::string& unregisteredClass() const { return unregistered_class_; }
-  /// Whether the first object had a header that can be one.
+  /// Whether the first object had a valid header.
   bool sawHeader() const { return saw_header_; }
   std::uint64_t objects() const { return objects_; }
   /// Uncompressed bytes up to the end of the last whole object.

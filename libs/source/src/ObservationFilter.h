@@ -6,16 +6,17 @@
 
 namespace omnimapper::source {
 
-/// Which observations are wanted: by sensor label and by time.
+/// Selects observations by sensor label and time.
 class ObservationFilter {
  public:
   explicit ObservationFilter(const SourceOptions& options);
 
-  /// What start_s and end_s count from, unless that is 1970.
+  /// Sets the time from which start_s and end_s are counted, unless that is 1970.
   void setLogStart(base::Stamp log_start);
   bool knowsLogStart() const { return !is_relative_ || base::isValid(log_start_); }
 
-  /// Without a stamp it is wanted only where no time is set. A motion is wanted if its whole span is.
+  /// Whether the observation is selected. One without a stamp is selected only if no time is set; a motion only if its
+  /// whole span is within the times.
   bool wants(const mrpt::obs::CObservation& observation) const;
   bool isAfterTheEnd(const mrpt::obs::CObservation& observation) const;
 

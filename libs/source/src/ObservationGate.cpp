@@ -9,7 +9,7 @@ using namespace mrpt::obs;
 
 namespace {
 
-// Columns and rows of a depth image.
+// Columns and rows of a depth image; none for other observations.
 std::optional<std::pair<std::size_t, std::size_t>> sizeOf(const CObservation& observation) {
   const auto* image = dynamic_cast<const CObservation3DRangeScan*>(&observation);
   if (image && image->hasRangeImage)
@@ -23,11 +23,11 @@ std::optional<std::pair<std::size_t, std::size_t>> sizeOf(const CObservation& ob
 std::optional<std::string> ObservationGate::refuses(const CObservation& observation) {
   if (auto reason = whyUnusable(observation)) return reason;
   const auto size = sizeOf(observation);
-  if (size && isOdd(observation, *size)) return "their size is not that of the sensor's others";
+  if (size && isOdd(observation, *size)) return "their size is not that of the sensor's other images";
   return std::nullopt;
 }
 
-// A sensor that is set to another size gives this one from then on: half of the newest, and it is the sensor's.
+// A sensor may be set to another size: that becomes its size once half of the newest images have it.
 bool ObservationGate::isOdd(const CObservation& observation, const Size& size) {
   constexpr std::size_t kRemembered = 10;
   auto& sizes = sizes_[observation.GetRuntimeClass()][observation.sensorLabel];

@@ -29,7 +29,7 @@ struct Header {
 };
 
 [[noreturn]] void refusePcd(const std::string& path, const std::string& reason) {
-  throw base::Error(base::ExitCode::unreadable_input, path + ": is no PCD file that can be read: " + reason);
+  throw base::Error(base::ExitCode::unreadable_input, path + ": cannot be read as a PCD file: " + reason);
 }
 
 template <class Set>
@@ -61,28 +61,29 @@ void readHeaderLine(const std::string& text, Header& header) {
 Header readHeader(std::istream& in, const std::string& path) {
   Header header;
   for (std::string line; header.data.empty() && std::getline(in, line);) readHeaderLine(line, header);
-  if (header.data.empty()) refusePcd(path, "it has no line DATA");
+  if (header.data.empty()) refusePcd(path, "its header has no line DATA");
   for (Field& field : header.fields) {
     field.offset = header.row;
     const bool is_known = field.type == 'F' ? field.size == 4 || field.size == 8 : field.size <= 8;
-    if (!is_known || field.count > kLongestRow) refusePcd(path, "its field " + field.name + " has no known size");
+    if (!is_known || field.count > kLongestRow)
+      refusePcd(path, "the type and size of its field " + field.name + " are not known");
     header.row += field.bytes();
   }
-  if (header.row > kLongestRow) refusePcd(path, "its points are too large");
+  if (header.row > kLongestRow) refusePcd(path, "its points have more than 1024 bytes each");
   const bool fits =
       header.width <= kMostPoints && header.height <= kMostPoints && header.width * header.height <= kMostPoints;
-  if (!fits) refusePcd(path, "it has too many points");
+  if (!fits) refusePcd(path, "it has more than 16777216 points");
   header.points = header.width * header.height;
   return header;
 }
 
-// LZF, by M. Lehmann: a byte below 32 says how many bytes to take as they are, any other how many of those before to
-// repeat, from how far back.
+// LZF, by M. Lehmann: a control byte below 32 gives the number of literal bytes that follow, any other the length and
+// the distance of earlier output that is repeated.
 std::string decompressed(const std::string& from, std::size_t size, const std::string& path) {
-  std::string to;  // grows as data comes: the size is only what the header claims
+  std::string to;  // grows with the data, as the size that the header states may be wrong
   std::size_t i = 0;
   const auto next = [&] {
-    if (i >= from.size()) refusePcd(path, "its data ends too early");
+    if (i >= from.size()) refusePcd(path, "its data ends too early; copy it again");
     return static_cast<std::size_t>(static_cast<unsigned char>(from[i++]));
   };
   while (to.size() < size && i < from.size()) {
@@ -94,10 +95,10 @@ std::string decompressed(const std::string& from, std::size_t size, const std::s
     std::size_t length = control >> 5;
     if (length == 7) length += next();
     const std::size_t back = ((control & 31) << 8) + next() + 1;
-    if (back > to.size()) refusePcd(path, "its data is damaged");
+    if (back > to.size()) refusePcd(path, "its data is damaged; copy it again");
     for (std::size_t k = 0; k < length + 2; ++k) to.push_back(to[to.size() - back]);
   }
-  if (to.size() != size) refusePcd(path, "its data is damaged");
+  if (to.size() != size) refusePcd(path, "its data is damaged; copy it again");
   return to;
 }
 
@@ -115,19 +116,19 @@ class Numbers {
     if (header.data == "binary_compressed") {
       field_by_field_ = true;
       const std::uint32_t compressed = readCount(in), whole = readCount(in);
-      if (whole != size) refusePcd(path, "its data is not as large as its points");
+      if (whole != size) refusePcd(path, "the size of its data is not that of its points");
       bytes_ = decompressed(rest(in, compressed), size, path);
     } else if (header.data == "binary") {
       bytes_ = rest(in, size);
     } else if (header.data == "ascii") {
       readText(in);
     } else {
-      refusePcd(path, "its data is '" + header.data + "'");
+      refusePcd(path, "its data is '" + header.data + "', where ascii, binary or binary_compressed is expected");
     }
-    if (bytes_.size() < size) refusePcd(path, "its data ends too early");
+    if (bytes_.size() < size) refusePcd(path, "its data ends too early; copy it again");
   }
 
-  /// Of the field's first number, whatever its type.
+  /// The first number of a field, whatever its type.
   template <class Number>
   Number at(const Field& field, std::size_t point) const {
     const char* from = bytes_.data() + (field_by_field_ ? field.offset * header_.points + point * field.bytes()
@@ -141,7 +142,7 @@ class Numbers {
     std::memcpy(&whole, from, field.size);
     return static_cast<Number>(whole);
   }
-  /// The bits of a number of 4 bytes: colours hide in those of a float.
+  /// The bits of a number of 4 bytes; PCL stores colours in the bits of a float.
   std::uint32_t bitsAt(const Field& field, std::size_t point) const {
     if (field.type != 'F') return at<std::uint32_t>(field, point);
     const auto number = at<float>(field, point);
@@ -171,7 +172,7 @@ class Numbers {
     }
   }
 
-  // A number that is none, or is beyond 64 bits, is 0 where whole ones are wanted.
+  // The number as an integer; 0 if it is not finite or does not fit into 64 bits.
   static std::int64_t wholeOf(double number) {
     constexpr double kMost = 9223372036854775808.0;
     return number >= -kMost && number < kMost ? static_cast<std::int64_t>(number) : 0;
@@ -212,7 +213,7 @@ PcdCloud readPcd(const std::string& path) {
   auto in = base::openInput(path, "PCD file");
   const Header header = readHeader(in, path);
   const Field *x = fieldNamed(header, {"x"}), *y = fieldNamed(header, {"y"}), *z = fieldNamed(header, {"z"});
-  if (x == nullptr || y == nullptr || z == nullptr) refusePcd(path, "it lacks x, y or z");
+  if (x == nullptr || y == nullptr || z == nullptr) refusePcd(path, "it lacks a field x, y or z");
   const Field *rgb = fieldNamed(header, {"rgb", "rgba"}), *label = fieldNamed(header, {"label"});
   const Numbers numbers(in, header, path);
   PcdCloud cloud;

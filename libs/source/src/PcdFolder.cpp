@@ -14,13 +14,13 @@ namespace omnimapper::source {
 namespace {
 
 constexpr double kUnit = 1e-4;              // [m]
-constexpr double kPixelsFromTheRay = 0.25;  // a pinhole camera's points lie on the rays of their pixels
+constexpr double kPixelsFromTheRay = 0.25;  // [px] largest root mean square of points from the rays of their pixels
 
 bool isPcd(const std::string& file) {
   return std::filesystem::path(file).extension() == ".pcd";
 }
 
-/// pixel = focal * slope + middle, by least squares over points.
+/// Least-squares fit of pixel = focal * slope + middle over points.
 struct Axis {
   double n = 0, s = 0, p = 0, ss = 0, sp = 0, pp = 0;
   void add(double slope, double pixel) {
@@ -52,7 +52,10 @@ mrpt::img::TCamera cameraOf(const PcdCloud& cloud, const std::string& name) {
   }
   const bool fits = across.n > 2 && across.focal() > 0 && down.focal() > 0 && across.rms() < kPixelsFromTheRay &&
                     down.rms() < kPixelsFromTheRay;
-  if (!fits) refuse(name, "its points do not lie as a pinhole camera sees them, z forward and y down");
+  if (!fits)
+    refuse(name,
+           "its points do not lie on the rays of a pinhole camera with z forward and y down; with HEIGHT 1 it would be "
+           "imported as a cloud");
   mrpt::img::TCamera camera;
   camera.setIntrinsicParamsFromValues(across.focal(), down.focal(), across.middle(), down.middle());
   camera.ncols = static_cast<std::uint32_t>(cloud.width);

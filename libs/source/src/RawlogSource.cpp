@@ -28,7 +28,7 @@ using mrpt::obs::CObservation;
 
 namespace {
 
-// With so many observations in a row after the wanted time, nothing wanted follows.
+// After so many observations in a row beyond the end of the wanted time, the rest of the log is not read.
 constexpr int kEnoughAfterTheEnd = 1000;
 
 std::string registeringClasses(const std::string& path) {
@@ -46,7 +46,8 @@ base::Stamp stampOf(const mrpt::obs::CSensoryFrame& frame) {
   return latest;
 }
 
-// What will be done with each object, as far as it depends on what is in it.
+// What is done with each object, as far as it depends on its content. The child process does it first, in case it
+// crashes.
 void useOnce(mrpt::serialization::CSerializable& object) {
   if (const auto* actions = dynamic_cast<const mrpt::obs::CActionCollection*>(&object))
     for (const auto& action : *actions) motionOf(action.get_ptr());
@@ -74,7 +75,7 @@ class RawlogSource::Stream {
  public:
   Stream(const std::string& path, const SourceOptions& options, const StopOpening& stop)
       : reader_(registeringClasses(path)),
-        trial_(path, useOnce),
+        sandbox_(path, useOnce),
         spans_(options.action_span, options.action_label),
         steps_(options.step),
         filter_(options),
@@ -82,7 +83,7 @@ class RawlogSource::Stream {
     bool stopped = false;
     stop_waiting_ = [&] { return stopped = stopped || (stop && stop()); };
     if (!stop_waiting_()) {
-      reader_.ask([this](std::uint64_t objects) { return trial_.mayReadAfter(objects, stop_waiting_); });
+      reader_.ask([this](std::uint64_t objects) { return sandbox_.mayReadAfter(objects, stop_waiting_); });
     }
     while (!stopped && waiting_.empty() && readObject()) {
     }
@@ -91,7 +92,8 @@ class RawlogSource::Stream {
     if (reader_.objects() == 0 && !reader_.sawHeader() && reader_.ending() != ObjectReader::Ending::complete)
       refuse(describeInput(path));
     if (waiting_.empty() && reader_.objects() > 0 && rawlog_objects_ == 0)
-      refuse("holds an object of class " + report_.other_objects.begin()->first + " and nothing a rawlog is made of.");
+      refuse("is no rawlog: it holds an object of class " + report_.other_objects.begin()->first +
+             ", but no observation, action or sensory frame.");
   }
 
   CObservation::Ptr next() {
@@ -139,7 +141,7 @@ class RawlogSource::Stream {
     throw base::Error(base::ExitCode::unreadable_input, reader_.file().path() + ": " + reason);
   }
 
-  // Puts what the next object holds into waiting_. False at the end.
+  // Appends the observations of the next object to waiting_. Returns false at the end.
   bool readObject() {
     const auto object = reader_.next();
     if (!object) {
@@ -200,8 +202,8 @@ class RawlogSource::Stream {
   }
 
   ObjectReader reader_;
-  SandboxedReader trial_;
-  std::function<bool()> stop_waiting_;  // for the trial
+  SandboxedReader sandbox_;
+  std::function<bool()> stop_waiting_;  // ends the wait for the child process
   std::atomic<bool> interrupted_{false};
   ActionSpans spans_;
   StepClock steps_;
@@ -211,7 +213,7 @@ class RawlogSource::Stream {
   std::deque<CObservation::Ptr> waiting_;
   SourceReport report_;
   std::uint64_t rawlog_objects_ = 0;
-  int after_the_end_ = 0;  // observations in a row that were after the wanted time
+  int after_the_end_ = 0;  // number of observations in a row after the wanted time
   bool is_over_ = false;   // everything wanted has been read
 };
 

@@ -27,7 +27,7 @@ struct Digest {
 };
 
 std::string systemReason() {
-  return errno ? std::strerror(errno) : "unknown reason";
+  return errno ? std::strerror(errno) : "for an unknown reason";
 }
 
 class GzipArchive : public mrpt::serialization::CArchive {
@@ -70,7 +70,8 @@ Digest digestOf(const std::string& path) {
   std::vector<char> buffer(1 << 17);
   while (file.ending() == CompressedFile::Ending::open)
     digest.add(buffer.data(), file.read(buffer.data(), buffer.size()));
-  if (file.ending() != CompressedFile::Ending::end) throw std::runtime_error("read back: " + file.problem());
+  if (file.ending() != CompressedFile::Ending::end)
+    throw std::runtime_error("it cannot be read back: " + file.problem());
   return digest;
 }
 
@@ -93,7 +94,7 @@ void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&
     archive.close();
     const Digest written = archive.digest(), read = digestOf(temporary);
     if (read.size != written.size || read.crc != written.crc)
-      throw std::runtime_error("what is read back is not what was written");
+      throw std::runtime_error("its content differs from what was written when it is read back");
   });
 }
 

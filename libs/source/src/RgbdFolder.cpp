@@ -31,9 +31,9 @@ struct Intrinsics {
   std::array<double, 5> lens = {};  // k1, k2, p1, p2, k3 of OpenCV's and MRPT's model
 };
 
-// Freiburg: the TUM RGB-D benchmark's own calibration of its three cameras; the third's images are straightened.
-// ICL-NUIM tells fy = -480 for an image whose y runs up; its files run down as all others. 7-Scenes: as its authors
-// tell. OpenNI's default.
+// Freiburg: the TUM RGB-D benchmark's own calibration of its three cameras; images of the third are undistorted.
+// ICL-NUIM states fy = -480 for images with y up, but in its files y is down as in all others. 7-Scenes: as stated by
+// its authors. OpenNI: its default.
 const std::map<std::string, Intrinsics>& knownIntrinsics() {
   static const std::map<std::string, Intrinsics> known{
       {"freiburg1", {517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}}},
@@ -45,7 +45,7 @@ const std::map<std::string, Intrinsics>& knownIntrinsics() {
   return known;
 }
 
-// The number behind "fx:", "fx =" or "\"fx\":" in a text.
+// The number after "fx:", "fx =" or "\"fx\":" in a text; none if there is none.
 std::optional<double> numberNamed(const std::string& name, const std::string& text) {
   const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
@@ -86,8 +86,8 @@ Intrinsics readIntrinsics(const std::string& path) {
 Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
   if (name.empty()) {
     refuse(folder,
-           "does not tell which camera took its images; name it (--intrinsics freiburg1, ..., or a file with fx, "
-           "fy, cx, cy)");
+           "does not show which camera took its images; name the camera with --intrinsics (freiburg1, ..., or a file "
+           "with fx, fy, cx, cy)");
   }
   const auto known = knownIntrinsics().find(name);
   return known != knownIntrinsics().end() ? known->second : readIntrinsics(name);
@@ -186,7 +186,7 @@ std::optional<geometry::Se3> RgbdFolder::truthAt(base::Stamp stamp, double toler
 }
 
 std::optional<double> RgbdFolder::medianDepth() const {
-  // 0 is no depth; neither is the largest value, which 7-Scenes has for it.
+  // 0 means no depth; so does the largest value in 7-Scenes.
   const auto first = depth_counts_.begin() + 1, last = depth_counts_.end() - 1;
   const std::uint64_t all = std::accumulate(first, last, std::uint64_t{0});
   if (all == 0) return std::nullopt;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A list of "stamp ..." lines; '#' begins a comment.
+/// Reads a list of "stamp ..." lines; '#' begins a comment.
 std::vector<std::pair<base::Stamp, std::string>> readList(const fs::path& path) {
   auto in = base::openInput(path);
   std::vector<std::pair<base::Stamp, std::string>> list;
@@ -45,7 +45,7 @@ geometry::Se3 parsePose(const std::string& text, const fs::path& path) {
     if (!(in >> value)) refuse(path, "'" + text + "' is no pose x y z qx qy qz qw");
   }
   const Eigen::Quaterniond rotation(v[6], v[3], v[4], v[5]);
-  if (!(rotation.norm() > 0.5)) refuse(path, "'" + text + "' has no unit quaternion");
+  if (!(rotation.norm() > 0.5)) refuse(path, "'" + text + "' has no unit quaternion qx qy qz qw at its end");
   return {rotation.normalized(), {v[0], v[1], v[2]}};
 }
 
@@ -57,8 +57,8 @@ std::vector<std::pair<base::Stamp, geometry::Se3>> readPoses(const fs::path& pat
 
 using Image = std::pair<base::Stamp, std::string>;
 
-/// Each depth image takes the nearest colour image; a colour image serves the nearest depth image alone. What finds
-/// none stays without colour.
+/// Pairs each depth image with the colour image nearest in time. A colour image is paired with its nearest depth image
+/// only; the others stay without colour.
 std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image>& depths,
                                  const std::vector<Image>& colours, double largest_difference) {
   struct Candidate {
@@ -87,8 +87,8 @@ std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image
   return pairs;
 }
 
-// Whether a folder's path has it as a word, beside letters of neither side, and a number whole: there is no "icl" in
-// "vehicles" or "iclr", and no "fr1" in "fr12".
+// Whether a folder's path contains `word` as a whole word, with no letter beside it and no digit beside its number:
+// "vehicles" and "iclr" do not contain "icl", and "fr12" does not contain "fr1".
 bool hasWord(const fs::path& folder, const std::string& word) {
   const std::string name = fs::absolute(folder).lexically_normal().string();
   const auto goesOn = [](char inside, char beside) {
@@ -111,7 +111,7 @@ std::string freiburgOf(const fs::path& folder) {
       if (hasWord(folder, word + std::string(1, number))) return std::string("freiburg") + number;
     }
   }
-  // Renamed, it still says so in the first lines of its lists: "# file: 'rgbd_dataset_freiburg1_rpy.bag'".
+  // A renamed folder still names the camera at the top of its lists: "# file: 'rgbd_dataset_freiburg1_rpy.bag'".
   std::ifstream list(folder / "depth.txt");
   constexpr int kHeading = 3;
   std::string line;
@@ -134,7 +134,7 @@ RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& optio
     content.world_from_optical = readPoses(key_frame_poses);
     const auto& known = content.world_from_optical;
     if (known.size() != depths.size() || known.size() != colours.size())
-      refuse(key_frame_poses, "has another number of lines than depth.txt and rgb.txt");
+      refuse(key_frame_poses, "must have as many lines as depth.txt and rgb.txt, one for each image");
     for (std::size_t i = 0; i < known.size(); ++i) depths[i].first = colours[i].first = known[i].first;
   }
   content.pairs = pairImages(folder, depths, colours, options.largest_difference);
@@ -142,7 +142,7 @@ RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& optio
   return content;
 }
 
-// Of names that are numbers, 2 comes before 10.
+// Sorts names that are numbers by their value: 2 before 10.
 struct ByNumber {
   bool operator()(const std::string& a, const std::string& b) const {
     const auto isNumber = [](const std::string& name) {
@@ -168,7 +168,7 @@ std::map<std::string, std::string, ByNumber> filesByStem(const fs::path& folder)
 }
 
 base::Stamp stampOfImage(std::size_t index, const RgbdFolderOptions& options) {
-  constexpr double kFirst = 1e9;  // [s] some moment: there is no other
+  constexpr double kFirst = 1e9;  // [s] an arbitrary time, as the images have none
   return base::stampFromUnix(kFirst) + base::durationFromSeconds(static_cast<double>(index) / options.rate);
 }
 
@@ -185,8 +185,8 @@ RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions
   }
   if (std::all_of(content.pairs.begin(), content.pairs.end(), [](const auto& pair) { return pair.colour.empty(); })) {
     refuse(folder,
-           "no image of depth/ has the name of one of rgb/ or image/; of a TUM RGB-D folder, whose images are named by "
-           "their stamps, depth.txt and rgb.txt tell which belong together: are they missing?");
+           "no image in depth/ has the name of one in rgb/ or image/; in a TUM RGB-D folder, where images are named by "
+           "their stamps, depth.txt and rgb.txt list which ones belong together: are they missing?");
   }
   if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
   return content;
@@ -216,7 +216,7 @@ RgbdFolderContent readAssociations(const fs::path& path, const RgbdFolderOptions
              "line " + std::to_string(number) + " has '" + stamp + "', which is no number and no stamp in seconds");
     }
   }
-  if (content.pairs.empty()) refuse(path, "names no images");
+  if (content.pairs.empty()) refuse(path, "lists no images");
   content.usual_intrinsics = freiburgOf(folder);
   if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
   return content;
@@ -226,7 +226,7 @@ geometry::Se3 readMatrix(const fs::path& path) {
   auto in = base::openInput(path);
   Eigen::Matrix4d m;
   for (int i = 0; i < 16; ++i) {
-    if (!(in >> m(i / 4, i % 4))) refuse(path, "is no 4 x 4 matrix");
+    if (!(in >> m(i / 4, i % 4))) refuse(path, "holds no 4 x 4 matrix of a pose");
   }
   return {Eigen::Quaterniond(m.topLeftCorner<3, 3>()).normalized(), m.topRightCorner<3, 1>()};
 }
@@ -280,7 +280,7 @@ bool isRgbdFolder(const fs::path& folder) {
 RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
   std::error_code error;
   if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
-  if (!fs::is_directory(folder, error)) refuse(folder, "there is no such folder");
+  if (!fs::is_directory(folder, error)) refuse(folder, "there is no such folder; is the path right?");
   RgbdFolderContent content;
   if (fs::exists(folder / "depth.txt"))
     content = readTum(folder, options);
@@ -294,8 +294,8 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
     content = readSevenScenes(folder, options);
   else
     refuse(folder,
-           "is of no form that is known: depth.txt and rgb.txt (TUM), associations.txt, or depth/ and rgb/ or image/ "
-           "(ICL-NUIM), frame-*.depth.png (7-Scenes); it " +
+           "is no folder of RGB-D images in a known form. Known are depth.txt with rgb.txt (TUM), associations.txt, "
+           "depth/ with rgb/ or image/ (ICL-NUIM), and frame-*.depth.png (7-Scenes); it " +
                describeInput(folder));
   std::stable_sort(content.pairs.begin(), content.pairs.end(),
                    [](const RgbdPair& a, const RgbdPair& b) { return a.stamp < b.stamp; });

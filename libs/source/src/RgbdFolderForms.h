@@ -9,7 +9,7 @@
 
 namespace omnimapper::source {
 
-/// What a form of folder tells, however it tells it.
+/// Content of a folder of RGB-D images, in whatever form.
 struct RgbdFolderContent {
   std::vector<RgbdPair> pairs;  ///< in order of stamps
   std::vector<std::pair<base::Stamp, geometry::Se3>> world_from_optical;
@@ -17,7 +17,7 @@ struct RgbdFolderContent {
   double usual_depth_units = 5000;
 };
 
-/// Whether it is of one of the forms that readRgbdFolder() knows; throws nothing.
+/// Whether the folder is of one of the forms that readRgbdFolder() knows; throws nothing.
 bool isRgbdFolder(const std::filesystem::path& folder);
 
 /// Throws Error(unreadable_input).

@@ -8,22 +8,22 @@ namespace omnimapper::source {
 
 namespace {
 
-// What the child tells its parent, a byte at a time.
+// Messages of the child to its parent, one byte each.
 constexpr char kObject = 'o';     // one more object was read and used
-constexpr char kGoodOrder = 'e';  // the reading came to an end of a kind that the parent can meet itself
+constexpr char kGoodOrder = 'e';  // the log ended in a way that the parent can handle itself
 
 constexpr std::uint64_t kMemory = std::uint64_t{1} << 30;
 
 int readInChild(const std::string& path, const std::function<void(mrpt::serialization::CSerializable&)>& use,
                 int to_parent) {
-  const auto tell = [&](char what) { return ::write(to_parent, &what, 1) == 1; };
+  const auto send = [&](char what) { return ::write(to_parent, &what, 1) == 1; };
   try {
     ObjectReader reader(path);
     while (const auto object = reader.next()) {
       use(*object);
-      if (!tell(kObject)) return 1;
+      if (!send(kObject)) return 1;
     }
-    if (reader.ending() != ObjectReader::Ending::corrupt) tell(kGoodOrder);
+    if (reader.ending() != ObjectReader::Ending::corrupt) send(kGoodOrder);
   } catch (...) {
   }
   return 0;
@@ -37,15 +37,15 @@ SandboxedReader::SandboxedReader(const std::string& path,
 
 SandboxedReader::Answer SandboxedReader::mayReadAfter(std::uint64_t objects, const std::function<bool()>& stop) {
   while (objects >= objects_ && !child_.isOver()) {
-    std::string told;
-    if (!child_.hear(told, 100) && stop()) return Answer::not_known;
-    count(told);
+    std::string received;
+    if (!child_.hear(received, 100) && stop()) return Answer::not_known;
+    count(received);
   }
   return objects < objects_ || has_good_ending_ ? Answer::yes : Answer::no;
 }
 
-void SandboxedReader::count(const std::string& told) {
-  for (const char what : told) {
+void SandboxedReader::count(const std::string& received) {
+  for (const char what : received) {
     if (what == kObject) ++objects_;
     if (what == kGoodOrder) has_good_ending_ = true;
   }

@@ -68,7 +68,7 @@ base::ExitCode SourceReport::exitCode() const {
 
 std::string SourceReport::text() const {
   std::string text = toString(ending) + ": " + std::to_string(objects) + " objects, ";
-  if (bytes > 0) text += std::to_string(bytes) + " bytes uncompressed, ";  // other programs' logs have none
+  if (bytes > 0) text += std::to_string(bytes) + " bytes uncompressed, ";  // 0 for folders of files
   text += base::counted(observations(), "observation") + "\n";
   if (!message.empty()) text += message + "\n";
   if (!sensors.empty()) {
@@ -88,7 +88,7 @@ std::string SourceReport::text() const {
   }
   appendCount(text, "stamps repaired", repaired_stamps);
   appendCount(text, "observations outside of the wanted labels and times", filtered_out);
-  appendCount(text, "actions that span nothing", dropped_actions);
+  appendCount(text, "actions without a span of time", dropped_actions);
   for (const auto& [name, count] : other_objects) appendCount(text, (name + " (no observation)").c_str(), count);
   for (const auto& sentence : unusableText()) text += sentence + "\n";
   if (missing_images > 0) {

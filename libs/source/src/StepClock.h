@@ -12,8 +12,8 @@
 
 namespace omnimapper::source {
 
-/// Stamps a log anew whose clock stands still: a step each `step` seconds from the first stamp on, or from 2001. A step
-/// ends where a sensor, or an action, comes a second time.
+/// Replaces the stamps of a log whose clock stands still: one step each `step` seconds from the first stamp on, or from
+/// 2001 if there is none. A step ends when a sensor, or an action, comes a second time.
 class StepClock {
  public:
   /// With 0 all stamps stay as they are.

@@ -12,11 +12,11 @@ class TextFileLines {
   /// Throws as CompressedFile.
   explicit TextFileLines(const std::string& path) : file_(path) {}
 
-  /// The next line without its end. False at the end of the file, of whatever kind.
+  /// Reads the next line, without its line feed. Returns false at the end of the file, of whatever kind.
   bool next(std::string& line);
-  /// Whether the last line was whole: ended by a line feed and shorter than a megabyte, which no text line is.
+  /// Whether the last line was whole: ended by a line feed and shorter than a megabyte.
   bool isWhole() const { return is_whole_; }
-  /// From 1.
+  /// Number of the last line, from 1.
   std::uint64_t number() const { return number_; }
   const CompressedFile& file() const { return file_; }
 

@@ -17,7 +17,7 @@ bool beginsWith(const std::string& text, const std::string& beginning) {
 }
 
 bool isRawlog(const std::string& head) {
-  constexpr std::size_t kFirstHeader = 64;  // [bytes] the first object's class is named in them
+  constexpr std::size_t kFirstHeader = 64;  // [bytes] at the beginning, in which the first object's class is named
   return head.substr(0, kFirstHeader).find("mrpt::obs::C") != std::string::npos;
 }
 
@@ -36,25 +36,28 @@ std::string describeFile(const std::string& path) {
   CompressedFile file(path);
   std::string head(4096, '\0');
   head.resize(file.read(head.data(), head.size()));
-  if (head.empty()) return file.problem().empty() ? "is empty." : "cannot be decompressed (" + file.problem() + ").";
+  if (head.empty())
+    return file.problem().empty() ? "is empty; copy or record it again."
+                                  : "cannot be decompressed (" + file.problem() + "); copy or download it again.";
   if (isRawlog(head))
     return "is a rawlog, or the damaged beginning of one; look at it with: omnimapper-graphslam --check " + path;
-  if (beginsWith(head, "OMNIMAP")) return "is a map of OmniMapper; --continue and --localize take it.";
+  if (beginsWith(head, "OMNIMAP")) return "is a map of OmniMapper, no log; use it with --continue or --localize.";
   if (beginsWith(head, "#ROSBAG"))
     return "is a ROS bag; convert it with MRPT's rosbag2rawlog -c CONFIG.yml, which names the topics.";
   if (beginsWith(head, "SQLite format 3"))
     return "is an SQLite file, perhaps a ROS 2 bag; convert it to a rawlog first.";
-  if (beginsWith(head, "\x89PNG") || beginsWith(head, "\xff\xd8\xff")) return "is an image, no rawlog.";
+  if (beginsWith(head, "\x89PNG") || beginsWith(head, "\xff\xd8\xff"))
+    return "is an image, no rawlog; make one of a folder of images with: omnimapper-import images FOLDER OUT.rawlog";
   if (beginsWith(head, "PK\x03\x04")) return "is a ZIP archive; unpack it first.";
   if (beginsWith(head, "# .PCD"))
     return "is a PCD cloud; make a rawlog of the folder that it is in with: omnimapper-import pcd FOLDER OUT.rawlog";
-  if (!isText(head)) return "is no rawlog, or damaged from its first object on.";
+  if (!isText(head)) return "is no rawlog, or is damaged from its first object on.";
   if (isCarmen(head)) return "is a CARMEN log; make it a rawlog with: omnimapper-import carmen " + path + " OUT.rawlog";
-  if (std::filesystem::path(path).extension() == ".ini") return "is an INI file, which -i takes.";
-  return "is a text file of no kind that is known, and no rawlog.";
+  if (std::filesystem::path(path).extension() == ".ini") return "is an INI file; use it with -i.";
+  return "is a text file of unknown kind, no rawlog.";
 }
 
-/// The first by its name of the files in `folder` that end so, or "".
+/// Name of the first file in `folder`, in the order of names, that ends with `end`; "" if there is none.
 std::string firstWith(const std::string& end, const std::filesystem::path& folder) {
   std::error_code error;
   std::string first;
@@ -66,16 +69,16 @@ std::string firstWith(const std::string& end, const std::filesystem::path& folde
   return first;
 }
 
-// What is known of it, or "".
+// Description of a folder of a known kind; "" for any other.
 std::string knownFolder(const std::string& path) {
   const std::filesystem::path folder(path);
   std::error_code error;
   if (std::filesystem::exists(folder / "map.omnimap", error))
     return "is the folder of a map, no log: report.html in it shows the map, summary.json has its numbers and verdict; "
-           "--continue and --localize take it.";
+           "use the folder with --continue or --localize.";
   if (std::filesystem::exists(folder / "localization.csv", error))
-    return "is the folder of a run with --localize, neither a log nor a map; the map is in the folder that it was "
-           "given.";
+    return "is the folder of a run with --localize, neither a log nor a map; the map is in the folder that was given "
+           "to --localize.";
   if (const auto log = firstWith(".rawlog", folder); !log.empty())
     return "is a folder; a log in it is " + (folder / log).string() + ".";
   const auto import = [&](const std::string& what, const std::string& task) {

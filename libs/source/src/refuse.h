@@ -6,7 +6,7 @@
 
 namespace omnimapper::source {
 
-/// Throws base::Error: the file or folder at `path` cannot be read, and why.
+/// Throws Error(unreadable_input) that names `path` and why it cannot be read.
 [[noreturn]] inline void refuse(const std::string& path, const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, path + ": " + reason);
 }

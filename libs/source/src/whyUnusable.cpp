@@ -22,9 +22,9 @@ namespace {
 using Reason = std::optional<std::string>;
 
 constexpr const char* kNoCovariance =
-    "their covariance is not valid: it is not finite, not symmetric, or negative in a direction";
+    "their covariance is not valid: it is not finite, not symmetric, or has a negative variance in some direction";
 
-// A stored quaternion that is not of length 1 becomes a matrix that turns and stretches.
+// A stored quaternion that is not of length 1 gives a matrix that rotates and scales.
 bool isPose(const mrpt::poses::CPose3D& pose) {
   constexpr double kRounding = 1e-3;
   const Eigen::Matrix3d rotation = pose.getRotationMatrix().asEigen();
@@ -33,9 +33,9 @@ bool isPose(const mrpt::poses::CPose3D& pose) {
          rotation.determinant() > 0;
 }
 
-// Symmetric, and no variance of any direction negative, but for rounding: some are stored as float. Each entry is
-// judged in units of its row's and column's deviations, so that a large variance of one thing hides nothing of
-// another's. What is known exactly has a variance of 0.
+// Whether the matrix is symmetric and positive semidefinite up to rounding, as some are stored as float. Correlations
+// are checked, so that a large variance of one quantity hides no error of another. A quantity that is known exactly has
+// variance 0.
 bool isCovariance(const Eigen::MatrixXd& matrix) {
   constexpr double kRounding = 1e-6;
   if (!matrix.allFinite() || (matrix.diagonal().array() < 0).any()) return false;
@@ -65,7 +65,7 @@ Reason whyNot(const mrpt::img::TCamera& camera) {
 }
 
 Reason whyNot(const CObservation2DRangeScan& scan) {
-  constexpr double kWidest = 400 * M_PI / 180;  // some lasers begin their next turn before they stop
+  constexpr double kWidest = 400 * M_PI / 180;  // some lasers measure slightly more than a full turn
   if (!std::isfinite(scan.aperture)) return "their aperture is not finite";
   if (!(scan.aperture > 0) || scan.aperture > kWidest) return "their aperture is not between 0 and 400 deg";
   return std::nullopt;
@@ -81,7 +81,7 @@ Reason whyNot(const CObservation3DRangeScan& scan) {
 Reason whyNot(const CObservationBearingRange& measurement) {
   for (const auto& one : measurement.sensedData) {
     if (!std::isfinite(one.range) || !std::isfinite(one.yaw) || !std::isfinite(one.pitch))
-      return "a bearing or range of theirs is not finite";
+      return "one of their bearings or ranges is not finite";
     if (measurement.validCovariances && !isCovariance(one.covariance.asEigen())) return kNoCovariance;
   }
   return std::nullopt;
@@ -115,10 +115,10 @@ Reason whyNot(const obs::CObservationPlanes& found) {
   for (const auto& plane : found.planes) {
     const auto& [normal, distance] = plane.plane_in_sensor;
     if (!(std::abs(normal.norm() - 1) < kRounding) || !std::isfinite(distance))
-      return "a plane of theirs has no direction or no finite distance";
+      return "one of their planes has no unit normal or no finite distance";
     if (!plane.centroid.allFinite() || !isFinite(plane.outline) ||
         !std::all_of(plane.holes.begin(), plane.holes.end(), isFinite))
-      return "an outline of theirs is not finite";
+      return "one of their outlines is not finite";
     if (!isCovariance(plane.covariance)) return kNoCovariance;
   }
   return std::nullopt;
@@ -128,13 +128,13 @@ Reason whyNot(const obs::CObservationLaserLines& found) {
   for (const auto& line : found.lines) {
     const auto& [from, to] = line.segment_in_sensor;
     if (!from.allFinite() || !to.allFinite() || !std::isfinite(line.angle) || !std::isfinite(line.distance))
-      return "a line of theirs is not finite";
+      return "one of their lines is not finite";
     if (!isCovariance(line.covariance)) return kNoCovariance;
   }
   return std::nullopt;
 }
 
-// Asks it as a `Class` if it is one.
+// whyNot() of the observation as a `Class`; none if it is of another class.
 template <class Class>
 Reason whyNotAs(const CObservation& observation) {
   const auto* it = dynamic_cast<const Class*>(&observation);

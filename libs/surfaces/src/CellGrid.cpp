@@ -12,11 +12,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Adds where the edges of a closed walk cross the middles of rows: crossings[i] are columns in row first_row + i.
-void addCrossings(const std::vector<Vector2d>& walk, int first_row, std::vector<std::vector<double>>& crossings) {
+// Adds the columns at which the edges of a closed polygon cross the middles of rows; crossings[i] is of row
+// first_row + i.
+void addCrossings(const std::vector<Vector2d>& polygon, int first_row, std::vector<std::vector<double>>& crossings) {
   const double last = first_row + static_cast<double>(crossings.size()) - 1;
-  for (std::size_t i = 0; i < walk.size(); ++i) {
-    const Vector2d &a = walk[i], &b = walk[(i + 1) % walk.size()];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double from = std::max(first_row + 0.0, std::floor(std::min(a.y(), b.y()) - 0.5));
     const double to = std::min(last, std::ceil(std::max(a.y(), b.y()) - 0.5));
     for (double row = from; row <= to; ++row) {
@@ -36,13 +37,13 @@ CellGrid::CellGrid(const Vector3d& origin, const Vector3d& u, const Vector3d& v,
   constexpr double kMostCells = 1e8;
   if (!(cell > 0) || columns < 0 || rows < 0 || columns > kMost || rows > kMost ||
       static_cast<double>(columns) * rows > kMostCells)
-    throw std::invalid_argument("a grid of cells of no size, or of too many");
+    throw std::invalid_argument("a grid needs cells of a positive size, and at most 100 million");
   cells_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
 }
 
 CellGrid CellGrid::around(const geometry::Plane3& plane, const std::vector<Vector3d>& points, double cell) {
   if (points.empty()) return {};
-  constexpr double kLevel = 0.9;  // of the normal's height
+  constexpr double kLevel = 0.9;  // z of the normal of a level plane
   const Vector3d& normal = plane.normal;
   const Vector3d u = std::abs(normal.z()) > kLevel ? Vector3d::UnitY().cross(normal).normalized()
                                                    : Vector3d::UnitZ().cross(normal).normalized();
@@ -53,10 +54,10 @@ CellGrid CellGrid::around(const geometry::Plane3& plane, const std::vector<Vecto
     low = low.cwiseMin(at);
     high = high.cwiseMax(at);
   }
-  // Grids of one plane have their cells in the same places.
+  // Aligned to multiples of the cell size, so that grids of one plane have their cells in the same places.
   low = (low / cell).array().floor() * cell;
   const Vector2d count = ((high - low) / cell).array().ceil().max(1);
-  if (!(count.maxCoeff() < 1e6)) throw std::invalid_argument("a grid of too many cells");
+  if (!(count.maxCoeff() < 1e6)) throw std::invalid_argument("it would have too many cells");
   return {-plane.distance * normal + low.x() * u + low.y() * v,
           u,
           v,
@@ -100,26 +101,26 @@ Vector3d CellGrid::middleOf(Cell cell) const {
 }
 
 void CellGrid::fill(const std::vector<Vector3d>& outline, const std::vector<std::vector<Vector3d>>& holes) {
-  // In cells, so that the middle of cell i is at i + 0.5.
-  const auto flat = [&](const std::vector<Vector3d>& walk) {
+  // The polygon in units of cells, so that the middle of cell i is at i + 0.5.
+  const auto flat = [&](const std::vector<Vector3d>& polygon) {
     std::vector<Vector2d> result;
-    for (const Vector3d& point : walk)
+    for (const Vector3d& point : polygon)
       result.emplace_back(u_.dot(point - origin_) / cell_, v_.dot(point - origin_) / cell_);
     return result;
   };
-  // What is not finite, or would not be in whole cells, covers nothing.
-  const auto isSomewhere = [](const std::vector<Vector2d>& walk) {
+  // A polygon that is not finite, or too far away to be counted in cells, covers nothing.
+  const auto isSomewhere = [](const std::vector<Vector2d>& polygon) {
     constexpr double kFarthest = 1e9;  // cells
-    return std::all_of(walk.begin(), walk.end(), [](const Vector2d& point) {
+    return std::all_of(polygon.begin(), polygon.end(), [](const Vector2d& point) {
       return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthest;
     });
   };
-  std::vector<std::vector<Vector2d>> walks{flat(outline)};
-  if (!isSomewhere(walks.front())) return;
+  std::vector<std::vector<Vector2d>> polygons{flat(outline)};
+  if (!isSomewhere(polygons.front())) return;
   for (const auto& hole : holes)
-    if (auto walk = flat(hole); isSomewhere(walk)) walks.push_back(std::move(walk));
+    if (auto polygon = flat(hole); isSomewhere(polygon)) polygons.push_back(std::move(polygon));
   double low = rows_, high = 0;
-  for (const Vector2d& point : walks.front()) {
+  for (const Vector2d& point : polygons.front()) {
     low = std::min(low, point.y());
     high = std::max(high, point.y());
   }
@@ -127,7 +128,7 @@ void CellGrid::fill(const std::vector<Vector3d>& outline, const std::vector<std:
   const int end_row = static_cast<int>(std::min(rows_ + 0.0, high + 1));
   if (first_row >= end_row) return;
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(end_row - first_row));
-  for (const auto& walk : walks) addCrossings(walk, first_row, crossings);
+  for (const auto& polygon : polygons) addCrossings(polygon, first_row, crossings);
   for (int row = first_row; row < end_row; ++row) {
     auto& of_row = crossings[static_cast<std::size_t>(row - first_row)];
     std::sort(of_row.begin(), of_row.end());

@@ -13,9 +13,9 @@ namespace omnimapper::surfaces {
 namespace {
 
 constexpr std::size_t kNeighbours = 5;
-constexpr double kAlike = 4;  // what is farther away is not alike at all
+constexpr double kAlike = 4;  // largest distance of a similar example
 
-/// Facts on scales on which a difference of 1 is about what two views of one thing differ by.
+/// Facts scaled so that two views of one surface differ by about 1 in each.
 using Scaled = std::array<double, 16>;
 
 Scaled scaled(const SurfaceFacts& facts) {
@@ -54,20 +54,20 @@ std::string textOf(const SurfaceFacts& facts, const Votes& votes) {
   char text[160];
   if (facts.lie == Lie::upright) {
     std::snprintf(text, sizeof text, "upright from %.2f to %.2f m above the floor, %.2f m wide%s%s%s", facts.bottom,
-                  facts.top, facts.longer, facts.before_wall > 0 ? ", close before a wall" : "",
-                  facts.is_at_bed    ? ", at a bed"
-                  : facts.is_at_seat ? ", at a seat"
+                  facts.top, facts.longer, facts.before_wall > 0 ? ", close in front of a wall" : "",
+                  facts.is_at_bed    ? ", beside a bed"
+                  : facts.is_at_seat ? ", beside a seat"
                                      : "",
                   facts.has_outer_corner ? ", a side of a box" : "");
   } else {
     std::snprintf(text, sizeof text, "%s, %.2f m above the floor, %.2f by %.2f m",
                   facts.lie == Lie::up     ? "level"
-                  : facts.lie == Lie::down ? "level from below"
-                                           : "leaning",
+                  : facts.lie == Lie::down ? "facing down"
+                                           : "tilted",
                   (facts.bottom + facts.top) / 2, facts.longer, facts.shorter);
   }
   std::string reason = text;
-  if (votes.empty()) reason += ": like nothing that is known";
+  if (votes.empty()) reason += ": similar to no known example";
   for (std::size_t i = 0; i < votes.size() && i < 2 && votes[i].first >= 0.01; ++i) {
     std::snprintf(text, sizeof text, "%s%s %.2f", i == 0 ? ": " : ", ", toString(votes[i].second).c_str(),
                   votes[i].first);
@@ -76,7 +76,7 @@ std::string textOf(const SurfaceFacts& facts, const Votes& votes) {
   return reason;
 }
 
-/// Examples ready to be compared with.
+/// Examples prepared for the comparison with surfaces.
 class Voters {
  public:
   explicit Voters(const std::vector<Example>& examples) {

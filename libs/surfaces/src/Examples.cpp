@@ -89,7 +89,7 @@ Example exampleOf(std::string_view line, const std::string& place) {
   Example example;
   const std::string name = cells.text(), lie = cells.text();
   const auto is = surfaceClassNamed(name);
-  if (!is) cells.fail("'" + name + "' is no class of surfaces");
+  if (!is) cells.fail("'" + name + "' is no class of surfaces, such as wall or table");
   example.is = *is;
   const auto found = std::find(kLies.begin(), kLies.end(), lie);
   if (found == kLies.end()) cells.fail("'" + lie + "' is not up, down, upright or leaning");

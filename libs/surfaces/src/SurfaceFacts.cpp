@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 Lie lieOf(const geometry::Plane3& plane) {
-  constexpr double kLevel = 0.95, kUpright = 0.2;  // of the normal's height
+  constexpr double kLevel = 0.95, kUpright = 0.2;  // z of the normal
   const double up = plane.normal.z();
   return up > kLevel ? Lie::up : up < -kLevel ? Lie::down : std::abs(up) < kUpright ? Lie::upright : Lie::leaning;
 }
@@ -22,15 +22,15 @@ Vector2d alongFloor(const geometry::Plane3& plane) {
   return Vector2d(-plane.normal.y(), plane.normal.x()).normalized();
 }
 
-// A corner that sticks out, as where a view mixed two surfaces, has little area: between the directions' quantiles lies
-// all but one part in thirty of the surface at either end.
+// Range of the values without one in thirty at either end, extended by what an even distribution has there. A corner
+// that sticks out, for example where a view mixed two surfaces, has little area and does not change it.
 constexpr double kOutlying = 1.0 / 30;
 Vector2d quantiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto last = static_cast<double>(values.size() - 1);
   const double low = values[static_cast<std::size_t>(kOutlying * last)],
                high = values[static_cast<std::size_t>((1 - kOutlying) * last)];
-  const double beyond = (high - low) * kOutlying / (1 - 2 * kOutlying);  // what an even distribution has there
+  const double beyond = (high - low) * kOutlying / (1 - 2 * kOutlying);  // length that an even distribution has there
   return {low - beyond, high + beyond};
 }
 
@@ -64,7 +64,7 @@ Vector3d onFloor(const Vector2d& direction) {
   return {direction.x(), direction.y(), 0};
 }
 
-// Of the least rectangle around it from above, longer side first.
+// Sides of the smallest rectangle around the cells as seen from above, longer side first.
 Vector2d leastRectangle(const std::vector<Vector3d>& cells) {
   constexpr int kDirections = 18;
   Vector2d best(1e300, 1e300);
@@ -106,7 +106,8 @@ SurfaceFacts factsOf(const Surface& surface, double floor) {
   return facts;
 }
 
-// How far behind a surface a wall is, or what might be one, that goes on beside or above it; 0 where it is none or far.
+// Distance of `behind`, if it may be a wall behind the surface that continues beside or above it; 0 if it is none or
+// far.
 double wallBehind(const Surface& surface, const SurfaceFacts& facts, const Surface& behind,
                   const SurfaceFacts& of_behind) {
   constexpr double kNear = 0.12, kFar = 0.95, kBeside = 0.5, kLow = 0.4, kLeastWall = 1;  // [m]
@@ -128,22 +129,22 @@ bool isBed(const SurfaceFacts& facts) {
   return isLow(facts) && facts.longer > 1.75 && facts.shorter > 0.75;
 }
 
-constexpr double kTouch = 0.12;  // [m] edges of things that touch are seen so far apart
+constexpr double kTouch = 0.12;  // [m] largest distance at which edges of touching surfaces are seen
 
 bool overlapInHeight(const SurfaceFacts& a, const SurfaceFacts& b) {
   return a.bottom < b.top + kTouch && b.bottom < a.top + kTouch;
 }
 
-// Upright `side` meets upright `facts` at one of its ends.
+// Whether upright `side` meets the upright surface at one of its ends.
 bool meetAtEnd(const Surface& surface, const SurfaceFacts& facts, const Surface& side, const SurfaceFacts& of_side) {
-  constexpr double kAcross = 0.3;  // cosine of the turn between them
+  constexpr double kAcross = 0.3;  // largest cosine of the angle between their normals
   if (of_side.lie != Lie::upright || std::abs(side.plane.normal.dot(surface.plane.normal)) > kAcross) return false;
   const Vector2d along = alongFloor(surface.plane);
-  const double at = along.dot(of_side.middle.head<2>());  // as far as it is across, it is all there
+  const double at = along.dot(of_side.middle.head<2>());  // as it is nearly at right angles, all of it is there
   return std::min(std::abs(at - facts.along.x()), std::abs(at - facts.along.y())) < 2 * kTouch;
 }
 
-// What touches an upright surface.
+// Adds the facts about a surface that touches it.
 void addTouching(const Surface& surface, const Surface& other, const SurfaceFacts& of_other, SurfaceFacts& facts) {
   constexpr double kHighestSeat = 0.53;  // [m]
   if (isLow(of_other)) {
@@ -166,10 +167,10 @@ void addTouching(const Surface& surface, const Surface& other, const SurfaceFact
   facts.has_inner_corner = facts.has_inner_corner || (!is_behind && !is_seen_behind);
 }
 
-// Whether another upright surface is near on the same plane, as stretches of one wall are beside a door.
+// Whether another upright surface is near and on the same plane, as parts of one wall on both sides of a door.
 bool liesOnPlane(const Surface& surface, const SurfaceFacts& facts, const Surface& other,
                  const SurfaceFacts& of_other) {
-  constexpr double kAlong = 0.99, kOff = 0.06, kFar = 2;  // cosine of the turn, [m], [m]
+  constexpr double kAlong = 0.99, kOff = 0.06, kFar = 2;  // cosine of the angle between normals, [m], [m]
   return of_other.lie == Lie::upright && surface.plane.normal.dot(other.plane.normal) > kAlong &&
          std::abs(signedDistance(surface.plane, of_other.middle)) < kOff &&
          of_other.along.x() < facts.along.y() + kFar && of_other.along.y() > facts.along.x() - kFar;

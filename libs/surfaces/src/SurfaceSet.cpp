@@ -18,7 +18,7 @@ constexpr char kFormat[] = "omnimapper surfaces 1";
 const std::array<const char*, 3> kOpeningKinds{"door", "passage", "window"};
 const std::array<const char*, 3> kLeaves{"none", "open", "closed"};
 
-// To the tenth of a millimetre: no surface is known better.
+// Rounded to the tenth of a millimetre, as no surface is known better.
 Json toJson(const Vector3d& point) {
   const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4 + 0.0; };
   return {rounded(point.x()), rounded(point.y()), rounded(point.z())};
@@ -29,13 +29,13 @@ Json exactJson(const Vector3d& vector) {
 }
 
 template <class Points>
-Json walkJson(const Points& points) {
-  Json walk = Json::array();
-  for (const Vector3d& point : points) walk.push_back(toJson(point));
-  return walk;
+Json polygonJson(const Points& points) {
+  Json polygon = Json::array();
+  for (const Vector3d& point : points) polygon.push_back(toJson(point));
+  return polygon;
 }
 
-// Of each row, where runs of set cells begin and how long they are, in turns.
+// For each row, begin and length of each run of set cells, alternating.
 Json toJson(const CellGrid& grid) {
   Json rows = Json::array();
   for (int row = 0; row < grid.rows(); ++row) {
@@ -66,8 +66,8 @@ Json toJson(const Surface& surface) {
   Json parts = Json::array();
   for (const FlatPart& part : surface.parts) {
     Json holes = Json::array();
-    for (const auto& hole : part.holes) holes.push_back(walkJson(hole));
-    parts.push_back({{"outline", walkJson(part.outline)}, {"holes", std::move(holes)}});
+    for (const auto& hole : part.holes) holes.push_back(polygonJson(hole));
+    parts.push_back({{"outline", polygonJson(part.outline)}, {"holes", std::move(holes)}});
   }
   json["parts"] = std::move(parts);
   if (surface.is_moved) json["moved"] = true;
@@ -77,7 +77,7 @@ Json toJson(const Surface& surface) {
   return json;
 }
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;  // in a radian
+constexpr double kDegrees = 180 / 3.14159265358979323846;  // per radian
 
 Json toJson(const SurfaceSetLevel& level) {
   return {{"up", exactJson(level.up)},
@@ -89,7 +89,7 @@ Json toJson(const Opening& opening) {
   Json json{{"name", opening.name},
             {"kind", kOpeningKinds.at(static_cast<std::size_t>(opening.kind))},
             {"rooms", {opening.rooms[0], opening.rooms[1]}},
-            {"rectangle", walkJson(opening.rectangle)},
+            {"rectangle", polygonJson(opening.rectangle)},
             {"leaf", kLeaves.at(static_cast<std::size_t>(opening.leaf))}};
   if (opening.leaf == Opening::Leaf::none) return json;
   json["leaf_angle_rad"] = opening.leaf_angle;
@@ -98,16 +98,16 @@ Json toJson(const Opening& opening) {
 }
 
 Vector3d vectorFrom(const Json& json) {
-  if (!json.is_array() || json.size() != 3) throw std::invalid_argument("three numbers are expected");
+  if (!json.is_array() || json.size() != 3) throw std::invalid_argument("a vector needs three numbers");
   const Vector3d vector(json[0].get<double>(), json[1].get<double>(), json[2].get<double>());
   if (!vector.allFinite()) throw std::invalid_argument("a number is not finite");
   return vector;
 }
 
-std::vector<Vector3d> walkFrom(const Json& json) {
-  std::vector<Vector3d> walk;
-  for (const auto& point : json) walk.push_back(vectorFrom(point));
-  return walk;
+std::vector<Vector3d> polygonFrom(const Json& json) {
+  std::vector<Vector3d> polygon;
+  for (const auto& point : json) polygon.push_back(vectorFrom(point));
+  return polygon;
 }
 
 CellGrid gridFrom(const Json& json) {
@@ -166,8 +166,8 @@ Surface surfaceFrom(const Json& json) {
   if (std::abs(surface.plane.normal.norm() - 1) > 1e-3) throw std::invalid_argument("the normal is not of length 1");
   for (const auto& part : json.at("parts")) {
     FlatPart& flat = surface.parts.emplace_back();
-    flat.outline = walkFrom(part.at("outline"));
-    for (const auto& hole : part.at("holes")) flat.holes.push_back(walkFrom(hole));
+    flat.outline = polygonFrom(part.at("outline"));
+    for (const auto& hole : part.at("holes")) flat.holes.push_back(polygonFrom(hole));
     refuseOffPlane(surface.plane, flat);
   }
   surface.is_moved = json.value("moved", false);
@@ -183,7 +183,7 @@ Opening openingFrom(const Json& json) {
   opening.name = json.at("name").get<std::string>();
   opening.kind = choiceFrom<Opening::Kind>(json.at("kind"), kOpeningKinds);
   opening.rooms = json.at("rooms").get<std::array<std::string, 2>>();
-  const auto corners = walkFrom(json.at("rectangle"));
+  const auto corners = polygonFrom(json.at("rectangle"));
   if (corners.size() != 4) throw std::invalid_argument("a rectangle has four corners");
   std::copy(corners.begin(), corners.end(), opening.rectangle.begin());
   opening.leaf = choiceFrom<Opening::Leaf>(json.at("leaf"), kLeaves);
@@ -200,7 +200,7 @@ std::string toJson(const SurfaceSet& set) {
     for (const auto& one : all) lines.push_back(toJson(one));
     return lines;
   };
-  // One surface a line: a person finds it, and a file of thousands stays small.
+  // One surface per line, so that a person finds it and a file of thousands stays small.
   std::string text = "{\"format\": \"" + std::string(kFormat) +
                      "\",\n\"title\": " + Json(set.title).dump(-1, ' ', false, Json::error_handler_t::replace) +
                      (set.level ? ",\n\"frame\": \"map; metres\",\n\"level\": " + toJson(*set.level).dump() + ",\n"
@@ -221,12 +221,12 @@ SurfaceSet readSurfaces(const std::string& file) {
     return {base::ExitCode::unreadable_input, file + ": " + what};
   };
   std::ifstream in(file);
-  if (!in) throw refuse("cannot be read");
+  if (!in) throw refuse("cannot be opened; is the path right?");
   SurfaceSet set;
   std::string where = "the file";
   try {
     const Json json = Json::parse(in);
-    if (json.at("format") != kFormat) throw std::invalid_argument("is not '" + std::string(kFormat) + "'");
+    if (json.at("format") != kFormat) throw std::invalid_argument("its format is not '" + std::string(kFormat) + "'");
     set.title = json.value("title", "");
     if (json.contains("level")) set.level = levelFrom(json.at("level"));
     for (const auto& surface : json.at("surfaces")) {
@@ -247,9 +247,10 @@ SurfaceSet readSurfaces(const std::string& file) {
 
 namespace {
 
-double areaOf(const std::vector<Vector3d>& walk) {
+double areaOf(const std::vector<Vector3d>& polygon) {
   Vector3d sum = Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < walk.size(); ++i) sum += (walk[i] - walk[0]).cross(walk[i + 1] - walk[0]);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    sum += (polygon[i] - polygon[0]).cross(polygon[i + 1] - polygon[0]);
   return sum.norm() / 2;
 }
 

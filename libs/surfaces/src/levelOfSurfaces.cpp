@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;  // [rad]
 
-// Of an axis and a normal [rad]: how far the surface is from level, and how far from upright.
+// Angle [rad] of a surface with this normal from level, and from upright, if `axis` is up.
 double fromLevel(const Vector3d& axis, const Vector3d& normal) {
   return std::atan2(axis.cross(normal).norm(), std::abs(axis.dot(normal)));
 }
@@ -32,8 +32,9 @@ double weightOf(const FlatArea& area) {
   return std::min(kMost, area.area) * area.measurements / (area.measurements + kHalf);
 }
 
-// Mean of how aslant a surface was seen, in the direction in which it was: 1 at 45 deg, 0 where it was seen head-on or
-// from all around. Errors of depth that grow with the distance tilt what is seen aslant.
+// How obliquely a surface was seen, as the mean over all views of a vector in the oblique direction: length 1 at 45
+// deg, 0 if it was seen head-on or from all sides. Errors of depth that grow with the distance tilt surfaces seen
+// obliquely.
 Vector3d slantOf(const FlatArea& area, const std::vector<Viewpoint>& viewpoints) {
   constexpr double kFarthest = 5, kAperture = 0.82;  // [m], cosine of 35 deg
   Vector3d sum = Vector3d::Zero();
@@ -49,23 +50,24 @@ Vector3d slantOf(const FlatArea& area, const std::vector<Viewpoint>& viewpoints)
   return count > 0 ? Vector3d(sum / count) : sum;
 }
 
-/// A surface with how well it tells what is level.
+/// A surface with its slant, which limits how well it determines the level.
 struct Weighed {
   FlatArea area;
   Vector3d slant;
 };
 
-constexpr double kSlantSigma = 2 * kDegree;  // [rad] that a surface seen at 45 deg is tilted
+constexpr double kSlantSigma = 2 * kDegree;  // [rad] deviation of the tilt of a surface seen at 45 deg
 
-// How far a level or upright surface is from plumb [rad]: what is built is so by about half a degree; what was seen in
-// a few views only is tilted by their noise and that of their poses; and `slant` is what tilts it along the axis.
+// Standard deviation of the angle of a level or upright surface from the vertical [rad]. Buildings deviate by about
+// half a degree; surfaces seen in few views are tilted by the noise of the views and their poses; and `slant`, that
+// along the axis, adds tilt.
 double sigmaOf(const FlatArea& area, double slant) {
   constexpr double kBuilt = 0.4 * kDegree, kPose = 2 * kDegree, kNoise = 0.02;  // [rad], [m]
   const double of_view = std::hypot(kPose, kNoise / std::sqrt(area.area));
   return std::sqrt(kBuilt * kBuilt + of_view * of_view / area.measurements + kSlantSigma * kSlantSigma * slant * slant);
 }
 
-/// What speaks for an axis, as logarithms of likelihood.
+/// Evidence for an axis being up, as the logarithm of a likelihood.
 class Evidence {
  public:
   Evidence(const std::vector<FlatArea>& areas, const std::vector<Viewpoint>& viewpoints)
@@ -76,7 +78,7 @@ class Evidence {
   }
 
  private:
-  // Whether surfaces are level or upright. Of anything else some are, too.
+  // Whether surfaces are level or upright; a limited penalty, because some surfaces are neither.
   double ofAngles(const Vector3d& axis) const {
     constexpr double kWidth = 3 * kDegree, kWeight = 12;
     double sum = 0, whole = 0;
@@ -88,8 +90,8 @@ class Evidence {
     return kWeight * sum / whole;
   }
 
-  // Floor and table tops are seen from above, each at its own height; of ceilings there is one, and of what hangs below
-  // it little. A floor may slope.
+  // Floor and table tops are seen from above, each at its own height; there is only one ceiling, and little is seen
+  // from below otherwise. A floor may slope.
   double ofHeights(const Vector3d& axis) const {
     constexpr double kSlope = 0.9, kApart = 0.15, kWhole = 0.5, kFew = 0.5, kWeight = 5;  // cosine, [m], [m^2]
     double facing_up = 0, facing_down = 0;
@@ -110,8 +112,8 @@ class Evidence {
     return kWeight * (facing_up - facing_down) / (facing_up + facing_down + kFew);
   }
 
-  // Cameras are mostly held upright, some are mounted upside down, few stand on their side; they look somewhat down
-  // rather than up, and seldom straight down.
+  // Most cameras are upright, some are mounted upside down and few on their side. They look slightly down rather than
+  // up, and seldom straight down.
   double ofPictures(const Vector3d& axis) const {
     constexpr double kOnItsSide = -6, kUpsideDown = -4.5, kStraightDown = -6, kLooksUp = -3;
     double sum = 0;
@@ -124,7 +126,7 @@ class Evidence {
     return viewpoints_.empty() ? 0 : sum / static_cast<double>(viewpoints_.size());
   }
 
-  // Who walks through rooms stays at one height.
+  // A camera that is moved through rooms stays at one height.
   double ofMotion(const Vector3d& axis) const {
     constexpr double kFar = 1.5, kWeight = -4;  // [m]
     const double largest = std::sqrt(std::max(0.0, spread_.trace()));
@@ -174,19 +176,19 @@ Eigen::Matrix<double, 3, 2> tangentOf(const Vector3d& axis) {
   return tangent;
 }
 
-/// An axis with what surfaces know of it in its tangent plane.
+/// An axis that was refined by least squares over the surfaces.
 struct Refined {
   Vector3d axis;
   Matrix2d covariance = Matrix2d::Identity();  ///< [rad^2]
-  double explained = 0;                        ///< [m^2] of what is level or upright
+  double explained = 0;                        ///< [m^2] of surfaces that are level or upright
 };
 
-// One surface's residual [rad] and its derivative by the axis.
+// Residual of one surface [rad] and its derivative by the axis.
 struct Residual {
   bool is_level = false;
   double sigma = 1;
   Vector2d value = Vector2d::Zero();
-  Matrix2d jacobian = Matrix2d::Zero();  // of an upright one the second row is empty
+  Matrix2d jacobian = Matrix2d::Zero();  // the second row is zero for an upright surface
 };
 
 Residual residualOf(const Weighed& surface, const Vector3d& axis, const Eigen::Matrix<double, 3, 2>& tangent) {
@@ -205,7 +207,8 @@ Residual residualOf(const Weighed& surface, const Vector3d& axis, const Eigen::M
   return residual;
 }
 
-// Of residuals in standard deviations, from 1 to 3: of the area, half lies within 0.67 of a normal distribution.
+// Robust scale of residuals given in standard deviations, limited to 1 to 3: their weighted median divided by that of a
+// normal distribution.
 double scaleOf(std::vector<std::pair<double, double>> residuals) {  // and their weights
   std::sort(residuals.begin(), residuals.end());
   double whole = 0, below = 0;
@@ -217,7 +220,7 @@ double scaleOf(std::vector<std::pair<double, double>> residuals) {  // and their
   return 1;
 }
 
-/// Sums of least squares, of surfaces that share an error or of those that do not.
+/// Normal equations of level or of upright surfaces.
 struct Normal {
   Matrix2d information = Matrix2d::Zero();
   Vector2d gradient = Vector2d::Zero();
@@ -225,11 +228,11 @@ struct Normal {
   Vector3d slant = Vector3d::Zero();
 };
 
-// All level surfaces that were seen aslant from one side are tilted alike: many of them tell no more of that direction
-// than one.
+// All level surfaces that were seen obliquely from one side are tilted alike, so many of them give no more information
+// on that direction than one.
 void shareSlant(Normal& level, const Eigen::Matrix<double, 3, 2>& tangent) {
   if (level.weight <= 0) return;
-  constexpr double kAcross = 0.3;  // of that variance, in the other direction
+  constexpr double kAcross = 0.3;  // share of that variance in the other direction
   const Vector2d slant = kSlantSigma * tangent.transpose() * level.slant / level.weight;
   const Matrix2d own = level.information.inverse();
   const Matrix2d shared =
@@ -238,17 +241,17 @@ void shareSlant(Normal& level, const Eigen::Matrix<double, 3, 2>& tangent) {
   level.information = shared;
 }
 
-// By how much level and upright surfaces contradict each other, to what their covariances allow: at least 1. Both are
-// tilted by what nobody knows of a camera.
+// Factor by which level and upright surfaces contradict each other beyond their covariances, at least 1. Unknown errors
+// of the camera's calibration tilt both.
 double contradictionOf(const Normal& level, const Normal& upright) {
-  constexpr double kTold = 1 / (10 * kDegree * 10 * kDegree);  // less information of a direction tells nothing of it
+  constexpr double kLeastInformation = 1 / (10 * kDegree * 10 * kDegree);  // of a direction that counts as determined
   const Eigen::SelfAdjointEigenSolver<Matrix2d> directions(upright.information);
   double worst = 1;
   for (int i = 0; i < 2; ++i) {
     const Vector2d direction = directions.eigenvectors().col(i);
     const double by_upright = directions.eigenvalues()[i];
     const double by_level = direction.dot(level.information * direction);
-    if (by_upright < kTold || by_level < kTold) continue;
+    if (by_upright < kLeastInformation || by_level < kLeastInformation) continue;
     const double difference = direction.dot(level.gradient) / by_level - direction.dot(upright.gradient) / by_upright;
     worst = std::max(worst, difference * difference / (1 / by_level + 1 / by_upright));
   }
@@ -284,7 +287,7 @@ Refined refined(const std::vector<Weighed>& surfaces, Vector3d axis) {
       best.explained += surfaces[i].area.area;
     }
     shareSlant(level, tangent);
-    constexpr double kPrior = 1 / (30 * kDegree * 30 * kDegree);  // keeps what nothing tells where it is
+    constexpr double kPrior = 1 / (30 * kDegree * 30 * kDegree);  // holds directions that no surface determines
     best.axis = axis;
     best.covariance = (level.information + upright.information + kPrior * Matrix2d::Identity()).inverse();
     const Vector2d step = -best.covariance * (level.gradient + upright.gradient);
@@ -306,17 +309,17 @@ bool isUsable(const Viewpoint& viewpoint) {
          std::abs(viewpoint.up.norm() - 1) < 1e-3 && std::abs(viewpoint.forward.norm() - 1) < 1e-3;
 }
 
-template <class Thing>
-std::vector<Thing> usable(const std::vector<Thing>& all) {
-  std::vector<Thing> some;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [](const Thing& one) { return isUsable(one); });
+template <class Item>
+std::vector<Item> usable(const std::vector<Item>& all) {
+  std::vector<Item> some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [](const Item& one) { return isUsable(one); });
   return some;
 }
 
-// Both senses of: normals; cross products of normals; and, for a place of a single wall, what is up in pictures along
-// each surface.
+// Candidates for up, in both senses: normals, cross products of normals and, for a place with a single wall, the mean
+// up of the images projected to each surface.
 std::vector<Vector3d> candidatesOf(const std::vector<FlatArea>& areas, const std::vector<Viewpoint>& viewpoints) {
-  constexpr std::size_t kMost = 40;  // of the largest
+  constexpr std::size_t kMost = 40;  // number of the largest areas that are used
   constexpr double kSame = 0.9986;   // cosine of 3 deg
   const double least_cross = std::sin(20 * kDegree);
   Vector3d held = Vector3d::Zero();
@@ -370,7 +373,7 @@ SurfacesLevel levelOfSurfaces(const std::vector<FlatArea>& all_areas, const std:
   std::vector<Scored> scored;
   for (const auto& axis : candidatesOf(areas, viewpoints)) scored.push_back({evidence.of(axis), axis});
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
-  // The first few are refined, for candidates are as far off as one surface is.
+  // The best few are refined, because a candidate has the error of a single surface.
   constexpr std::size_t kRefined = 12;
   std::vector<Refined> refinements;
   for (std::size_t i = 0; i < std::min(kRefined, scored.size()); ++i) {
@@ -384,22 +387,23 @@ SurfacesLevel levelOfSurfaces(const std::vector<FlatArea>& all_areas, const std:
   const Refined best = refined(weighed, scored.front().axis);
   const auto second = std::find_if(scored.begin(), scored.end(),
                                    [&](const Scored& other) { return other.axis.dot(best.axis) < kAnother; });
-  constexpr double kAlone = 20;
-  level.margin = second == scored.end() ? kAlone : std::min(kAlone, scored.front().score - second->score);
+  constexpr double kLargestMargin = 20;
+  level.margin =
+      second == scored.end() ? kLargestMargin : std::min(kLargestMargin, scored.front().score - second->score);
   const auto tangent = tangentOf(best.axis);
-  constexpr double kFloor = 0.15 * kDegree;  // what all surfaces share: the drift of the map, the camera's calibration
+  constexpr double kFloor = 0.15 * kDegree;  // shared by all surfaces: drift of the map, calibration of the camera
   const Matrix2d of_axis = best.covariance + kFloor * kFloor * Matrix2d::Identity();
-  Matrix3d turn;  // the rotation vector of a change of the axis
+  Matrix3d turn;  // maps a change of the axis to a rotation vector
   turn << 0, -best.axis.z(), best.axis.y(), best.axis.z(), 0, -best.axis.x(), -best.axis.y(), best.axis.x(), 0;
   level.covariance = turn * tangent * of_axis * tangent.transpose() * turn.transpose();
   const double sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2d>(of_axis).eigenvalues().maxCoeff());
   double whole = 0;
   for (const auto& area : areas) whole += area.area;
   if (level.margin < kLeastMargin) {
-    level.reason = text("by the surfaces seen two directions %.0f deg apart are about as likely",
+    level.reason = text("by the surfaces seen, two directions of up that are %.0f deg apart are about equally likely",
                         std::acos(std::clamp(second->axis.dot(best.axis), -1.0, 1.0)) / kDegree);
   } else if (sigma > kNotMuch) {
-    level.reason = "the surfaces seen are all parallel to one direction, about which up may lean";
+    level.reason = "all surfaces seen are parallel to one direction, and the tilt of up about it is not determined";
   } else {
     level.up = best.axis;
     level.reason = text("%.1f of %.1f m^2 of surfaces are level or upright", best.explained, whole) +

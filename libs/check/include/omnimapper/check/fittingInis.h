@@ -7,22 +7,22 @@
 
 namespace omnimapper::check {
 
-/// Sections of plugins that an INI names.
+/// Plugins that an INI lists, by the names of their sections.
 struct PluginLists {
   std::vector<std::string> pose, extractors, measurement;
-  bool odometry_is_fallback = false;  ///< [odometry] fallback
+  bool odometry_is_fallback = false;  ///< [odometry] fallback of the INI
 };
 
 /// One of the INIs that come with the project.
 struct FittingIni {
   std::string file;  ///< "ini/laser2d.ini"
-  std::string what;  ///< that it maps
+  std::string what;  ///< what it maps
   PluginLists plugins;
-  bool needs_settings = false;  ///< those that `what` names
-  bool is_a_guess = false;      ///< whether the sensors saw what it maps nobody knows
+  bool needs_settings = false;  ///< whether it maps them only with the settings that `what` names
+  bool is_a_guess = false;      ///< whether it is not known that the sensors saw what it maps
 };
 
-/// The INIs that can map what the log's sensors saw, that which uses most of them first; none if nothing can.
+/// The INIs that can map what the log's sensors saw, first the one that uses most of the sensors; empty if none can.
 std::vector<FittingIni> fittingInis(const LogFacts& facts);
 
 }  // namespace omnimapper::check

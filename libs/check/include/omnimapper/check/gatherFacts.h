@@ -9,8 +9,8 @@
 
 namespace omnimapper::check {
 
-/// Reads the stream to its end, or until `stop`, and tells what it holds. `sensor_poses` are those the INI tells.
-/// Memory grows with the number of observations by some bytes each; scans are kept of some hundred pairs only.
+/// Reads the stream to its end, or until `stop` returns true, and collects statistics on it. `sensor_poses` are those
+/// that the INI sets. Memory grows by some bytes for each observation; only some hundred pairs of scans are kept.
 LogFacts gatherFacts(
     source::ObservationSource& log, const mapper::SensorPoses& sensor_poses = {},
     const std::function<bool()>& stop = [] { return false; }, base::Progress* progress = nullptr);

@@ -8,27 +8,28 @@
 namespace omnimapper::check {
 
 enum class Weight {
-  note,     ///< good to know
+  note,     ///< worth knowing
   warning,  ///< the map may suffer
   problem,  ///< without a remedy the map is likely wrong or empty
 };
 
-/// One sentence about a log.
+/// A finding: one note, warning or problem about a log, as a sentence with place and remedy.
 struct Finding {
   Weight weight;
   std::string text;
 };
 
-/// What a user should know of the log before it is mapped, the heaviest first.
+/// The findings on a log that its user should know before it is mapped, problems first.
 std::vector<Finding> judge(const LogFacts& facts);
 
-/// Lasers whose scans can be matched, the best first: scans with valid beams, in a plane like the floor's.
+/// Lasers whose scans can be matched, because they have valid beams in a plane parallel to the floor. The one with the
+/// largest valid field of view comes first.
 std::vector<std::string> usableLasers(const LogFacts& facts);
-/// The odometry to use, of several the one nearest to the scans; none if the scans contradict it.
+/// The odometry to use, of several the one that agrees best with the scans; none if the scans contradict all.
 std::optional<std::string> usableOdometry(const LogFacts& facts);
-/// The aperture [rad] that a laser's scans have by the log's motions where they declare a wrong one.
+/// The aperture [rad] of a laser's scans according to the motions of the log; none if the declared one is right.
 std::optional<double> betterAperture(const LogFacts& facts, const std::string& laser);
-/// base_from_sensor that the log's motions speak for where what is said of it is missing or wrong.
+/// base_from_sensor according to the motions of the log; none if the one in the log is right or nothing determines it.
 std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, const std::string& laser);
 
 }  // namespace omnimapper::check

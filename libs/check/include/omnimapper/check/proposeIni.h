@@ -8,18 +8,18 @@
 
 namespace omnimapper::check {
 
-/// A key of an INI to be set.
+/// A key of an INI that should be set, and why.
 struct Setting {
   std::string section, key, value, reason;
 };
 
-/// Whether an INI that names these plugins has anything left to measure with in this log.
+/// Whether an INI that names these plugins has a measurement plugin that this log has data for.
 bool canMeasure(const LogFacts& facts, const PluginLists& plugins);
 
-/// What to change for this log in an INI that names these plugins, such as the first of fittingInis().
+/// Settings to change for this log in an INI that names these plugins, such as the first of fittingInis().
 std::vector<Setting> proposeIni(const LogFacts& facts, const PluginLists& plugins);
 
-/// As an INI file, which goes over it; empty if there is nothing to set.
+/// The settings as an INI file, to be passed after the INI that they change; empty if there are none.
 std::string toIni(const std::vector<Setting>& settings);
 
 }  // namespace omnimapper::check

@@ -16,13 +16,13 @@ struct AbsoluteTrajectoryError {
   PairedTrajectories paired;
 };
 
-/// Distance and angle between each pose of the estimate and its partner in the reference.
-/// Source: Sturm et al., A Benchmark for the Evaluation of RGB-D SLAM Systems, IROS 2012; the angle is its sibling.
+/// Distance and angle between each pose of the estimate and the pose of the reference that it is paired with.
+/// Source: Sturm et al., A Benchmark for the Evaluation of RGB-D SLAM Systems, IROS 2012, which has the distance only.
 /// Throws as pairTrajectories().
 AbsoluteTrajectoryError absoluteTrajectoryError(const Trajectory& estimate, const Trajectory& reference,
                                                 const PairingOptions& options = {});
 
-/// What may be wrong with the comparison rather than with the estimate, as sentences; empty if nothing seems to be.
+/// Sentences for the user on what may be wrong with the comparison rather than with the estimate; empty if nothing is.
 std::string hintsOn(const AbsoluteTrajectoryError& error, Alignment alignment);
 
 }  // namespace omnimapper::eval

@@ -7,16 +7,16 @@
 
 namespace omnimapper::eval {
 
-/// What of an estimate's frame is free and fitted to the reference before it is judged.
+/// Which part of an estimate's frame is fitted to the reference before the estimate is judged.
 enum class Alignment {
   none,   ///< nothing: both are in the same frame
-  first,  ///< the frame in which the first pair agrees exactly
+  first,  ///< the motion with which the first pair agrees exactly
   yaw,    ///< translation and turn about z, least squares over positions: frames that share the vertical
   se3,    ///< translation and rotation, least squares over positions
   sim3,   ///< the same and scale
 };
 
-/// By its name above. Throws Error(command_line) that lists the names.
+/// The alignment with a name as above. Throws Error(command_line) that lists the names.
 Alignment alignmentNamed(const std::string& name);
 
 /// reference_from_estimate: p_in_reference = scale * R p_in_estimate + t; orientations turn by R.
@@ -28,10 +28,10 @@ struct Similarity {
 Eigen::Vector3d operator*(const Similarity& reference_from_estimate, const Eigen::Vector3d& p_in_estimate);
 geometry::Se3 operator*(const Similarity& reference_from_estimate, const geometry::Se3& estimate_from_body);
 
-/// The fit that `alignment` asks for over all pairs.
-/// yaw, se3 and sim3 are the closed form of Umeyama, PAMI 1991, which never mirrors. Where the positions do not tell a
-/// part of the turn (all on one line or in one point), that part is the smallest turn.
-/// Throws Error(unreadable_input) without pairs, and for sim3 if the estimate never moves.
+/// The fit over all pairs that `alignment` asks for.
+/// yaw, se3 and sim3 are the closed form of Umeyama, PAMI 1991, which never mirrors. If the positions do not determine
+/// a part of the rotation (all on one line or in one point), the smallest rotation is taken for that part. Throws
+/// Error(unreadable_input) without pairs, and for sim3 if the estimate never moves.
 Similarity fitAlignment(const std::vector<PosePair>& pairs, Alignment alignment);
 
 /// The pairs with their estimate moved into the reference's frame.

@@ -12,40 +12,40 @@
 
 namespace omnimapper::eval {
 
-/// What counts as the same when the surfaces of a map are held against the true ones. Chosen by what a person would
-/// call the same wall, not on a log; doc/results/map_quality.md shows them halved and doubled.
+/// Thresholds for the comparison of a map's surfaces with the true ones. They follow what a person would call the same
+/// wall and were not tuned on a log; doc/results/map_quality.md has results with half and twice their values.
 struct MapQualityOptions {
   double cell = 0.05;           ///< [m] areas are counted in cells of this size
-  double max_turn = 0.35;       ///< [rad] between normals, with their signs
-  double max_distance = 0.1;    ///< [m] of a part of the map's surface from the true plane
-  double min_area = 0.3;        ///< [m^2] a true surface must be found if it is so large ...
-  double min_seen = 0.5;        ///< ... and this share of it was seen
-  double found_share = 0.5;     ///< a true surface is found by one that covers so much of what was seen of it
-  double second_share = 0.1;    ///< and by a second one that covers so much
-  double overlap_share = 0.2;   ///< two surfaces are a double if they share so much of the smaller one
-  double spurious_share = 0.5;  ///< a surface is spurious if less of it lies on true surfaces
+  double max_turn = 0.35;       ///< [rad] largest angle between normals, with their signs
+  double max_distance = 0.1;    ///< [m] largest distance of a part of the map's surface from the true plane
+  double min_area = 0.3;        ///< [m^2] a true surface must be found if it is at least this large ...
+  double min_seen = 0.5;        ///< ... and at least this share of it was seen
+  double found_share = 0.5;     ///< a true surface is found if one surface covers this share of its seen part
+  double second_share = 0.1;    ///< a further surface that covers this share counts as a second one
+  double overlap_share = 0.2;   ///< two surfaces are a double if they share this part of the smaller one
+  double spurious_share = 0.5;  ///< a surface is spurious if less than this share lies on true surfaces
 };
 
-/// One surface of the map.
+/// Judgement of one surface of the map.
 struct JudgedSurface {
   std::size_t index = 0;     ///< in the map's set
   double area = 0;           ///< [m^2]
-  double share_on_true = 0;  ///< of its area, on any true surface
+  double share_on_true = 0;  ///< share of its area on any true surface
   bool is_spurious = false;
-  /// Of the true surfaces that it lies on, the class and the index of the one with most of its area. None: on none.
+  /// Class and index of the true surface that most of its area lies on; none if it lies on none.
   std::optional<surfaces::SurfaceClass> true_class;
   std::optional<std::size_t> true_surface;
-  /// Intersection over union of its outline with what was seen of the true surfaces that it stands for; none if it is
+  /// Intersection over union of its outline with the seen parts of the true surfaces that it represents; none if it is
   /// spurious.
   std::optional<double> overlap;
 };
 
-/// One true surface that is large enough and was seen.
+/// Judgement of one true surface that is large enough and was seen.
 struct SoughtSurface {
   std::size_t index = 0;        ///< in the true set
-  double covered = 0;           ///< share of what was seen of it that the drawn surfaces cover together
-  std::vector<std::size_t> by;  ///< indices of the map's surfaces that cover second_share of it, most first
-  bool is_found = false;        ///< one of them covers found_share
+  double covered = 0;           ///< share of its seen part that all drawn surfaces cover together
+  std::vector<std::size_t> by;  ///< indices of the map's surfaces that cover second_share of it, largest share first
+  bool is_found = false;        ///< whether one of them covers found_share
   bool isOnce() const { return is_found && by.size() == 1; }
 };
 
@@ -60,36 +60,37 @@ struct MapQuality {
   std::vector<SoughtSurface> sought;
   std::vector<std::pair<std::size_t, std::size_t>> doubles;  ///< indices of the map's surfaces, each pair once
   std::map<surfaces::SurfaceClass, SeenArea> area;           ///< by true class, of surfaces that never moved
-  /// Drawn surfaces that are not spurious, by the class that the map tells, then the true one.
+  /// Number of drawn surfaces that are not spurious, by the class in the map and the true class.
   std::map<surfaces::SurfaceClass, std::map<surfaces::SurfaceClass, std::size_t>> labels;
 
-  std::size_t trueCandidates() const;  ///< not spurious
+  std::size_t trueCandidates() const;  ///< candidates that are not spurious
   std::size_t foundOnce() const;
   std::size_t found() const;
   std::size_t spurious() const;
-  /// Of the drawn surfaces that are not spurious, those whose class is right; and of those called so, of all drawn.
+  /// Number of drawn surfaces that are not spurious and have the right class.
   std::size_t rightLabels() const;
-  std::pair<std::size_t, std::size_t> rightOf(surfaces::SurfaceClass said) const;  ///< right, all
-  double medianOverlap() const;  ///< 0 if nothing is drawn on a true surface
+  /// The same for those that the map gives the class `said`: number of right ones, and of all.
+  std::pair<std::size_t, std::size_t> rightOf(surfaces::SurfaceClass said) const;
+  double medianOverlap() const;  ///< 0 if no drawn surface is on a true one
 };
 
-/// Compares by area on the true planes. A true surface without `seen` counts as seen all over; where no surface of a
-/// class was seen it has no entry in `area`. Posters lie on their wall: what covers one is on that wall, and none need
-/// be found. What is moved is never sought, but what lies on it is not spurious. Throws base::Error(unreadable_input)
-/// for a surface that reaches too far to be counted in cells.
+/// Compares by area on the true planes. A true surface without `seen` counts as seen as a whole; a class of which no
+/// surface was seen has no entry in `area`. A poster counts as part of its wall and need not be found. A surface that
+/// was moved need not be found either, but surfaces on it are not spurious. Throws base::Error(unreadable_input) for a
+/// surface that reaches too far to be counted in cells.
 MapQuality judgeMap(const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth,
                     const MapQualityOptions& options = {});
 
-/// Each surface of the map that lies on a true one, with what that is: what classify() may learn from. The map
-/// is in the frame of the truth, whose floor is at z = 0.
+/// Each surface of the map that lies on a true one, with the true class, as examples for classify(). The map is in the
+/// frame of the truth, whose floor is at z = 0.
 std::vector<surfaces::Example> examplesOf(const MapQuality& quality, const surfaces::SurfaceSet& map);
 
 /// A table of text for a terminal.
 std::string table(const MapQuality& quality);
 /// The same numbers and each surface, as a JSON object.
 std::string json(const MapQuality& quality, const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth);
-/// Writes numbers.json, plan.svg, the place from above with what is wrong in colour, and examples.csv, what
-/// examplesOf() tells, into a folder, made if missing.
+/// Writes into a folder, which is made if missing: numbers.json, plan.svg (the place from above with errors in colour)
+/// and examples.csv (the result of examplesOf()).
 void saveReport(const std::string& folder, const std::string& title, const MapQuality& quality,
                 const surfaces::SurfaceSet& map, const surfaces::SurfaceSet& truth);
 

@@ -4,20 +4,20 @@
 
 namespace omnimapper::eval {
 
-/// How poses of estimate and reference are brought together.
+/// How poses of the estimate are paired with poses of the reference.
 struct PairingOptions {
-  base::Duration tolerance = base::durationFromSeconds(0.01);  ///< of association by stamp
-  base::Duration longest_gap{0};  ///< above zero: interpolate the reference over gaps up to this, no association
+  base::Duration tolerance = base::durationFromSeconds(0.01);  ///< largest difference of the stamps of a pair
+  base::Duration longest_gap{0};  ///< above zero: pairs are made by interpolating the reference over gaps up to this
   Alignment alignment = Alignment::none;
 };
 
 struct PairedTrajectories {
   std::vector<PosePair> pairs;         ///< estimate aligned to the reference
-  Similarity reference_from_estimate;  ///< what aligned it
-  std::size_t unpaired = 0;            ///< poses of the estimate without partner
+  Similarity reference_from_estimate;  ///< the alignment that was applied to the estimate
+  std::size_t unpaired = 0;            ///< poses of the estimate that are in no pair
 };
 
-/// Throws Error(unreadable_input) if no two poses belong together, and as fitAlignment().
+/// Throws Error(unreadable_input) if no poses can be paired, and as fitAlignment().
 PairedTrajectories pairTrajectories(const Trajectory& estimate, const Trajectory& reference,
                                     const PairingOptions& options);
 

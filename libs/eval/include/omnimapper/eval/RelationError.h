@@ -20,8 +20,8 @@ struct Relation {
 std::vector<Relation> readRelations(const std::string& path);
 
 struct RelationOptions {
-  base::Duration tolerance{0};                           ///< between a relation's stamp and the pose it is judged by
-  geometry::Se3 base_from_sensor;                        ///< applied to the estimate, if that is of the base
+  base::Duration tolerance{0};     ///< largest difference of stamps of a relation and of the pose that is used for it
+  geometry::Se3 base_from_sensor;  ///< applied to the estimate if that is of the base
   double translation_threshold = 0.5;                    ///< [m] for share_within
   double rotation_threshold = 10 * geometry::kPi / 180;  ///< [rad] for share_within
 };
@@ -39,9 +39,9 @@ struct RelationError {
 };
 
 /// The relation metric: E = from_from_to^-1 (est_from^-1 est_to), its length and its angle, over all relations.
-/// It needs no common frame and does not punish a bend of the map between places that no relation joins.
+/// It needs no common frame and is not affected by distortion of the map between places that no relation connects.
 /// Source: Kuemmerle et al., On Measuring the Accuracy of SLAM Algorithms, Autonomous Robots 27(4), 2009.
-/// Throws Error(unreadable_input) if the estimate has the poses of no relation.
+/// Throws Error(unreadable_input) if the estimate has both poses for none of the relations.
 RelationError relationError(const Trajectory& estimate, const std::vector<Relation>& relations,
                             const RelationOptions& options = {});
 

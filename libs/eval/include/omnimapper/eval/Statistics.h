@@ -4,7 +4,7 @@
 
 namespace omnimapper::eval {
 
-/// Of one kind of error, in its unit. All zero if there are no values.
+/// Statistics of one kind of error, in its unit. All zero if there are no values.
 struct Statistics {
   std::size_t count = 0;
   double mean = 0;

@@ -8,7 +8,7 @@
 
 namespace omnimapper::eval {
 
-/// Where a body (robot base or sensor) was at one moment.
+/// Pose of a body (robot base or sensor) at one time.
 struct StampedPose {
   base::Stamp stamp;
   geometry::Se3 world_from_body;
@@ -32,7 +32,7 @@ std::optional<std::size_t> nearestPose(const Trajectory& trajectory, base::Stamp
 std::optional<geometry::Se3> interpolatedPose(const Trajectory& trajectory, base::Stamp stamp,
                                               base::Duration longest_gap);
 
-/// Way travelled from the first pose to each [m].
+/// Distance travelled from the first pose to each pose [m].
 std::vector<double> distanceTravelled(const Trajectory& trajectory);
 
 }  // namespace omnimapper::eval

@@ -6,10 +6,10 @@
 
 namespace omnimapper::eval {
 
-/// Text files of trajectories, one pose a line, in any order; '#' starts a comment, blanks or tabs part the columns.
-/// Stamps are Unix seconds, read and written exactly to the tick. All readers throw Error(unreadable_input) that names
-/// file:line for a missing column, text that is no finite number, no unit quaternion (to 1 %) or a stamp that stands
-/// twice, and for a file that holds no pose.
+/// Text files of trajectories, one pose a line, in any order; '#' starts a comment, blanks or tabs separate the
+/// columns. Stamps are Unix seconds, read and written exactly to the tick. All readers throw Error(unreadable_input)
+/// that names file:line for a missing column, text that is no finite number, no unit quaternion (to 1 %) or a stamp
+/// that occurs twice, and for a file that holds no pose.
 
 /// TUM RGB-D format: stamp x y z [m] qx qy qz qw.
 Trajectory readTum(const std::string& path);
@@ -17,7 +17,7 @@ Trajectory readTum(const std::string& path);
 /// Ground truth of MRPT's simulated graph-SLAM logs (*.GT.txt): stamp x y [m] yaw [rad].
 Trajectory readMrptGroundTruth(const std::string& path);
 
-/// Either of the two, told apart by the number of columns in the first line that holds a pose.
+/// Reads either format, detected by the number of columns in the first line that holds a pose.
 Trajectory readTrajectory(const std::string& path);
 
 /// TUM RGB-D format, replaced as a whole (base::writeFile).

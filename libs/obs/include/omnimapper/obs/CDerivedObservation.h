@@ -8,18 +8,19 @@
 
 namespace omnimapper::obs {
 
-/// What all observations have in common that perception makes of a raw one: its stamp, its sensor's pose, and geometry
-/// in that sensor's frame. No class of its own for MRPT: the observations themselves are.
+/// Base class of all observations that perception derives from a raw one. They have the stamp of the raw one and the
+/// pose of its sensor, and their geometry is in the frame of that sensor. For MRPT only the derived classes are
+/// classes.
 ///
-/// As text (rawlog-edit --export-txt) each is one row: a count, then that many groups of fields. The header names the
-/// fields of a group once, between { and }; groups may hold a count with groups in turn. Numbers are in full; a text
-/// has its blanks, control characters and % written as %20 and the like, and is - where it is empty. What is optional
-/// and absent is nan, for indices and colours -1.
+/// As text (rawlog-edit --export-txt) each observation is one row: a count, then that many groups of fields. The header
+/// names the fields of a group once, between { and }; a group may contain a count with further groups. Numbers have all
+/// digits. In a text, blanks, control characters and % are written as %20 and the like; an empty text is -. An optional
+/// value that is absent is nan; for indices and colours it is -1.
 class CDerivedObservation : public mrpt::obs::CObservation, public mrpt::opengl::Visualizable {
  public:
   /// Pose of the sensor on the base.
   mrpt::poses::CPose3D sensorPose;
-  /// Label of the raw observation that this one was made of; both have one stamp.
+  /// Label of the raw observation that this one was derived from; both have the same stamp.
   std::string source_label;
 
   void getSensorPose(mrpt::poses::CPose3D& sensor_pose) const final { sensor_pose = sensorPose; }
@@ -27,19 +28,19 @@ class CDerivedObservation : public mrpt::obs::CObservation, public mrpt::opengl:
   void getDescriptionAsText(std::ostream& out) const final;
   bool exportTxtSupported() const final { return true; }
 
-  /// In the frame of the base, the sensor as a small corner.
+  /// Draws the observation in the frame of the base, with the sensor as a small corner.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const final;
 
  protected:
-  /// Without a stamp.
+  /// A new observation has no stamp.
   CDerivedObservation();
 
   void writeHead(mrpt::serialization::CArchive& out) const;
   void readHead(mrpt::serialization::CArchive& in);
 
-  /// What was found, a line for each.
+  /// Describes what was found, one line for each.
   virtual void describe(std::ostream& out) const = 0;
-  /// In the frame of the sensor. Nothing may be taken for granted of the numbers: they may come from a damaged file.
+  /// Draws in the frame of the sensor. The numbers may have any value, because they may come from a damaged file.
   virtual void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const = 0;
 };
 

@@ -23,16 +23,16 @@ struct ObservedDoorSign {
   std::array<Eigen::Vector2f, 4> corners_px{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(),
                                             Eigen::Vector2f::Zero()};
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< unit, from the camera to the middle of the sign
-  std::optional<double> range;                     ///< [m] along the ray, where something measured it
+  std::optional<double> range;                     ///< [m] along the ray, if it was measured
   double range_sigma = 0;                          ///< [m]
-  bool is_cut = false;                             ///< its region leaves the image: the ray may be off
-  double score = 0;                                ///< of the classifier that says it is a sign, 0 to 1
-  std::vector<ReadText> texts;                     ///< from top to bottom
-  mrpt::img::CImage patch;                         ///< what the region shows, 8 bit, grey or colour; may be empty
+  bool is_cut = false;          ///< whether its region leaves the image; the ray is less accurate then
+  double score = 0;             ///< of the classifier for signs, 0 to 1
+  std::vector<ReadText> texts;  ///< from top to bottom
+  mrpt::img::CImage patch;      ///< image of the region, 8 bit, grey or colour; may be empty
 };
 
-/// The door signs that were found in one image. The sensor is the camera as a lens looks: z forward, x to the right,
-/// y down; sensorPose is where it was on the base when the image was taken, which a pan-tilt unit changes.
+/// The door signs that were found in one image. The frame of the sensor is the camera's optical frame: z forward, x to
+/// the right, y down. sensorPose is its pose on the base when the image was taken, which a pan-tilt unit changes.
 class CObservationDoorSigns : public CDerivedObservation {
   DEFINE_SERIALIZABLE(CObservationDoorSigns, omnimapper::obs)
 
@@ -44,8 +44,8 @@ class CObservationDoorSigns : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Ray, stretch of the ray that the sign is in by two sigma, framed patch and text; a sign without range is drawn at
-  /// 2 m.
+  /// Draws the ray, the part of it that the sign is in within two sigma, the framed patch and the text. A sign without
+  /// range is drawn at 2 m.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

@@ -9,16 +9,17 @@ namespace omnimapper::obs {
 
 /// Why a line ends where it does. The numbers are those of the file.
 enum class LineEnd : std::uint8_t {
-  wall = 0,      ///< the wall ends: what the next beam meets lies behind it, or joins it as a corner
-  occluded = 1,  ///< something nearer hides how it goes on
+  wall = 0,      ///< the wall ends: the next beam meets something behind it, or a wall that joins it at a corner
+  occluded = 1,  ///< something nearer hides the rest of the wall
   view = 2       ///< the scan ends, or the next beam met nothing
 };
 
-/// A straight stretch of what a 2D laser scan met.
+/// A straight segment in a 2D laser scan.
 struct LaserLine {
   geometry::Segment2 segment_in_sensor;  ///< [m] in the plane of the scan (z = 0), from the first beam to the last
-  /// The line: x cos(angle) + y sin(angle) = distance. The angle [rad], in (-pi, pi], is the way from the sensor to the
-  /// line's nearest point; distance [m] >= 0. As a geometry::Plane3 that is normal -(cos, sin), distance `distance`.
+  /// The line: x cos(angle) + y sin(angle) = distance. The angle [rad], in (-pi, pi], is the direction from the sensor
+  /// to the line's nearest point; distance [m] >= 0. As a geometry::Plane3 that is normal -(cos, sin), distance
+  /// `distance`.
   double angle = 0;
   double distance = 0;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (angle [rad], distance [m])
@@ -26,8 +27,8 @@ struct LaserLine {
   LineEnd to_end = LineEnd::wall;
   std::uint32_t first_beam = 0;  ///< index in the scan
   std::uint32_t last_beam = 0;   ///< inclusive
-  std::uint32_t inliers = 0;     ///< beams among them that lie on the line
-  double rms = 0;                ///< [m] distance of their points from it
+  std::uint32_t inliers = 0;     ///< number of beams from first_beam to last_beam that lie on the line
+  double rms = 0;                ///< [m] distance of the points of these beams from the line
 };
 
 /// The straight lines of one 2D laser scan, in the order of its beams.
@@ -42,8 +43,8 @@ class CObservationLaserLines : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Thick segments in a colour by index. An end that is the wall's own has a cross bar, others a ball: black where
-  /// hidden, white where the view ends.
+  /// Draws thick segments in a colour by index. An end of the wall has a cross bar, other ends a ball: black if the
+  /// rest is hidden, white if the view ends.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

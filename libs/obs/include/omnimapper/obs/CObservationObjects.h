@@ -9,7 +9,7 @@
 
 namespace omnimapper::obs {
 
-/// A cluster of points that belongs to no plane: a thing.
+/// An object: a cluster of points that belong to no plane.
 struct ObservedObject {
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< [m]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centroid [m^2]
@@ -24,7 +24,7 @@ struct ObservedObject {
   double score = 0;           ///< of the class label, 0 to 1
 };
 
-/// The things that were found in one depth image or point cloud.
+/// The objects that were found in one depth image or point cloud.
 class CObservationObjects : public CDerivedObservation {
   DEFINE_SERIALIZABLE(CObservationObjects, omnimapper::obs)
 
@@ -36,7 +36,8 @@ class CObservationObjects : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Box and points in a colour by index (points in their own where they have one), the class label above the box.
+  /// Draws box and points in a colour by index (points in their own colour if they have one), and the class label above
+  /// the box.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

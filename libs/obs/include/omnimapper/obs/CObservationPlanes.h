@@ -10,21 +10,21 @@
 
 namespace omnimapper::obs {
 
-/// One flat stretch of a surface.
+/// One flat part of a surface.
 struct ObservedPlane {
   geometry::Plane3 plane_in_sensor;  ///< distance >= 0: the normal points to where the sensor is
-  /// Of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines them.
-  /// By the noise of its points, and by what they share, such as a wrong calibration, as far as the extractor was told
-  /// of it. The latter is alike in all observations of one sensor.
+  /// Covariance of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines
+  /// them. It includes the noise of the points and, as far as the extractor's options state it, errors that all points
+  /// share, such as a wrong calibration. The latter are the same in all observations of one sensor.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m] mean of its points, on the plane
   geometry::Polygon3 outline;                          ///< [m] on the plane; may be concave
   std::vector<geometry::Polygon3> holes;               ///< [m] within the outline
   std::uint32_t inliers = 0;                           ///< number of its points
   double rms = 0;                                      ///< [m] distance of its points from the plane
-  /// By how many times more than the sensor's noise its points scatter about the plane [-]; 0 where nobody told.
+  /// Scatter of its points about the plane divided by the sensor's noise [-]; 0 if not known.
   double roughness = 0;
-  std::optional<Rgb> colour;  ///< mean, where the sensor sees colours
+  std::optional<Rgb> colour;  ///< mean, if the sensor has colours
 };
 
 /// The planes that were found in one depth image or point cloud.
@@ -39,7 +39,7 @@ class CObservationPlanes : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Each plane in a colour by its index: translucent where it is, its outline and holes as lines, its normal as arrow.
+  /// Draws each plane in a colour by its index: a translucent area, outline and holes as lines, the normal as an arrow.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

@@ -29,7 +29,7 @@ class CObservationRelativeMotion : public mrpt::obs::CObservation, public mrpt::
 
   /// Identity.
   void getSensorPose(mrpt::poses::CPose3D& sensor_pose) const override;
-  /// Throws Error(internal) on anything but identity, which has no meaning here.
+  /// Throws Error(internal) for any pose but identity, because a motion of the base has no sensor pose.
   void setSensorPose(const mrpt::poses::CPose3D& sensor_pose) override;
   void getDescriptionAsText(std::ostream& out) const override;
 
@@ -37,7 +37,8 @@ class CObservationRelativeMotion : public mrpt::obs::CObservation, public mrpt::
   std::string exportTxtHeader() const override;
   std::string exportTxtDataRow() const override;
 
-  /// Both ends as corners, an arrow between them, and the 95 % ellipsoid of the translation, in the base at the start.
+  /// Draws both ends as corners, an arrow between them, and the 95 % ellipsoid of the translation, in the base at the
+  /// start.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const override;
 };
 

@@ -6,8 +6,8 @@
 
 namespace omnimapper::obs {
 
-/// Where the base is in the frame of poses that are given: the observation tells it of a tracked body, whose place on
-/// the base is its sensorPose. None if that is not finite.
+/// Pose of the base in the frame of given poses. The observation states the pose of a tracked body, whose pose on the
+/// base is sensorPose. None if the result is not finite.
 inline std::optional<mrpt::poses::CPose3D> referenceFromBase(const mrpt::obs::CObservationRobotPose& given) {
   const mrpt::poses::CPose3D pose = given.pose.mean + (-given.sensorPose);
   if (!pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen().allFinite()) return std::nullopt;

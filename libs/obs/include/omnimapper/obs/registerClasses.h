@@ -6,11 +6,12 @@
 
 namespace omnimapper::obs {
 
-/// Makes the observation classes of the project known to MRPT, so that a rawlog with them can be read. Loading the
-/// library does it too; a program that mentions no class of it calls this, or its linker leaves the library out.
+/// Registers the observation classes of the project with MRPT, so that a rawlog with them can be read. Loading the
+/// library registers them too, but a linker leaves the library out of a program that neither uses its classes nor calls
+/// this.
 void registerClasses();
 
-/// What registerClasses() registers.
+/// The classes that registerClasses() registers.
 const std::vector<const mrpt::rtti::TRuntimeClassId*>& allClasses();
 
 }  // namespace omnimapper::obs

@@ -11,20 +11,20 @@
 
 namespace omnimapper::source {
 
-/// What a queue may hold. An item that is larger than all the bytes waits alone.
+/// Limits of a queue. An item larger than `bytes` is accepted only while the queue is empty.
 struct QueueLimits {
   std::size_t count;  ///< at least 1
   std::size_t bytes;
 };
 
-/// A queue between two threads: who adds waits while it is full, who takes waits while it is empty. Once full, it is
-/// half emptied before the waiting thread is woken: waking it for each item costs more than many an item.
+/// A queue between two threads: push() waits while it is full, pop() while it is empty. A waiting producer is woken
+/// only when the queue is half empty, because waking it for each item can cost more than the item itself.
 template <class T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(QueueLimits limits) : limits_(limits) {}
 
-  /// Waits for room. False if the queue is closed: the item is gone. `bytes` is what the item counts for.
+  /// Waits for room. Returns false if the queue is closed; the item is discarded then. `bytes`: size of the item.
   bool push(T item, std::size_t bytes) {
     std::unique_lock lock(mutex_);
     room_.wait(lock, [&] { return closed_ || hasRoomFor(bytes); });
@@ -36,8 +36,8 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for an item, the oldest. Nothing if the queue is closed, or if `stop`, which is asked ten times a second
-  /// while it waits, says so; an empty `stop` never does.
+  /// Waits for the oldest item. Returns none if the queue is closed, or if `stop`, which is called ten times a second
+  /// while pop() waits, returns true; an empty `stop` never stops it.
   std::optional<T> pop(const std::function<bool()>& stop = {}) {
     std::unique_lock lock(mutex_);
     const auto is_ready = [&] { return closed_ || !items_.empty(); };
@@ -56,7 +56,7 @@ class BoundedQueue {
     return item;
   }
 
-  /// Ends all waiting, now and later. What is in the queue stays there until the queue is destroyed.
+  /// Ends all waiting, now and later. Items that are still in the queue stay there until it is destroyed.
   void close() {
     {
       const std::lock_guard lock(mutex_);
@@ -80,7 +80,7 @@ class BoundedQueue {
   mutable std::mutex mutex_;
   std::condition_variable room_, filled_;
   std::deque<std::pair<T, std::size_t>> items_;
-  std::size_t bytes_ = 0;  // of the items
+  std::size_t bytes_ = 0;  // of all items
   bool closed_ = false;
 };
 

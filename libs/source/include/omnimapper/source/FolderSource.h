@@ -7,8 +7,8 @@
 
 namespace omnimapper::source {
 
-/// Streams the files of a folder, each of which is one observation, in the order of their names. Where all names are
-/// Unix times, in seconds or nanoseconds, they are the stamps.
+/// Streams the files of a folder in the order of their names; each file is one observation. If all names are Unix
+/// times, in seconds or nanoseconds, they are the stamps.
 class FolderSource : public ObservationSource {
  public:
   /// Files that read() refuses are left out and counted as missing images.
@@ -18,18 +18,18 @@ class FolderSource : public ObservationSource {
   bool areNamesTimes() const { return !times_.empty(); }
 
  protected:
-  /// `what`: the kind of files, for the error. `rate`: of files whose names are no Unix times [1/s]. Throws
-  /// Error(unreadable_input) for a folder without files that `takes` is true for.
+  /// `takes` selects the files, and `what` names their kind in the error. `rate` [1/s] determines the stamps if the
+  /// names are no Unix times. Throws Error(unreadable_input) if the folder has no such files.
   FolderSource(const std::string& folder, bool (*takes)(const std::string& file), const std::string& what,
                const std::string& label, double rate);
-  /// Without stamp and label. Throws base::Error for a file that cannot be read.
+  /// Reads one file; the caller sets stamp and label. Throws base::Error if the file cannot be read.
   virtual mrpt::obs::CObservation::Ptr read(const std::string& file) = 0;
 
  private:
   std::string label_;
   double rate_;
   std::vector<std::string> files_;
-  std::vector<double> times_;  // Unix times of the files, where their names are such
+  std::vector<double> times_;  // Unix times of the files; empty if their names are no times
   std::size_t next_ = 0;
   SourceReport report_;
 };

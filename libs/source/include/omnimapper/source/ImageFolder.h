@@ -8,14 +8,15 @@ namespace omnimapper::source {
 
 struct ImageFolderOptions {
   std::string label = "camera";
-  double rate = 1;      ///< of images whose names are no Unix times [1/s]
-  double focal_px = 0;  ///< focal length; 0: as long as an image is wide
+  double rate = 1;      ///< images per second, if their names are no Unix times [1/s]
+  double focal_px = 0;  ///< focal length; 0: the width of the image
 };
 
-/// The JPEG and PNG images of a folder as CObservationImage, but those called NAME.mask.png, which tell what an image
-/// shows. Images of 16 bits, grey ones and those with an alpha channel become three channels of 8 bits. Files that are
-/// no images, those that were cut off, and those that say to be larger than any camera's are left out. The camera is a
-/// pinhole whose axis goes through the middle of the image, with cameraPose level: z forward along the base's x.
+/// Streams the JPEG and PNG images of a folder as CObservationImage, except NAME.mask.png, which marks the signs in the
+/// image NAME. Images of 16 bits, grey ones and those with an alpha channel become three channels of 8 bits. Files that
+/// are no images, images that were cut off, and those whose header states more pixels than any camera has are left out.
+/// The camera is a pinhole whose axis goes through the middle of the image; cameraPose is level, with z forward along
+/// the base's x.
 class ImageFolder : public FolderSource {
  public:
   /// Throws Error(unreadable_input) for a folder without such images.

@@ -4,13 +4,13 @@
 
 namespace omnimapper::source {
 
-/// How colour images inside a rawlog are kept.
+/// Encoding of colour images inside a rawlog.
 enum class ColourImages {
   lossless,
-  jpeg,  ///< quality 95: a twentieth of the room, and of the time
+  jpeg,  ///< quality 95; takes a twentieth of the space and of the time
 };
 
-/// How MRPT writes images, in the whole process, while this lives.
+/// Sets how MRPT writes images in the whole process; the destructor restores the old settings.
 class ImageSettings {
  public:
   explicit ImageSettings(ColourImages images)

@@ -7,16 +7,17 @@
 
 namespace omnimapper::source {
 
-/// Several sources as one, sorted by stamp. The order within each source is kept as it is: an observation whose stamp
-/// runs backwards, or that has none, comes right after the one before it. Equal stamps: the earlier source first.
+/// Merges several sources by stamp. The order within each source is kept: an observation without a stamp, or whose
+/// stamp runs backwards, comes right after the one before it. Of equal stamps, that of the earlier source comes first.
 class MergedSource : public ObservationSource {
  public:
   explicit MergedSource(std::vector<std::unique_ptr<ObservationSource>> sources);
 
   mrpt::obs::CObservation::Ptr next() override;
-  /// Of all sources together, each weighing the same.
+  /// The mean of all sources.
   double progress() const override;
-  /// The sum; the worst ending. has_logs_apart if one lies a minute or more from all others, once all have ended.
+  /// The sum of all counts, with the worst ending. has_logs_apart is set, once all have ended, if one source lies a
+  /// minute or more from all others in time.
   SourceReport report() const override;
   void interrupt() override;
 

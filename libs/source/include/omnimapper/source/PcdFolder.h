@@ -10,26 +10,25 @@ namespace omnimapper::source {
 
 struct PcdFolderOptions {
   std::string label = "RGBD";
-  double rate = 30;  ///< of clouds whose names are no Unix times [1/s]
+  double rate = 30;  ///< clouds per second, if their names are no Unix times [1/s]
 };
 
-/// The depth image, with colours where it has any, of an organised cloud in a camera's optical frame (x right, y down,
-/// z forward): which ray belongs to which pixel is told by the points themselves. Depth is kept in steps of 0.1 mm, up
-/// to 6.5 m. Throws Error(unreadable_input), with `name` in it, for a cloud that no pinhole camera has seen so.
+/// Converts an organised cloud in a camera's optical frame (x right, y down, z forward) to a depth image, with colours
+/// if the cloud has them. The intrinsics are fitted to the points. Depth is kept in steps of 0.1 mm, up to 6.5 m.
+/// Throws Error(unreadable_input), with `name` in it, if the points do not lie on the rays of a pinhole camera.
 mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name);
 
-/// The points of any other cloud, without their colours, in the frame that they are in: a CObservationPointCloud.
+/// Converts any other cloud to a CObservationPointCloud in the frame of its points, without colours.
 mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud);
 
-/// The clouds of a folder of PCD files: organised ones as depthImageOf() makes of them, others as cloudOf() does,
-/// sensorPose the base's own pose (x forward, z up). Files that are no cloud, and organised ones that no camera has
-/// seen so, are left out.
+/// Streams the PCD files of a folder: organised clouds by depthImageOf(), others by cloudOf(), with sensorPose at the
+/// base (x forward, z up). Files that are no cloud, and organised clouds that depthImageOf() refuses, are left out.
 class PcdFolder : public FolderSource {
  public:
   /// Throws Error(unreadable_input) for a folder without PCD files.
   explicit PcdFolder(const std::string& folder, const PcdFolderOptions& options = {});
 
-  /// How many of those that were handed out have no rows and columns.
+  /// Number of clouds handed out that are not organised in rows and columns.
   std::size_t unorganised() const { return unorganised_; }
 
  private:

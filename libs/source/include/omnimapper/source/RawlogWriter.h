@@ -11,7 +11,7 @@
 
 namespace omnimapper::source {
 
-/// Where writeRawlog() takes what goes into the file, in order.
+/// Receives the content of the file that writeRawlog() writes, in order.
 class RawlogWriter {
  public:
   explicit RawlogWriter(mrpt::serialization::CArchive& archive) : archive_(archive) {}
@@ -22,9 +22,9 @@ class RawlogWriter {
   mrpt::serialization::CArchive& archive_;
 };
 
-/// Writes a rawlog (gzip) in whole or not at all: to a temporary file that is read back, byte by byte the same, before
-/// it takes the place of `path`. The same content gives the same bytes. Throws Error(disk_full) as base::replaceFile.
-/// How images are kept is a setting of MRPT's for the whole process while it writes.
+/// Writes a gzip rawlog as a whole or not at all: to a temporary file, which is read back and compared by size and
+/// checksum before it replaces `path`. The same content gives the same bytes. Throws Error(disk_full) as
+/// base::replaceFile(). While it writes, `images` is MRPT's setting for the whole process.
 void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&)>& fill,
                  ColourImages images = ColourImages::lossless);
 

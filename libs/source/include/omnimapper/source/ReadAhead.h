@@ -12,17 +12,17 @@
 
 namespace omnimapper::source {
 
-/// Reads another source ahead in a thread of its own, so that reading and decompressing go on while the observations
-/// are worked on. Same observations, same order. The thread waits when as much as the limits allow has been read ahead,
-/// and holds one observation more.
+/// Reads another source ahead in a separate thread, so that reading and decompressing go on while observations are
+/// processed. Observations and their order stay the same. The thread waits when it has read as far ahead as the limits
+/// allow, and then holds one observation more.
 class ReadAhead : public ObservationSource {
  public:
-  /// An observation counts with the bytes that were read from the log for it, and the pixels and points that it has
-  /// in memory.
+  /// The size of an observation is the bytes that were read from the log for it plus those of its pixels and points in
+  /// memory.
   static constexpr QueueLimits kLimits{1000, std::size_t{64} << 20};
 
-  /// `stop` is asked, by the thread that calls next(), while that has to wait; if it is true, next() returns null with
-  /// the report's ending still open. Never null: `inner`.
+  /// `inner` must not be null. `stop` is called by the thread that calls next() while that waits; if it returns true,
+  /// next() returns null, and the ending of the report stays open.
   explicit ReadAhead(std::unique_ptr<ObservationSource> inner, std::function<bool()> stop = {},
                      QueueLimits limits = kLimits);
   /// Interrupts the inner source and waits for the thread, which does not read on.
@@ -30,11 +30,11 @@ class ReadAhead : public ObservationSource {
   ReadAhead(const ReadAhead&) = delete;
   ReadAhead& operator=(const ReadAhead&) = delete;
 
-  /// What the inner source threw comes out in its place, and is the end.
+  /// Rethrows an exception of the inner source at its place in the stream, which ends there.
   mrpt::obs::CObservation::Ptr next() override;
-  /// As of the observation that was handed out last. From any thread.
+  /// Progress at the observation that was handed out last. May be called from any thread.
   double progress() const override;
-  /// As of the observation that was handed out last, or as of the end. From any thread.
+  /// Report at the observation that was handed out last, or at the end. May be called from any thread.
   SourceReport report() const override;
   void interrupt() override;
 
@@ -45,13 +45,13 @@ class ReadAhead : public ObservationSource {
   };
   struct Item {
     mrpt::obs::CObservation::Ptr observation;  // null: the end
-    Place place;                               // of the inner source after it
+    Place place;                               // state of the inner source after it
     std::exception_ptr error;                  // instead of an observation
   };
   Place innerPlace() const { return {inner_->report(), inner_->progress()}; }
   void read(std::uint64_t bytes_before);
 
-  std::unique_ptr<ObservationSource> inner_;  // the thread's alone, once it runs
+  std::unique_ptr<ObservationSource> inner_;  // read by the thread only, once it runs
   std::function<bool()> stop_;
   BoundedQueue<Item> queue_;
   mutable std::mutex place_mutex_;

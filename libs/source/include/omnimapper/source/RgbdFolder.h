@@ -17,10 +17,10 @@ namespace omnimapper::source {
 struct RgbdFolderOptions {
   std::string label = "RGBD";
   double largest_difference = 0.02;  ///< between the stamps of depth and colour that make a pair [s]
-  double depth_units = 0;            ///< values of a depth image in a metre; 0: as is usual, see RgbdFolder
-  double rate = 30;                  ///< of images without stamps [1/s]
+  double depth_units = 0;  ///< values of a depth image per metre; 0: the usual one of the form, see RgbdFolder
+  double rate = 30;        ///< images per second, if they have no stamps [1/s]
   /// freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file that has fx, fy, cx and cy: four numbers,
-  /// or OpenCV's "Camera.fx: 535.4". Empty: as the folder's form and name tell.
+  /// or OpenCV's "Camera.fx: 535.4". Empty: determined by the folder's form and name.
   std::string intrinsics;
 };
 
@@ -30,17 +30,16 @@ struct RgbdPair {
   std::string depth, colour;  ///< paths; no colour: empty
 };
 
-/// Streams a folder of depth and colour images, taken by a camera that sees both from one place, as
-/// CObservation3DRangeScan: depth along the optical axis in rangeUnits, colour registered to it, sensorPose the base's
-/// own pose (x forward, z up). The forms it knows:
-///  - TUM RGB-D: depth.txt and rgb.txt with "stamp file" lines, groundtruth.txt with "stamp x y z qx qy qz qw";
-///    stamps that are running numbers take those of truth_cam_poses.txt, line by line, if it is there;
-///    5000 values of depth in a metre;
+/// Streams a folder of depth images and colour images registered to them as CObservation3DRangeScan: depth along the
+/// optical axis in rangeUnits, sensorPose at the base (x forward, z up). Known forms of folders:
+///  - TUM RGB-D: depth.txt and rgb.txt with "stamp file" lines, groundtruth.txt with "stamp x y z qx qy qz qw"; with
+///    truth_cam_poses.txt in place of groundtruth.txt, the stamps are running numbers and are replaced, line by line,
+///    by those of the poses; 5000 depth values per metre;
 ///  - pairs of equal names without stamps, in the order of their numbers: depth/1.png with rgb/1.png (ICL-NUIM's own),
-///    5000 in a metre; depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and Redwood have it), 1000;
+///    5000 per metre; depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and Redwood have it), 1000;
 ///  - associations.txt with lines "1 depth/1.png 1 rgb/1.png", running numbers or stamps (ICL-NUIM's own); 5000;
-///  - 7-Scenes: frame-000001.depth.png, .color.png or .color.jpg, .pose.txt (4 x 4 matrix); 1000 in a metre.
-/// A depth image without a colour image of its time comes without colour.
+///  - 7-Scenes: frame-000001.depth.png, .color.png or .color.jpg, .pose.txt (4 x 4 matrix); 1000 per metre.
+/// A depth image without a colour image of its time is handed out without colour.
 class RgbdFolder : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) if the folder is of no known form, a list cannot be read or intrinsics are missing.
@@ -53,18 +52,18 @@ class RgbdFolder : public ObservationSource {
 
   /// In order of their stamps.
   const std::vector<RgbdPair>& pairs() const { return pairs_; }
-  /// Depth images without a colour image of their time.
+  /// Number of depth images without a colour image of their time.
   std::size_t unpaired() const { return unpaired_; }
-  /// fx, fy, cx, cy of both images [px], and the name or file they are from.
+  /// Intrinsics of both images [px], and the name or file that they come from.
   const mrpt::img::TCamera& camera() const { return camera_; }
   const std::string& cameraName() const { return camera_name_; }
-  /// Values of a depth image in a metre.
+  /// Values of a depth image per metre.
   double depthUnits() const { return options_.depth_units; }
-  /// Of all pixels with a depth of all images that next() gave, each counted alike [m]; none before the first.
+  /// Median over all pixels with a depth in all images that next() returned [m]; none before the first.
   std::optional<double> medianDepth() const;
-  /// True poses of the base in the folder's world, as far as it tells them: stamp and pose, in order.
+  /// True poses of the base in the world frame of the folder, as far as it has them: stamp and pose, in order.
   const std::vector<std::pair<base::Stamp, geometry::Se3>>& groundTruth() const { return ground_truth_; }
-  /// The true pose nearest to that time; none if it is more than `tolerance` [s] away.
+  /// The true pose nearest in time; none if it is more than `tolerance` [s] away.
   std::optional<geometry::Se3> truthAt(base::Stamp stamp, double tolerance) const;
 
  private:
@@ -74,7 +73,7 @@ class RgbdFolder : public ObservationSource {
   std::vector<RgbdPair> pairs_;
   std::vector<std::pair<base::Stamp, geometry::Se3>> ground_truth_;
   std::size_t unpaired_ = 0, next_ = 0;
-  std::vector<std::uint64_t> depth_counts_;  // pixels by their value
+  std::vector<std::uint64_t> depth_counts_;  // number of pixels of each depth value
   ObservationGate gate_;
   SourceReport report_;
 };

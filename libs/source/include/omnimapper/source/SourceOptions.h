@@ -7,14 +7,14 @@
 
 namespace omnimapper::source {
 
-/// The span of time that an action of MRPT's action / sensory-frame format is taken for.
+/// The span of time that an action of MRPT's action / sensory-frame format covers.
 enum class ActionSpan {
-  automatic,  ///< own if the first actions have stamps, else frames
+  automatic,  ///< `own` if the first actions have stamps, else `frames`
   frames,     ///< from the stamp of the frame before it to that of the frame after it
   own,        ///< from the stamp of the previous action, or of the first frame, to its own
 };
 
-/// What start_s and end_s count from.
+/// Time from which start_s and end_s are counted.
 enum class TimeReference {
   log_start,  ///< the first stamp of the earliest log
   unix_epoch  ///< 1970

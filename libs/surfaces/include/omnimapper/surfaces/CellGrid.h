@@ -9,7 +9,8 @@
 
 namespace omnimapper::surfaces {
 
-/// Which square cells of a rectangle on a plane are set: what was seen of a surface, or what an outline covers.
+/// A rectangle of square cells on a plane, some of which are set: those that were seen of a surface, or that an outline
+/// covers.
 class CellGrid {
  public:
   /// A cell by column (along u) and row (along v).
@@ -23,12 +24,12 @@ class CellGrid {
   /// there are at most 100 million cells.
   CellGrid(const Eigen::Vector3d& origin, const Eigen::Vector3d& u, const Eigen::Vector3d& v, double cell, int columns,
            int rows);
-  /// The grid that covers points of a plane, none set. The axes are u along the floor where the plane is not level, and
-  /// v up; on a level one u goes along x.
+  /// The grid that covers points of a plane, with no cell set. If the plane is not level, u is along the floor and v
+  /// up; on a level plane u is along x.
   static CellGrid around(const geometry::Plane3& plane, const std::vector<Eigen::Vector3d>& points, double cell);
 
-  /// Itself, or one that covers the points of its plane as well, with the same cells set. Of an empty grid that around
-  /// the points. `cell` is its own.
+  /// This grid, or if points lie outside, a larger one that covers them too, with the same cells set. For an empty
+  /// grid, around(). `plane` and `cell` must be those of this grid.
   CellGrid grownTo(const geometry::Plane3& plane, std::vector<Eigen::Vector3d> points, double cell) const;
   /// The same cells in frame b.
   CellGrid movedBy(const geometry::Se3& b_from_a) const;
@@ -41,15 +42,16 @@ class CellGrid {
   int rows() const { return rows_; }
   double areaOfCell() const { return cell_ * cell_; }
 
-  /// The cell that the foot of a point is in; none outside.
+  /// The cell that contains the projection of a point; none outside of the grid.
   std::optional<Cell> cellAt(const Eigen::Vector3d& point) const;
   Eigen::Vector3d middleOf(Cell cell) const;
   bool isSet(Cell cell) const { return cells_[indexOf(cell)]; }
   void set(Cell cell) { cells_[indexOf(cell)] = true; }
-  /// Sets the cells whose middle the outline contains and no hole does, all dropped on the plane; even-odd rule.
+  /// Sets the cells whose middle is inside the outline and outside the holes, all projected to the plane; even-odd
+  /// rule.
   void fill(const std::vector<Eigen::Vector3d>& outline, const std::vector<std::vector<Eigen::Vector3d>>& holes = {});
   std::size_t count() const;
-  double area() const { return areaOfCell() * static_cast<double>(count()); }  ///< of those set [m^2]
+  double area() const { return areaOfCell() * static_cast<double>(count()); }  ///< of the cells that are set [m^2]
 
  private:
   std::size_t indexOf(Cell cell) const {

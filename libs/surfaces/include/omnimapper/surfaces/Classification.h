@@ -8,17 +8,17 @@
 
 namespace omnimapper::surfaces {
 
-/// What a surface probably is, and why.
+/// Probable class of a surface, with the reason.
 struct Judgement {
   SurfaceClass is = SurfaceClass::surface;
   std::string reason;  ///< "level, 0.74 m above the floor, 1.60 by 0.80 m: table 0.91, cabinet 0.09"
 };
 
-/// What surfaces are by how they lie, how high, how large, how far up they reach, and what stands behind and beside
-/// them: those of the known examples that are most alike vote, the more alike the more (k nearest neighbours, weighted
-/// by the inverse of the squared distance; Dudani: The distance-weighted k-nearest-neighbor rule, IEEE Transactions on
-/// Systems, Man, and Cybernetics 6, 1976). "surface" where none has half of the votes or none is alike. The z of the
-/// map is up and `floor` [m] is where people walk.
+/// Classifies surfaces by their orientation, height, size, upper and lower edge, and the surfaces behind and beside
+/// them. The examples most similar to a surface vote on its class (k nearest neighbours, weighted by the inverse of the
+/// squared distance; Dudani: The distance-weighted k-nearest-neighbor rule, IEEE Transactions on Systems, Man, and
+/// Cybernetics 6, 1976). The class is "surface" if no class has half of the votes or no example is similar. The z of
+/// the map is up, and `floor` [m] is the height of the floor.
 std::vector<Judgement> classify(const std::vector<Surface>& surfaces, double floor,
                                 const std::vector<Example>& examples = knownExamples());
 

@@ -8,20 +8,20 @@
 
 namespace omnimapper::surfaces {
 
-/// A surface of a map with what it truly is.
+/// A surface of a map with its true class.
 struct Example {
   SurfaceClass is = SurfaceClass::surface;
   SurfaceFacts facts;  ///< `along`, `plan` and `middle` are not kept in files
 };
 
-/// A table with a header, a line for each example, lengths to the centimetre.
+/// The examples as a table with a header and one line each, lengths rounded to the centimetre.
 std::string toCsv(const std::vector<Example>& examples);
-/// Throws base::Error(unreadable_input) naming `file` and the line for what toCsv() did not write.
+/// Reads text of toCsv(). Throws base::Error(unreadable_input) that names `file` and the line for any other text.
 std::vector<Example> readExamples(const std::string& text, const std::string& file);
 
-/// What classify() goes by: surfaces of maps of simulated homes, offices and laboratories (data/examples.csv, made by
-/// scripts/surface-examples), and by hand what rooms, doors (DIN 18101) and furniture usually measure (data/usual.csv),
-/// for a robot's maps know no ceiling, and a simulator not all furniture.
+/// The examples that classify() uses by default: surfaces of maps of simulated homes, offices and laboratories
+/// (data/examples.csv, made by scripts/surface-examples), and usual sizes of rooms, doors (DIN 18101) and furniture,
+/// entered by hand (data/usual.csv), because the maps of a robot have no ceiling and a simulator lacks some furniture.
 const std::vector<Example>& knownExamples();
 
 }  // namespace omnimapper::surfaces

@@ -6,13 +6,13 @@
 
 namespace omnimapper::surfaces {
 
-/// What people call a flat surface of a building or of what stands in it.
+/// Class of a flat surface of a building or of an object in it, as people call it.
 enum class SurfaceClass {
   floor,
   ceiling,
   wall,
   door,        ///< a face of a leaf
-  door_frame,  ///< the sides of the hole that a door or a passage goes through
+  door_frame,  ///< the sides of the opening of a door or a passage
   window,      ///< pane, sill and frame
   table,       ///< the top
   counter,     ///< the worktop
@@ -22,12 +22,12 @@ enum class SurfaceClass {
   bed,
   appliance,  ///< stove, fridge, printer, bathtub, television, machine, radiator
   ramp,       ///< a floor that is not level
-  poster,     ///< what hangs flat on a wall: posters, signs, markers
-  object,     ///< things that people carry, boxes that pile up, plants, people
-  surface,    ///< nobody can tell
+  poster,     ///< flat items on a wall: posters, signs, markers
+  object,     ///< items that people carry, piled boxes, plants, people
+  surface,    ///< unknown
 };
 
-/// "door frame" for door_frame; of all others the name as above.
+/// "door frame" for door_frame; for all others the name as above.
 std::string toString(SurfaceClass surface_class);
 /// None for an unknown name.
 std::optional<SurfaceClass> surfaceClassNamed(const std::string& name);

@@ -7,36 +7,36 @@
 
 namespace omnimapper::surfaces {
 
-/// A flat area that was seen, in any frame that holds still.
+/// A flat area that was seen, in any fixed frame.
 struct FlatArea {
   Eigen::Vector3d normal;  ///< unit, to the side that it was seen from
   Eigen::Vector3d middle;  ///< [m]
   double area = 0;         ///< [m^2]
-  int measurements = 1;    ///< how often it was seen
+  int measurements = 1;    ///< number of measurements of it
 };
 
-/// From where a camera looked, in the same frame.
+/// Pose of a camera that took an image, in the same frame.
 struct Viewpoint {
   Eigen::Vector3d position;  ///< [m]
-  Eigen::Vector3d up;        ///< unit: up in its picture
-  Eigen::Vector3d forward;   ///< unit
+  Eigen::Vector3d up;        ///< unit, up in its image
+  Eigen::Vector3d forward;   ///< unit, along the optical axis
 };
 
-/// Which way is up as the surfaces of a place tell.
+/// Direction of up as the surfaces of a place determine it.
 struct SurfacesLevel {
-  std::optional<Eigen::Vector3d> up;  ///< unit; none where it cannot be told
-  /// Of the rotation vector that takes the true up to `up` [rad^2].
+  std::optional<Eigen::Vector3d> up;  ///< unit; none if it cannot be determined
+  /// Covariance of the rotation vector that takes the true up to `up` [rad^2].
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double margin = 0;   ///< natural logarithm of the odds against the best direction that is another one
-  std::string reason;  ///< half a sentence, in both cases
+  double margin = 0;   ///< natural logarithm of the odds of `up` against the best other direction
+  std::string reason;  ///< half a sentence, whether `up` was determined or not
 };
 
 /// The direction for which most surfaces are level or upright. Candidates are the normals and the cross products of
-/// normals. In a room of right angles three axes explain the surfaces alike: among them those count for more to which
-/// level surfaces at several heights face (floor, table tops), along which the camera moved least, and which are up in
-/// most pictures. The chosen one is refined by least squares with Tukey's loss, so that a ramp among walls does not
-/// count. None where two directions are about as likely, or where nothing tells how far it leans (a single wall).
-/// Areas and viewpoints that are not finite are left out.
+/// normals. In a room with right angles three axes explain the surfaces equally well. An axis among them is more likely
+/// if surfaces at several heights face along it (floor, table tops), if the camera moved little along it, and if it is
+/// up in most images. The chosen axis is refined by least squares with Tukey's loss, so that a ramp among walls does
+/// not count. None if two directions are about equally likely, or if its tilt is not determined (a single wall). Areas
+/// and viewpoints that are not finite are left out.
 SurfacesLevel levelOfSurfaces(const std::vector<FlatArea>& areas, const std::vector<Viewpoint>& viewpoints);
 
 }  // namespace omnimapper::surfaces
