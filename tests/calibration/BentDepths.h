@@ -12,17 +12,18 @@
 
 namespace omnimapper::calibration {
 
-/// Simulated depth images of planes, by a camera that bends them.
+/// Simulated depth images of planes, by a camera with a systematic distortion.
 struct BentDepths {
   int width = 160, height = 120;
   double sigma = 0.0023;                   ///< [1/m] noise of a pixel
   double nearest = 0.7, farthest = 3;      ///< [m] of the planes, in the middle of the image
-  double turn = 0.35;                      ///< how much the inverse depth changes from the middle to a rim, of itself
-  double share = 1;                        ///< of the columns that show something
+  double turn = 0.35;                      ///< relative change of the inverse depth from the middle to a rim
+  double share = 1;                        ///< of the columns that have depths
   bool has_floor = true;                   ///< in every second image
-  perception::DepthDistortion distortion;  ///< what must be added to what is measured
+  perception::DepthDistortion distortion;  ///< correction of the measured inverse depths
 
-  /// Inverse depths [1/m] over x and y from -1 to 1: constant, for one x, for one y. Those of the image of that number.
+  /// The wall of image `number`: its inverse depth [1/m] over x and y from -1 to 1, as constant, slope in x and slope
+  /// in y.
   Eigen::Vector3d wallOf(int number) const {
     std::mt19937 random(static_cast<unsigned>(1000 + number));
     const auto share_of = [&] { return static_cast<double>(random()) / static_cast<double>(std::mt19937::max()); };
@@ -48,7 +49,7 @@ struct BentDepths {
       for (int u = 0; u < width; ++u) {
         const double x = (2.0 * u + 1) / width - 1, y = (2.0 * v + 1) / height - 1;
         double inverse = wall.dot(Eigen::Vector3d(1, x, y));
-        // A floor comes nearer than the wall below the middle.
+        // Below the middle, a floor is nearer than the wall.
         if (has_floor && number % 2 == 0) inverse = std::max(inverse, 0.1 + 0.8 * y * wall[0] + 0.5 * wall[0]);
         inverse += noise(random) - distortion.at(x, y);
         scan.rangeImage(v, u) = u < share * width && inverse > 0.05
@@ -60,8 +61,8 @@ struct BentDepths {
   }
 };
 
-/// What a Kinect may have: 6 mm at 1 m in a corner.
-inline perception::DepthDistortion bentAsAKinect() {
+/// A distortion as that of a Kinect: 6 mm at 1 m in a corner.
+inline perception::DepthDistortion kinectDistortion() {
   return perception::DepthDistortion(
       {-0.003, 0.0012, -0.001, 0.0015, 0.001, -0.0008, 0.0005, 0.001, -0.0015, 0.002, 0.0006, 0.0008});
 }

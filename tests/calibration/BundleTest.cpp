@@ -20,7 +20,8 @@ geometry::Se3 motion(double x, double y, double z, double a, double b, double c)
   return plus(geometry::Se3(), delta);
 }
 
-/// Corners on the walls of a room of 4 x 3 x 5 m, seen by a camera that turns and moves in it, in numbers alone.
+/// Simulated measurements (no images) of corners on the walls of a room of 4 x 3 x 5 m, by a camera that turns and
+/// moves in it.
 class Room {
  public:
   explicit Room(bool is_registered) {
@@ -83,7 +84,7 @@ class Room {
   }
 
  private:
-  // With the plane that the depth camera sees there, exactly: the wall that the point is on.
+  // Adds a measurement with the exact plane that the depth camera sees there, which is the wall of the point.
   void seeOne(std::size_t track, double pixel_noise, testing::Dice& dice) {
     const auto& view = picture_from_world.back();
     const Eigen::Vector3d p = view * points[track];
@@ -118,7 +119,7 @@ void expectTruth(const Adjusted& adjusted, const DepthCamera& truth) {
   const auto& camera = adjusted.estimate.camera;
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(camera.picture[i], truth.picture[i], 1.5) << i;
   for (std::size_t i = 4; i < 9; ++i) EXPECT_NEAR(camera.picture[i], truth.picture[i], 0.06) << i;
-  // Each is as far off as its standard deviation says, or nearer.
+  // The errors agree with their standard deviations.
   for (const auto& one : adjusted.parameters) {
     if (one.group == Group::focal) {
       EXPECT_NEAR(one.value, truth.picture[static_cast<std::size_t>(one.index)], 4 * one.sigma);
@@ -131,7 +132,7 @@ TEST(Bundle, FindsOneCameraThatTheLogHasWrong) {
   Room room(true);
   room.see(20, 0.2);
   DepthCamera log = room.truth;
-  log.picture = {530, 532, 323, 239};  // 2 % and 5 px off, and without the lens
+  log.picture = {530, 532, 323, 239};  // 2 % and 5 px off, and without lens distortion
   log.depth = log.picture;
   const auto adjusted = adjust(room.input(log), room.start(log), {Group::focal, Group::centre, Group::lens});
   expectTruth(adjusted, room.truth);
@@ -164,7 +165,7 @@ TEST(Bundle, WithoutMetresTheScaleOfTheDepthsIsOpen) {
   room.see(20, 0.3);
   room.spans.clear();
   const auto adjusted = adjust(room.input(room.truth), room.start(room.truth), {Group::focal, Group::scale});
-  EXPECT_GT(undetermined(Group::scale, adjusted), 1) << "a larger scale and a longer way look the same";
+  EXPECT_GT(undetermined(Group::scale, adjusted), 1) << "a larger scale and a longer distance look the same";
   EXPECT_LT(undetermined(Group::focal, adjusted), 1);
 }
 

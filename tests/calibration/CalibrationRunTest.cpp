@@ -25,11 +25,11 @@ namespace {
 using matching::posed;
 using mrpt::obs::CObservation3DRangeScan;
 
-/// What the log says of its cameras, which truly are the room's.
+/// The calibration that a log declares, and the true one, which is that of the rendered room.
 struct Log {
   double picture_focal = 260, picture_cx = 159.5, picture_cy = 119.5, depth_focal = 260;
-  geometry::Se3 depth_from_picture;     ///< true one
-  geometry::Se3 declared_from_picture;  ///< what the log says
+  geometry::Se3 depth_from_picture;     ///< the true pose
+  geometry::Se3 declared_from_picture;  ///< the pose that the log declares
   double true_picture_focal = 260, true_scale = 1;
   bool has_picture = true, has_depth = true, moves = true, has_poses = false;
   int images = 60;
@@ -115,7 +115,7 @@ class CalibrationRunTest : public ::testing::Test {
     ADD_FAILURE() << "it was not refused";
     return "";
   }
-  // The log's camera as the calibration that was written corrects it.
+  // The log's camera after the written calibration is applied to it.
   DepthCamera corrected(const Log& log) {
     auto scan = imageOf(log, 0);
     const auto config = base::Config::fromFile(request_.output + "/calibration.ini");
@@ -176,7 +176,7 @@ TEST_F(CalibrationRunTest, FindsWhereThePictureIsTakenAndTheScaleByGivenPoses) {
   EXPECT_LT(off.tail<3>().norm(), 0.35 * base::option_text::kRadiansPerDegree);
 }
 
-TEST_F(CalibrationRunTest, WhatAnIniToldBeforeIsToldAgain) {
+TEST_F(CalibrationRunTest, ValuesOfTheGivenIniAreWrittenAgain) {
   Log log;
   write(log);
   request_.ini = folder_ / "before.ini";
@@ -277,7 +277,7 @@ TEST_F(CalibrationRunTest, TheProgramSaysWhatIsMissing) {
   EXPECT_NE(missing.err.find("none.rawlog"), std::string::npos) << missing.err;
 }
 
-// From nominal intrinsics without a lens to the focal length that the benchmark calibrated with a board.
+// Starts from nominal intrinsics without a lens and finds the focal length that the benchmark calibrated with a board.
 TEST_F(CalibrationRunTest, OfARealKinectItFindsTheLens) {
   const auto folder = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);

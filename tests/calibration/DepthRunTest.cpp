@@ -26,7 +26,7 @@ using perception::DepthDistortion;
 
 constexpr int kImages = 24;
 
-/// Over the image [1/m].
+/// Root mean square over the image [1/m].
 double rmsOf(const std::function<double(double x, double y)>& value) {
   double squares = 0;
   constexpr int kSide = 20;
@@ -85,7 +85,7 @@ class DepthRunTest : public ::testing::Test {
   DepthRequest request_{{folder_ / "camera.rawlog"}, "", folder_ / "out", ""};
 };
 
-/// How many of its standard deviations what was found is off, root mean square over the image.
+/// Error of the distortion that was found, in its standard deviations; root mean square over the image.
 double deviationsOf(const DepthDistortion& found, const nlohmann::json& summary, const DepthDistortion& truth) {
   const auto sigmas = summary["sigma_by_part_per_m"].get<std::vector<double>>();
   double squares = 0;
@@ -98,7 +98,7 @@ double deviationsOf(const DepthDistortion& found, const nlohmann::json& summary,
 
 TEST_F(DepthRunTest, FindsAKnownDistortionWithinItsStandardDeviation) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   write(depths);
   const auto result = run();
   EXPECT_EQ(result.code, base::ExitCode::ok);
@@ -122,10 +122,10 @@ TEST_F(DepthRunTest, FindsAKnownDistortionWithinItsStandardDeviation) {
   EXPECT_EQ(read("calibration.ini") + read("summary.json") + read("distortion.svg"), once) << "bytes of two runs";
 }
 
-// Of an error that has a constant and a slope, too, the rest is found: planes are as flat with them.
+// If the error has a constant and a slope, too, only the rest is found, because planes stay flat with these.
 TEST_F(DepthRunTest, AConstantAndASlopeChangeNothing) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   write(depths, kImages, [](int, CObservation3DRangeScan& scan) {
     for (int v = 0; v < static_cast<int>(scan.rangeImage.rows()); ++v) {
       for (int u = 0; u < static_cast<int>(scan.rangeImage.cols()); ++u) {
@@ -147,7 +147,7 @@ TEST_F(DepthRunTest, NoiseAloneIsNothingToMend) {
 
 TEST_F(DepthRunTest, OneWallFromAfarThatFillsAPartIsRefused) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   depths.has_floor = false;
   depths.nearest = 4;
   depths.farthest = 5;
@@ -160,7 +160,7 @@ TEST_F(DepthRunTest, OneWallFromAfarThatFillsAPartIsRefused) {
 
 TEST_F(DepthRunTest, OneWallFromOneDistanceLeavesAWarning) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   depths.has_floor = false;
   depths.nearest = 2;
   depths.farthest = 2.1;
@@ -174,19 +174,19 @@ TEST_F(DepthRunTest, OneWallFromOneDistanceLeavesAWarning) {
 
 TEST_F(DepthRunTest, ACameraAtRestAndTooFewImagesAreRefused) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   write(depths, 8);
-  EXPECT_NE(refusal().find("8 depth images that differ of 12"), std::string::npos);
+  EXPECT_NE(refusal().find("8 different depth images of 12"), std::string::npos);
   const auto first = depths.imageOf(0);
   write(depths, 20, [&](int, CObservation3DRangeScan& scan) { scan.rangeImage = first.rangeImage; });
-  EXPECT_NE(refusal().find("1 depth image that differ"), std::string::npos);
+  EXPECT_NE(refusal().find("1 different depth image of 12"), std::string::npos);
 }
 
 TEST_F(DepthRunTest, ALogWithoutDepthsIsRefused) {
   write({}, 3, [](int, CObservation3DRangeScan& scan) { scan.hasRangeImage = false; });
   EXPECT_NE(refusal().find("no depth images"), std::string::npos);
   write({}, 3, [](int, CObservation3DRangeScan& scan) { scan.rangeImage.fill(0); });
-  EXPECT_NE(refusal().find("1 depth image that differ"), std::string::npos);
+  EXPECT_NE(refusal().find("1 different depth image of 12"), std::string::npos);
   write({}, 3, [](int, CObservation3DRangeScan& scan) { scan.cameraParams.fx(std::nan("")); });
   const auto message = refusal();
   EXPECT_NE(message.find("there is no observation"), std::string::npos) << message;
@@ -201,9 +201,9 @@ TEST_F(DepthRunTest, ImagesWhoseUnitIsNoLengthAreRefused) {
   }
 }
 
-TEST_F(DepthRunTest, OfADamagedLogWhatCanBeReadIsUsedAndTold) {
+TEST_F(DepthRunTest, TheReadablePartOfADamagedLogIsUsedAndReported) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   write(depths, 40);
   const auto log = request_.logs.front();
   const auto size = std::filesystem::file_size(log);
@@ -214,7 +214,7 @@ TEST_F(DepthRunTest, OfADamagedLogWhatCanBeReadIsUsedAndTold) {
   EXPECT_NE(result.warnings.front().find("camera.rawlog"), std::string::npos) << result.warnings.front();
   std::filesystem::remove_all(request_.output);
   std::filesystem::resize_file(log, size / 10);
-  EXPECT_NE(refusal().find("that differ of 12"), std::string::npos);
+  EXPECT_NE(refusal().find("of 12 that are needed"), std::string::npos);
   std::ofstream(log) << "This is no log.";
   try {
     run();
@@ -227,14 +227,14 @@ TEST_F(DepthRunTest, OfADamagedLogWhatCanBeReadIsUsedAndTold) {
 
 TEST_F(DepthRunTest, PlacesWithoutDepthChangeLittleAndOtherSizesAreCounted) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   BentDepths small;
   small.width = 80;
   small.height = 60;
   write(depths, kImages, [&](int i, CObservation3DRangeScan& scan) {
     if (i == 5 || i == 6) scan = small.imageOf(i);
     if (i == 5 || i == 6) return;
-    // A hole, one that is saturated, and single pixels.
+    // A hole, a saturated hole, and single pixels without depth.
     for (int v = 20; v < 60; ++v)
       for (int u = 30; u < 60; ++u) scan.rangeImage(v, u) = v < 40 ? 0 : 65535;
     for (int k = i; k < 19200; k += 37) scan.rangeImage(k / 160, k % 160) = 0;
@@ -247,9 +247,9 @@ TEST_F(DepthRunTest, PlacesWithoutDepthChangeLittleAndOtherSizesAreCounted) {
       << result.warnings.front();
 }
 
-TEST_F(DepthRunTest, WhatAnIniToldBeforeIsToldAgainAndFoundOnTop) {
+TEST_F(DepthRunTest, TheDistortionIsAddedToThatOfTheGivenIni) {
   BentDepths depths;
-  depths.distortion = bentAsAKinect();
+  depths.distortion = kinectDistortion();
   write(depths);
   request_.ini = folder_ / "before.ini";
   std::ofstream(request_.ini) << "[calibration]\ndepth_fx_px = 130\ndepth_scale = 1.05\n"
@@ -259,7 +259,7 @@ TEST_F(DepthRunTest, WhatAnIniToldBeforeIsToldAgainAndFoundOnTop) {
   const auto ini = read("calibration.ini");
   EXPECT_NE(ini.find("depth_fx_px = 130\n"), std::string::npos) << ini;
   EXPECT_NE(ini.find("depth_scale = 1.05\n"), std::string::npos) << ini;
-  // From the one that was written nothing is left to find.
+  // After the written calibration is applied, no distortion is left to find.
   std::filesystem::rename(request_.output, folder_ / "first");
   request_.ini = folder_ / "first/calibration.ini";
   EXPECT_NE(refusal().find("get no flatter"), std::string::npos);
@@ -276,7 +276,7 @@ TEST_F(DepthRunTest, TheFolderOfAMapIsNotTaken) {
   }
 }
 
-/// How many planes omnimapper-perceive finds in each image, in the mean.
+/// Mean number of planes that omnimapper-perceive finds in an image.
 double planesPerImage(const std::vector<std::string>& inis, const std::string& log, const std::string& output) {
   std::vector<std::string> command{testing::ownProgram("omnimapper-perceive"), "-q", "-r", log, "-o", output};
   for (const auto& ini : inis) command.insert(command.end(), {"-i", ini});
@@ -293,7 +293,7 @@ double planesPerImage(const std::vector<std::string>& inis, const std::string& l
   return planes / images;
 }
 
-// Walls that the sensor bends so much that each falls into pieces are whole again.
+// Walls that are split into several planes by the sensor's distortion become one plane again.
 TEST_F(DepthRunTest, TheProgramsFindAndApplyIt) {
   BentDepths depths;
   depths.has_floor = false;
@@ -321,7 +321,7 @@ TEST_F(DepthRunTest, TheProgramsFindAndApplyIt) {
   EXPECT_NE(help.out.find("--degree"), std::string::npos) << help.out;
 }
 
-/// Of a folder of the TUM RGB-D benchmark, every so many-th depth image alone.
+/// Writes every `every`-th depth image of a folder of the TUM RGB-D benchmark to a log.
 void importDepths(const std::string& folder, int every, const std::string& output) {
   source::RgbdFolder images(folder, {});
   source::writeRawlog(output, [&](source::RawlogWriter& rawlog) {

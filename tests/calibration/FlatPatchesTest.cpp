@@ -32,7 +32,7 @@ double slanted(double x, double y) {
   return 0.5 + 0.1 * x - 0.2 * y;
 }
 
-TEST(DepthCells, TellWhereTheirPlaneIs) {
+TEST(DepthCells, DescribeTheirPlane) {
   const auto image = cellsOfInverse(slanted);
   ASSERT_EQ(image.columns, 40);
   ASSERT_EQ(image.rows, 30);
@@ -51,7 +51,7 @@ TEST(DepthCells, WhatIsNoMeasurementIsNotFlat) {
   const float bad[] = {kNan, kInfinity, -kInfinity, -1, 0, 0.1F, 100};
   const auto image = cellsOfInverse(slanted, [&](std::vector<float>& metres) {
     for (std::size_t i = 0; i < 20 * kWidth; ++i) metres[i] = bad[i % 7];
-    metres[30 * kWidth + 33] = kNan;  // alone it does no harm
+    metres[30 * kWidth + 33] = kNan;  // a single bad pixel has no effect
   });
   for (int row = 0; row < image.rows; ++row) EXPECT_EQ(image.at(8, row).is_flat, row >= 5) << row;
   EXPECT_NEAR(image.at(8, 7).inverse_depth, slanted(image.at(8, 7).x, image.at(8, 7).y), 1e-6);
@@ -74,12 +74,12 @@ TEST(DepthCells, ImagesDifferThatShowSomethingElse) {
   EXPECT_FALSE(areDifferent(nothing, nothing));
 }
 
-TEST(FlatPatches, WallAndFloorAreTwoAndABentWallIsOne) {
+TEST(FlatPatches, WallAndFloorAreTwoAndADistortedWallIsOne) {
   const auto corner = [](double x, double y) { return std::max(0.4 + 0.05 * x, 0.3 + 0.5 * y); };
   EXPECT_EQ(growPatches(cellsOfInverse(corner), {}, 0.01).size(), 2U);
-  const auto distortion = bentAsAKinect();
-  const auto bent = [&](double x, double y) { return slanted(x, y) - distortion.at(x, y); };
-  const auto patches = growPatches(cellsOfInverse(bent), {}, 0.01);
+  const auto distortion = kinectDistortion();
+  const auto distorted = [&](double x, double y) { return slanted(x, y) - distortion.at(x, y); };
+  const auto patches = growPatches(cellsOfInverse(distorted), {}, 0.01);
   ASSERT_EQ(patches.size(), 1U);
   EXPECT_GT(patches.front().samples.size(), 1150U) << "of 1200 cells";
   for (const double miss : missesOf(patches.front(), distortion, 0.001)) EXPECT_LT(std::abs(miss), 5e-4);
@@ -90,11 +90,11 @@ TEST(FlatPatches, ASphereIsNone) {
   for (const auto& patch : growPatches(cellsOfInverse(sphere), {}, 0.01)) EXPECT_LT(patch.samples.size(), 120U);
 }
 
-// Standard deviations are what estimates of many logs scatter by.
-TEST(DistortionFit, TellsHowWellItIsKnown) {
+// The standard deviations agree with the scatter of estimates from many simulated logs.
+TEST(DistortionFit, ReportsItsStandardDeviation) {
   constexpr int kTrials = 20, kPatches = 12;
   constexpr double kSigma = 0.001;  // [1/m]
-  const auto truth = bentAsAKinect();
+  const auto truth = kinectDistortion();
   const std::vector<std::pair<double, double>> places{{0, 0}, {-0.8, -0.8}, {0.8, -0.5}, {0.3, 0.9}};
   double squares = 0;
   for (int trial = 0; trial < kTrials; ++trial) {

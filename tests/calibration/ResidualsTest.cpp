@@ -15,7 +15,7 @@ TEST(Projection, IsThePinholesWithoutALens) {
   EXPECT_NEAR(place.y(), 189, 1e-12);
 }
 
-TEST(Projection, BendsAsBrownsModelSays) {
+TEST(Projection, DistortsAsInBrownsModel) {
   // x = 0.2, y = 0.1, r2 = 0.05: radial 1 + 0.005 - 0.0005 + 0.00000625.
   const Eigen::Vector2d place = project(kLens.data(), Eigen::Vector3d(0.2, 0.1, 1));
   const double radial = 1.00450625;
@@ -59,7 +59,8 @@ TEST(PixelResidual, ARowThatIsTakenLaterSeesTheCameraFartherOn) {
 }
 
 TEST(DepthResidual, IsTheMissInInverseDepthOverTheSlopeOfTheSurface) {
-  // The point is seen 10 px to the right of where the plane has 0.5 per m, with 0.001 per m and px; it is at 1.9 m.
+  // The point is seen 10 px to the right of the pixel where the plane has 0.5/m, with a slope of 0.001/m/px; its depth
+  // is 1.9 m.
   const LocalPlane plane{{310, 240}, 0.5, {0.001, 0}, 0.01};
   const DepthResidual residual{plane};
   const MotionBlock still{};
@@ -71,7 +72,7 @@ TEST(DepthResidual, IsTheMissInInverseDepthOverTheSlopeOfTheSurface) {
 }
 
 TEST(DistanceResidual, IsOfTheBaseAndNotOfTheCamera) {
-  // A camera 0.5 m before the base turns by a quarter about the base, which stays.
+  // A camera 0.5 m in front of the base makes a quarter turn about the base, which does not move.
   const DistanceResidual residual{{0, 0, -0.5}, {0, 0, -0.5}, 0.3, 0.1};
   const MotionBlock first{0, 0, 0, 0, 0, -0.5};  // camera_from_world with the base in the world's origin
   const MotionBlock second{0, 1.5707963267948966, 0, 0, 0, -0.5};
@@ -80,8 +81,7 @@ TEST(DistanceResidual, IsOfTheBaseAndNotOfTheCamera) {
   EXPECT_NEAR(r, -3, 1e-4);
 }
 
-// A class of its own, or the library would take its cost functions, with their tables of functions, from this program,
-// which is not optimized.
+// A separate class, because otherwise the library would use the cost functions of this program, which is not optimized.
 template <class Residual>
 struct Tested {
   Residual residual;
@@ -91,7 +91,7 @@ struct Tested {
   }
 };
 
-// Derivatives by dual numbers agree with differences.
+// Checks that derivatives by dual numbers agree with finite differences.
 template <class Cost>
 void expectDerivatives(const Cost& cost, const std::vector<std::vector<double>>& blocks, int rows) {
   const auto evaluate = [&](const std::vector<std::vector<double>>& at, std::vector<std::vector<double>>* jacobians) {

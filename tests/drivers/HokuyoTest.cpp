@@ -18,7 +18,7 @@
 #include "PlayRun.h"
 #include "hokuyo/LaserConnection.h"
 
-// Played Hokuyos, read by MRPT's own driver through a LiveSource.
+// Simulated Hokuyos that play a log, read by MRPT's driver through a LiveSource.
 namespace omnimapper::drivers::hokuyo_test {
 namespace {
 
@@ -26,7 +26,7 @@ using namespace live;
 
 using mrpt::obs::CObservation2DRangeScan;
 
-/// Scans of a robot in a room, the first `count` of them, so many a second.
+/// The first `count` scans of a robot in a room, `rate` of them a second.
 players::PlayedLog logOf(std::size_t count, double rate = 40) {
   testing::SimulatedLogOptions options;
   options.place = testing::SimulatedLogOptions::Place::box;
@@ -39,14 +39,14 @@ players::PlayedLog logOf(std::size_t count, double rate = 40) {
 
 class HokuyoTest : public ::testing::Test {
  protected:
-  /// What came of one of the lasers.
+  /// The data that came from one of the lasers.
   struct Laser {
     std::vector<CObservation2DRangeScan::Ptr> received;
-    std::vector<std::size_t> numbers;  // of those in the log
+    std::vector<std::size_t> numbers;  // of the same scans in the log
     SensorMetrics metrics;
   };
 
-  // A laser at each address; all of them measure the same scans.
+  // Starts a laser at each address; all of them play the same scans.
   void play(players::PlayedLog log, const std::vector<std::string>& addresses,
             const std::vector<std::string>& faults = {}, players::PlayOptions play_options = {}) {
     scans = log.lasers.at("laser");
@@ -55,7 +55,7 @@ class HokuyoTest : public ::testing::Test {
       log.lasers[labelOf(i)] = scans;
       play_options.hokuyos.push_back(labelOf(i) + "=" + addresses[i]);
     }
-    play_options.linger = 60;  // until it is stopped
+    play_options.linger = 60;  // longer than the test, which stops it
     for (const auto& fault : faults) play_options.hokuyo.faults.push_back(players::parseFault(fault));
     lasers.resize(addresses.size());
     run = std::make_unique<players::PlayRun>(std::move(log), play_options);
@@ -78,7 +78,7 @@ class HokuyoTest : public ::testing::Test {
     source->open({});
   }
 
-  // Up to the last scan of the log from each laser; without that until nothing has come for 5 s.
+  // Receives until the last scan of the log has come from each laser, or nothing for 5 s.
   void receive() {
     for (std::size_t finished = 0; finished < lasers.size();) {
       const auto next = source->next(std::chrono::seconds(5));
@@ -97,7 +97,7 @@ class HokuyoTest : public ::testing::Test {
   }
 
   static std::string labelOf(std::size_t laser) { return laser == 0 ? "front" : "back"; }
-  // The scan of the log that this one is, to the millimetre; kNone: a scan that never was.
+  // The number of this scan in the log, compared to the millimetre; kNone if it is not in the log.
   std::size_t numberOf(const CObservation2DRangeScan& scan) const {
     for (std::size_t number = 0; number < scans.size(); ++number)
       if (isSame(*scans[number], scan)) return number;
@@ -126,7 +126,7 @@ class HokuyoTest : public ::testing::Test {
   std::string news;
 };
 
-/// From 0 to count - 1 without some.
+/// The numbers from 0 to count - 1 except those in `without`.
 std::vector<std::size_t> allOf(std::size_t count, const std::set<std::size_t>& without = {}) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < count; ++i)
@@ -147,7 +147,7 @@ TEST_F(HokuyoTest, everyScanComesToTheMillimetreWithTheTimeItWasDue) {
     for (std::size_t i = 0; i < 60; ++i)
       late.push_back(base::secondsBetween(played[i].host, its.received[i]->timestamp));
     std::sort(late.begin(), late.end());
-    // A machine that is busy holds some up, and the clock of the laser has whole milliseconds.
+    // On a busy machine some scans are late, and the clock of the laser has whole milliseconds.
     EXPECT_GT(late.front(), -0.002);
     EXPECT_LT(late[30], 0.1);
     EXPECT_NEAR(its.received[0]->aperture, scans[0]->aperture, 1e-4);
@@ -155,7 +155,7 @@ TEST_F(HokuyoTest, everyScanComesToTheMillimetreWithTheTimeItWasDue) {
   }
 }
 
-TEST_F(HokuyoTest, whatIsDamagedOnItsWayIsLeftOutAndCounted) {
+TEST_F(HokuyoTest, damagedMessagesAreLeftOutAndCounted) {
   play(logOf(50, 80), {"127.0.0.1:0", folder / "laser"}, {"garbage@5", "half@15", "checksum@25", "slow@35:0.1"});
   open();
   receive();
@@ -167,18 +167,19 @@ TEST_F(HokuyoTest, whatIsDamagedOnItsWayIsLeftOutAndCounted) {
   EXPECT_EQ(news.find("is lost"), std::string::npos) << news;
 }
 
-/// Scans are lost while the laser is away, those from `first` on, and no others.
+/// Expects that only scans from `first` on are lost, without other gaps, while the laser is away.
 void expectGap(const std::vector<std::size_t>& numbers, std::size_t first, std::size_t count) {
   std::vector<std::size_t> expected = allOf(first);
   ASSERT_GT(numbers.size(), first);
   for (std::size_t number = numbers[first]; number < count; ++number) expected.push_back(number);
   EXPECT_EQ(numbers, expected);
-  EXPECT_GT(numbers[first], first) << "the fault was none";
+  EXPECT_GT(numbers[first], first) << "the fault had no effect";
 }
 
 TEST_F(HokuyoTest, aLaserThatFellSilentIsBack) {
   options.reopen_after = 0.6;
-  // The longest of the last ten gaps counts three times: that before the first scan is forgotten then.
+  // A laser is reopened after three times the longest of the last ten gaps; the one before the first scan is not among
+  // them any more.
   play(logOf(94), {"127.0.0.1:0"}, {"silence@12:1"});
   open();
   receive();
@@ -210,7 +211,7 @@ TEST_F(HokuyoTest, oneThatAcceptsAgainAtOnceIsBack) {
 
 TEST_F(HokuyoTest, aLaserThatAnswersSlowlyIsOpened) {
   players::PlayOptions play_options;
-  play_options.hokuyo.answer_delay = 0.06;  // [s] later than the driver listens after QT
+  play_options.hokuyo.answer_delay = 0.06;  // [s] longer than the driver listens after QT
   play(logOf(10), {"127.0.0.1:0"}, {}, play_options);
   open("comms_timeout_ms = 200\n");
   receive();
@@ -224,7 +225,7 @@ TEST_F(HokuyoTest, theKeysOfMrptsDriverAreHeeded) {
     for (std::size_t beam = 0; beam < scan->getScanSize(); ++beam)
       scan->setScanIntensity(beam, static_cast<int>(100 * beam));
   }
-  log.lasers.at("laser").resize(39);  // the last one has an even number
+  log.lasers.at("laser").resize(39);  // so that the last one has an even number
   play(std::move(log), {"127.0.0.1:0"});
   open("intensity = true\nscan_interval = 1\npose_x = 0.25\npose_yaw = 90\n");
   receive();
@@ -277,7 +278,7 @@ TEST(LaserConnection, aSignalDoesNotEndTheWaiting) {
   sigaction(SIGUSR1, &before, nullptr);
 }
 
-TEST(PlayRun, aPortThatWasTakenWhileTheLaserWasAwayIsTold) {
+TEST(PlayRun, aPortThatWasTakenWhileTheLaserWasAwayIsReported) {
   auto log = logOf(10, 80);
   players::PlayOptions play_options;
   play_options.hokuyos = {"127.0.0.1:0"};
@@ -291,7 +292,7 @@ TEST(PlayRun, aPortThatWasTakenWhileTheLaserWasAwayIsTold) {
   for (int i = 0; i < 5000 && !other; ++i) {
     try {
       other = listenTcp(address);
-    } catch (const base::Error&) {  // the laser is there still
+    } catch (const base::Error&) {  // the laser is still there
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
@@ -310,7 +311,7 @@ TEST(PlayRun, whatIsNoFaultOfOdometryIsRefused) {
   EXPECT_THROW(players::parseOdometryFault("slow@5:0.1"), base::Error);
 }
 
-// Whoever accepts a connection and says nothing is no laser.
+// A server that accepts a connection and sends nothing is no laser.
 TEST_F(HokuyoTest, oneThatNeverAnswersIsAnError) {
   const auto silent = listenTcp({});
   const auto config =

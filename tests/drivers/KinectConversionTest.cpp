@@ -16,7 +16,7 @@ std::size_t at(int column, int row) {
   return static_cast<std::size_t>(row) * 640 + static_cast<std::size_t>(column);
 }
 
-// Two cameras of round numbers without lenses, the colour camera 2.5 cm to the right.
+// Two cameras with round numbers and no lens distortion, the colour camera 2.5 cm to the right.
 KinectOptions plain(Registration registration = Registration::ours) {
   KinectOptions options;
   options.depth_k1 = options.depth_k2 = options.depth_p1 = options.depth_p2 = options.depth_k3 = 0;
@@ -37,7 +37,7 @@ TEST(KinectConversion, rawValuesAreDepthsWorkedByHand) {
   EXPECT_NEAR(calibration.depthOf(600), 0.671913, 1e-6);   // 1 / (3.3309495161 - 600 * 0.0030711016)
   EXPECT_NEAR(calibration.depthOf(1000), 3.848405, 1e-6);  // 1 / 0.2598479161
   EXPECT_EQ(calibration.depthOf(1085), 0) << "beyond infinity";
-  EXPECT_EQ(calibration.depthOf(2047), 0) << "the device's word for none";
+  EXPECT_EQ(calibration.depthOf(2047), 0) << "the device's value for no depth";
   EXPECT_EQ(calibration.depthOf(-1), 0);
   EXPECT_EQ(calibration.depthOf(2048), 0);
 }
@@ -46,7 +46,7 @@ TEST(KinectConversion, theInverseIsTheNearestRawValue) {
   const KinectCalibration calibration;
   for (int raw = 0; raw < 1084; ++raw) EXPECT_EQ(calibration.rawOf(calibration.depthOf(raw)), raw);
   for (double depth = 0.31; depth < 10; depth += 0.0137) {
-    const double step = depth * depth * 0.0030711016;  // of one raw value
+    const double step = depth * depth * 0.0030711016;  // the interval of one raw value
     EXPECT_NEAR(calibration.depthOf(calibration.rawOf(depth)), depth, 0.52 * step) << depth;
   }
   EXPECT_EQ(calibration.rawOf(0), 2047);
@@ -55,14 +55,15 @@ TEST(KinectConversion, theInverseIsTheNearestRawValue) {
 }
 
 TEST(KinectConversion, theColourCameraSeesAPointWorkedByHand) {
-  // At 2 m the pixel (440, 300) is 0.4 m right and 0.2 m below, of the colour camera 0.375 m right: 310 + 500 * 0.1875
-  // and 250 + 500 * 0.1.
+  // At 2 m the pixel (440, 300) is 0.4 m to the right and 0.2 m below, and 0.375 m to the right of the colour camera:
+  // 310 + 500 * 0.1875 and 250 + 500 * 0.1.
   const auto place = KinectConversion(plain(Registration::none)).placeInPicture(440, 300, 2);
   ASSERT_TRUE(place);
   EXPECT_EQ(place->column, 404);  // 403.75
   EXPECT_EQ(place->row, 300);
   EXPECT_NEAR(place->depth, 2, 1e-6);
-  // Of a colour camera 10 cm before it, turned by 0.1 rad to the left, it is 0.375 cos - 1.9 sin ... right of the axis.
+  // From a colour camera 10 cm in front of it that is turned by 0.1 rad to the left, the point is 0.375 cos - 1.9 sin
+  // ... to the right of the axis.
   auto turned = plain(Registration::none);
   turned.picture_x = 0.1;
   turned.picture_yaw += 0.1;
@@ -81,7 +82,7 @@ TEST(KinectConversion, depthsAreMovedIntoThePictureAndTheNearestCounts) {
   const KinectCalibration calibration;
   const int far = calibration.rawOf(4), near = calibration.rawOf(2);
   raw[at(440, 300)] = static_cast<std::uint16_t>(near);
-  // At 4 m the pixel (436, 300) is 0.773 m right, of the colour camera 0.748 m: 310 + 500 * 0.187 = 403.5.
+  // At 4 m the pixel (436, 300) is 0.773 m to the right, and 0.748 m from the colour camera: 310 + 500 * 0.187 = 403.5.
   raw[at(437, 300)] = static_cast<std::uint16_t>(far);
   const std::vector<std::uint8_t> picture(3 * kPixels, 7);
   const auto scan = KinectConversion(plain()).observation(raw.data(), picture.data());

@@ -78,8 +78,8 @@ TEST(KinectOptions, aCalibrationWithoutALensHasNone) {
   const auto options =
       read("depth_fx_px = 580\ndepth_fy_px = 580\ndepth_cx_px = 315\ndepth_cy_px = 240\ndepth_k1 = 0.1\n");
   EXPECT_EQ(options.depth_k1, 0.1);
-  EXPECT_EQ(options.depth_k2, 0) << "and not that of the usual device";
-  EXPECT_NE(options.picture_k1, 0) << "the other camera is the usual one still";
+  EXPECT_EQ(options.depth_k2, 0) << "not the default device's";
+  EXPECT_NE(options.picture_k1, 0) << "the other camera keeps its defaults";
   EXPECT_EQ(options.depthCamera().fx(), 580);
 }
 

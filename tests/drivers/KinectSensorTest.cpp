@@ -18,7 +18,7 @@
 #include "../live/Observations.h"
 #include "RangeScans.h"
 
-/// The driver of the Kinect before libfreenect's fakenect, which plays what a log holds.
+/// Tests of the Kinect's driver with libfreenect's fakenect, which plays a log.
 namespace omnimapper::drivers::kinect_sensor_test {
 namespace {
 
@@ -27,7 +27,7 @@ using namespace live;
 using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationIMU;
 
-const std::string kFakenect = OMNIMAPPER_FAKENECT_FOLDER;  // of the libfreenect.so that plays
+const std::string kFakenect = OMNIMAPPER_FAKENECT_FOLDER;  // with the libfreenect.so of fakenect
 const std::string kSection = "[live]\nsensors = kinect\n[kinect]\ndriver = KinectSensor\nsensorLabel = KINECT\n";
 
 CObservationIMU accelerationAt(double seconds, double forward, double left, double up) {
@@ -42,14 +42,14 @@ CObservationIMU accelerationAt(double seconds, double forward, double left, doub
 
 class KinectSensorTest : public ::testing::Test {
  protected:
-  // A camera falls silent and comes back while the other tests run, for most of it is waiting.
+  // A camera falls silent and comes back while the other tests run, because most of this is waiting.
   static void SetUpTestSuite() {
     if (!std::filesystem::exists(kFakenect + "/libfreenect.so.0.5")) return;
     folder_of_silent = std::make_unique<testing::ScratchFolder>();
     const auto images = range_scans::flat(1);
     images[0]->hasIntensityImage = false;
     makeSession(*folder_of_silent, [&](source::RawlogWriter& log) {
-      // A third of a second with depths, 0.8 s without, and a third with them again. The session rests while it is
+      // A third of a second with depths, 0.8 s without, and a third with depths again. The session pauses while it is
       // closed.
       for (int i = 0; i < 30; ++i) {
         log.add(accelerationAt(0.05 * i, 0, 0, 9.8));
@@ -68,7 +68,7 @@ class KinectSensorTest : public ::testing::Test {
   }
   void SetUp() override {
     if (!folder_of_silent)
-      GTEST_SKIP() << "this was built without libfreenect (Debian's libfreenect-dev), or its fakenect is not there";
+      GTEST_SKIP() << "this was built without libfreenect (Debian's libfreenect-dev), or its fakenect is missing";
   }
 
   static void makeSession(const testing::ScratchFolder& folder, const std::string& log) {
@@ -81,10 +81,10 @@ class KinectSensorTest : public ::testing::Test {
     makeSession(folder, folder / "played.rawlog");
   }
 
-  // The program that reads the Kinect until so many observations came, or the end of the session.
+  // The command that reads the Kinect until `count` observations have come, or the session ends.
   static std::vector<std::string> recording(const testing::ScratchFolder& folder, const std::string& keys, int count) {
     std::ofstream(folder / "live.ini") << kSection << keys;
-    // fakenect looks for the end of a line in bytes that end without a zero.
+    // fakenect searches for the end of a line in bytes without a terminating zero.
     return {"env",
             "ASAN_OPTIONS=strict_string_checks=0",
             "LD_LIBRARY_PATH=" + kFakenect,
@@ -109,7 +109,7 @@ class KinectSensorTest : public ::testing::Test {
       const double depth = played.rangeImage.data()[i] * unit, got = seen.rangeImage.data()[i] * seen_unit;
       const double quantized = calibration.depthOf(calibration.rawOf(depth));
       const double tolerance = 0.55 * 0.0030711016 * depth * depth + 1.01e-4;
-      // An EXPECT_NEAR for each would take most of the test's time.
+      // An EXPECT_NEAR for each pixel would take most of the test's time.
       if (std::abs(got - quantized) > 1.01e-4 || (quantized > 0 && std::abs(got - depth) > tolerance))
         FAIL() << got << " m for " << depth << " m at column " << i % 640 << ", row " << i / 640;
       if (quantized > 0) ++count;
@@ -160,7 +160,7 @@ TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
 TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
   const auto real = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(real);
-  // A fifth of a second of it: three lines are comments.
+  // The first nine lines are a fifth of a second; three of them are comments.
   std::filesystem::create_directories(folder / "log");
   for (const char* name : {"depth", "rgb"}) std::filesystem::create_symlink(*real + "/" + name, folder / "log/" + name);
   for (const char* name : {"depth.txt", "rgb.txt"}) {
@@ -186,7 +186,7 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
   }
 }
 
-TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
+TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsReportedAndOpenedAgain) {
   ASSERT_TRUE(silent) << "its session could not be made";
   const auto ended = silent->wait();
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
@@ -194,7 +194,7 @@ TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
       << ended.out;
   const auto back = ended.out.find("sensor [kinect] is back");
   ASSERT_NE(back, std::string::npos) << ended.out;
-  EXPECT_NE(ended.out.find("sensor [kinect] is lost: USB says that the Kinect is gone", back), std::string::npos)
+  EXPECT_NE(ended.out.find("sensor [kinect] is lost: USB reports that the Kinect is gone", back), std::string::npos)
       << "at the end of the session: " << ended.out;
   EXPECT_NE(ended.out.find("reopened 1"), std::string::npos) << ended.out;
   const auto scans = range_scans::recorded<CObservation3DRangeScan>(*folder_of_silent / "out/log.rawlog");
@@ -208,7 +208,7 @@ TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsToldAndOpenedAgain) {
   EXPECT_GT(longest, 0.9);
 }
 
-// The machine of the tests has no Kinect, and libfreenect itself says so.
+// The machine of the tests has no Kinect, so libfreenect finds none.
 TEST_F(KinectSensorTest, withoutAKinectItCannotBeOpened) {
   const auto config = base::Config::fromText(kSection, "robot.ini");
   const auto options = config.section("live").read<LiveOptions>();
@@ -235,7 +235,7 @@ TEST_F(KinectSensorTest, aWrongKeyIsRefusedWhereTheSensorIsMade) {
   }
 }
 
-TEST(KinectWithoutLibfreenect, whoeverNamesTheDriverIsToldWhatToInstall) {
+TEST(KinectWithoutLibfreenect, theErrorNamesThePackageToInstall) {
   if (!kFakenect.empty()) GTEST_SKIP() << "this was built with libfreenect; a build without it runs this test";
   const auto config = base::Config::fromText(kSection, "robot.ini");
   try {

@@ -20,7 +20,7 @@ TEST(TickClock, differencesAreTheDevicesAndTheLatencyIsTheShortest) {
   const double latencies[] = {0.030, 0.012, 0.040, 0.015, 0.090, 0.020};
   std::vector<TickClock::Time> times;
   for (int i = 0; i < 6; ++i) times.push_back(clock.at(ticks(50 + i / 30.0), at(i / 30.0 + latencies[i])));
-  EXPECT_NEAR(base::secondsBetween(at(0), times[0].stamp), 0.030, 1e-5) << "the first has only its own";
+  EXPECT_NEAR(base::secondsBetween(at(0), times[0].stamp), 0.030, 1e-5) << "the first one has only its own latency";
   for (int i = 1; i < 6; ++i) {
     EXPECT_NEAR(base::secondsBetween(at(i / 30.0), times[i].stamp), 0.012, 1e-4) << i;
     EXPECT_NEAR(times[i].seconds, i / 30.0, 1e-7) << i;

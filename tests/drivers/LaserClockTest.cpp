@@ -10,8 +10,8 @@ namespace {
 
 using live::observations::at;
 
-/// The largest error [s] of stamps after the first minute; messages at 40 Hz for `hours`, each up to 20 ms late, from a
-/// clock that is fast by `drift` and says `first_ms` at the start.
+/// The largest error [s] of stamps after the first minute; messages come at 40 Hz for `hours`, each up to 20 ms late,
+/// from a clock that is fast by `drift` and shows `first_ms` at the start.
 double largestError(double hours, double drift, std::uint32_t first_ms) {
   LaserClock clock;
   double largest = 0;

@@ -26,7 +26,7 @@ using namespace live;
 
 using mrpt::obs::CObservationOdometry;
 
-/// The robot's own program.
+/// A robot's own program, which sends lines.
 class Client {
  public:
   explicit Client(std::uint16_t port, int type = SOCK_STREAM) : socket_(::socket(AF_INET, type | SOCK_NONBLOCK, 0)) {
@@ -36,12 +36,12 @@ class Client {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
   }
-  // How much of it went.
+  // The number of bytes that were sent.
   std::size_t send(const std::string& bytes) {
     const auto size = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     return size > 0 ? static_cast<std::size_t>(size) : 0;
   }
-  // Whether the other side has ended the connection.
+  // Whether the other side has closed the connection.
   bool wasClosed() {
     char byte = 0;
     return recv(socket_.get(), &byte, 1, 0) == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
@@ -60,7 +60,7 @@ class OdometryLinesTest : public ::testing::Test {
     sensor.loadConfig(ini, "wheels");
     sensor.initialize();
   }
-  // The positions x of all that was taken while it was read for a moment, or until `count` have come.
+  // The positions x of all observations of the next tenth of a second, or, with `count`, until so many have come.
   std::vector<double> take(std::size_t count = 0) {
     std::vector<double> all;
     const auto begin = std::chrono::steady_clock::now();
@@ -134,7 +134,7 @@ TEST_F(OdometryLinesTest, aLineWithoutStampHasThatOfItsArrival) {
   EXPECT_NEAR(base::secondsBetween(all.begin()->first, hostNow()), 0, 0.5);
 }
 
-// Their own times are unknown, and stamps some microseconds apart would be leaps.
+// The times of their measurement are unknown, and with stamps some microseconds apart the robot would seem to leap.
 TEST_F(OdometryLinesTest, ofLinesWithoutStampsThatArriveTogetherTheLastOneCounts) {
   for (const char* protocol : {"tcp", "udp"}) {
     open(std::string("protocol = ") + protocol + "\n");
@@ -256,7 +256,7 @@ TEST_F(OdometryLinesTest, datagramsHoldWholeLines) {
   EXPECT_EQ(take(1), (Positions{5})) << "the first sender is silent";
 }
 
-/// Where a socket listens.
+/// The address at which a socket listens.
 std::string boundIp(const std::string& bind) {
   const auto socket = bind.empty() ? listenTcp({}) : listenTcp({bind, 0});
   sockaddr_in system{};
@@ -266,7 +266,7 @@ std::string boundIp(const std::string& bind) {
   return inet_ntop(AF_INET, &system.sin_addr, text, sizeof text);
 }
 
-TEST_F(OdometryLinesTest, itListensForThisMachineAloneUnlessToldOtherwise) {
+TEST_F(OdometryLinesTest, itListensOnlyForThisMachineByDefault) {
   EXPECT_EQ(OdometryLinesOptions().bind, "127.0.0.1");
   EXPECT_EQ(boundIp(""), "127.0.0.1");
   EXPECT_EQ(boundIp("0.0.0.0"), "0.0.0.0");
@@ -293,7 +293,7 @@ TEST_F(OdometryLinesTest, whatIsWrongIsNamed) {
   EXPECT_EQ(sensor.getState(), mrpt::hwdrivers::CGenericSensor::ssError);
 }
 
-// A row of the table for each key, with its default.
+// The page's table has a row for each key, with its default.
 TEST(OdometryLinesOptions, thePageHasThemAll) {
   std::ifstream file(testing::sourceFile("doc/live.md"));
   const std::string page((std::istreambuf_iterator<char>(file)), {});
@@ -320,7 +320,7 @@ TEST(OdometryLinesOptions, aMisspeltKeyEndsTheRun) {
   }
 }
 
-/// Through a LiveSource, at a port that is free.
+/// Tests through a LiveSource, at a free port.
 class LiveOdometryTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -333,7 +333,7 @@ class LiveOdometryTest : public ::testing::Test {
     source = std::make_unique<LiveSource>(readSensors(options, config), options, nullptr);
     source->open({});
   }
-  // The positions of those that come until there are `count`, or for 3 s.
+  // The positions of the next observations: `count` of them, or fewer if none comes for 3 s.
   std::vector<double> take(std::size_t count) {
     std::vector<double> all;
     while (all.size() < count) {
@@ -365,7 +365,7 @@ TEST_F(LiveOdometryTest, aProgramThatSaysNothingForLongStaysConnected) {
   EXPECT_FALSE(client.wasClosed());
   client.send("- 2 0 0\n");
   EXPECT_EQ(take(1), (Positions{2}));
-  std::string back;  // the observation may be here before the news of it
+  std::string back;  // the observation may come before the news
   for (int i = 0; i < 200 && back.find("is back") == std::string::npos; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     back += news();
@@ -373,7 +373,7 @@ TEST_F(LiveOdometryTest, aProgramThatSaysNothingForLongStaysConnected) {
   EXPECT_NE(back.find("is back"), std::string::npos) << back;
 }
 
-TEST_F(LiveOdometryTest, whatIsLeftOutIsToldOnceAndThenByTwos) {
+TEST_F(LiveOdometryTest, rejectedLinesAreReportedOnceAndThenByTwos) {
   Client client(port);
   std::string all;
   for (int i = 0; i < 100; ++i) {
@@ -388,7 +388,7 @@ TEST_F(LiveOdometryTest, whatIsLeftOutIsToldOnceAndThenByTwos) {
   EXPECT_EQ(source->sensors().at(0).left_out, 100u);
 }
 
-// The example of doc/live.md, as it stands there but for the port.
+// Runs the example of doc/live.md, with another port.
 TEST_F(LiveOdometryTest, theExampleInPythonSendsOdometry) {
   if (std::system("python3 -c 0 2> /dev/null") != 0) GTEST_SKIP() << "python3 is not on this machine";
   std::ifstream file(testing::sourceFile("doc/live.md"));

@@ -13,7 +13,7 @@
 
 #include "../live/Observations.h"
 
-/// What cameras with depths are played, and what came of it.
+/// Depth images that are played to drivers, and how to read what was recorded.
 namespace omnimapper::drivers::range_scans {
 
 using Scan = mrpt::obs::CObservation3DRangeScan;
@@ -32,7 +32,7 @@ inline Scans simulated(std::size_t count) {
   return scans;
 }
 
-/// Depths of 2 m and grey pictures, for where it counts alone that images come.
+/// Depths of 2 m and grey pictures, for tests in which only the arrival of images matters.
 inline Scans flat(std::size_t count) {
   Scans scans;
   for (std::size_t i = 0; i < count; ++i) {
@@ -49,7 +49,7 @@ inline Scans flat(std::size_t count) {
   return scans;
 }
 
-/// All of that class in a rawlog.
+/// All observations of this class in a rawlog.
 template <class Observation>
 std::vector<std::shared_ptr<Observation>> recorded(const std::string& path) {
   std::vector<std::shared_ptr<Observation>> all;

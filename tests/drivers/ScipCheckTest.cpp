@@ -41,7 +41,7 @@ TEST(ScipCheck, noAlteredByteOfAMessagePasses) {
     check.setCommand(kCommand);
     check.add(altered + scan());
     EXPECT_EQ(check.take(), scan()) << "byte " << i;
-    // With another echo it is the answer to another command.
+    // With another echo, a message is the answer to another command.
     EXPECT_EQ(check.damaged(), i < kCommand.size() ? 0u : 1u) << "byte " << i;
   }
 }
@@ -65,7 +65,7 @@ TEST(ScipCheck, informationHasItsChecksumBeforeTheSemicolon) {
   EXPECT_EQ(check.take(), message);
 }
 
-// A checksum of six bits is right by chance once in 64 times; the form of the lines tells most of the rest.
+// A checksum of six bits is right by chance once in 64 times; the format of the lines reveals most of these cases.
 TEST(ScipCheck, bytesThatNoScanHasDoNotPassByChecksumsThatAreRight) {
   const auto withLine = [](const std::string& line) {
     return kCommand + "\n" + players::withScipSum("99") + players::withScipSum("0000") + players::withScipSum(line) +

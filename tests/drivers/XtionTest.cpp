@@ -14,11 +14,11 @@
 
 #include "RangeScans.h"
 
-/// MRPT's own driver of an Xtion before a driver of OpenNI2 that plays a log.
+/// Tests of the Xtion's driver with a driver of OpenNI2 that plays a log.
 namespace omnimapper::drivers::xtion_test {
 namespace {
 
-const std::string kOpenNi2 = OMNIMAPPER_OPENNI2_FOLDER;  // of the build, where OpenNI2 finds that driver alone
+const std::string kOpenNi2 = OMNIMAPPER_OPENNI2_FOLDER;  // of the build; in it OpenNI2 finds only that driver
 const std::string kIni =
     "[live]\nsensors = xtion\nreopen_after_s = 0.6\n[xtion]\ndriver = COpenNI2Sensor\nsensorLabel = XTION\nwidth = "
     "640\nheight = 480\nfps = "
@@ -27,7 +27,7 @@ const std::string kIni =
 
 struct Recording {
   std::string name;  // of its folder
-  std::string log;   // that the camera plays; empty: there is none
+  std::string log;   // that the camera plays; empty: there is no camera
   double seconds = 30;
   int count = 1000;
   std::string words, unplugged, keys;
@@ -35,7 +35,7 @@ struct Recording {
 
 class XtionTest : public ::testing::Test {
  protected:
-  // Two cameras are lost and come back while the other tests run, for most of it is waiting.
+  // Two cameras are lost and come back while the other tests run, because most of this is waiting.
   static void SetUpTestSuite() {
     if (kOpenNi2.empty()) return;
     folder = std::make_unique<testing::ScratchFolder>();
@@ -71,7 +71,7 @@ class XtionTest : public ::testing::Test {
     return argv;
   }
 
-  // Which of the played images it is, by its depths in whole millimetres.
+  // The number of the played image with these depths, in whole millimetres; none if there is none.
   std::optional<std::size_t> depthsOf(const range_scans::Scan& seen) const {
     for (std::size_t i = 0; i < played.size(); ++i) {
       const double unit = static_cast<double>(played[i]->rangeUnits), seen_unit = static_cast<double>(seen.rangeUnits);
@@ -108,7 +108,7 @@ TEST_F(XtionTest, whatIsPlayedArrivesInMillimetres) {
   }
 }
 
-// MRPT's driver would end the program.
+// MRPT's driver alone would end the program.
 TEST_F(XtionTest, aCameraThatIsNotThereIsAnError) {
   testing::Program without(command({"without", "", 5, 1000, "is lost", "", ""}));
   testing::Program with_one(
@@ -125,15 +125,15 @@ TEST_F(XtionTest, aCameraThatIsNotThereIsAnError) {
 void expectBack(const testing::Ended& ended, const std::string& loss) {
   EXPECT_NE(ended.out.find("sensor [xtion] is lost: " + loss), std::string::npos) << testing::toString(ended);
   EXPECT_NE(ended.out.find("sensor [xtion] is back"), std::string::npos) << testing::toString(ended);
-  EXPECT_EQ(ended.code, 0) << "no driver is left behind: " << testing::toString(ended);
+  EXPECT_EQ(ended.code, 0) << "no driver is left running: " << testing::toString(ended);
 }
 
-TEST_F(XtionTest, anXtionThatIsUnpluggedIsToldAndOpenedAgain) {
-  expectBack(unplugged->wait(), "OpenNI2 says that the camera is gone");
+TEST_F(XtionTest, anXtionThatIsUnpluggedIsReportedAndOpenedAgain) {
+  expectBack(unplugged->wait(), "OpenNI2 reports that the camera is gone");
 }
 
-// MRPT's driver would wait for ever.
-TEST_F(XtionTest, anXtionThatFallsSilentIsToldAndOpenedAgain) {
+// MRPT's driver alone would wait for ever.
+TEST_F(XtionTest, anXtionThatFallsSilentIsReportedAndOpenedAgain) {
   expectBack(silent->wait(), "it has sent nothing for");
 }
 

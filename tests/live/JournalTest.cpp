@@ -69,7 +69,7 @@ TEST(Journal, isFoundInTheFolderOfARun) {
   const std::string run = folder / "run";
   std::filesystem::create_directories(run + "/recording");
   EXPECT_EQ(findJournal(run + "/any.journal"), run + "/any.journal") << "a file is taken as it is";
-  EXPECT_THROW(findJournal(run), base::Error) << "there is none";
+  EXPECT_THROW(findJournal(run), base::Error) << "there is no journal";
   write(run + "/recording/one.journal", "");
   EXPECT_EQ(findJournal(run), run + "/recording/one.journal");
   EXPECT_EQ(findJournal(run + "/recording"), run + "/recording/one.journal");
@@ -85,7 +85,7 @@ TEST(Journal, isFoundInTheFolderOfARun) {
   }
 }
 
-// It would be trusted with plugin libraries, and a recording may come from anybody.
+// Another INI would be trusted with plugin libraries, and a recording may come from anybody.
 TEST(FindIni, takesTheIniOfALiveRunAlone) {
   const testing::ScratchFolder folder;
   const std::string journal = folder / "log.journal";

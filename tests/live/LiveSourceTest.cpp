@@ -16,7 +16,7 @@
 
 namespace omnimapper::live::live_source_test {
 
-/// A driver that does as the test says.
+/// A driver whose behaviour the test sets.
 class ScriptedSensor : public mrpt::hwdrivers::CGenericSensor {
   DEFINE_GENERIC_SENSOR(ScriptedSensor)
  public:
@@ -93,7 +93,7 @@ class LiveSourceTest : public ::testing::Test {
     return sourceOf("[wheels]\ndriver = ScriptedSensor\nsensorLabel = wheels\nprocess_rate = 100\n", "wheels");
   }
 
-  // All that comes within that time.
+  // All observations that come within that time.
   static std::vector<LiveObservation> take(LiveSource& source, milliseconds time) {
     std::vector<LiveObservation> all;
     const auto end = std::chrono::steady_clock::now() + time;
@@ -162,7 +162,7 @@ TEST_F(LiveSourceTest, ofACameraTheNewestFramesAreKeptAndOfOdometryAll) {
   EXPECT_EQ(numbers.size(), counts.arrived);
 }
 
-TEST_F(LiveSourceTest, silenceIsToldAndTheSensorIsOpenedAgain) {
+TEST_F(LiveSourceTest, silenceIsReportedAndTheSensorIsOpenedAgain) {
   const auto source = wheels();
   source->open({});
   take(*source, milliseconds(100));
@@ -175,7 +175,7 @@ TEST_F(LiveSourceTest, silenceIsToldAndTheSensorIsOpenedAgain) {
   EXPECT_EQ(source->sensors().at(0).state, SensorMetrics::State::working);
   EXPECT_EQ(source->sensors().at(0).losses, 1u);
   EXPECT_GE(ScriptedSensor::opened, 2);
-  // The time that it was away is no interval by which it would be waited for longer.
+  // The time without data is not among the intervals that lengthen the patience.
   ScriptedSensor::does = Does::nothing;
   EXPECT_NE(newsWithin(*source, milliseconds(1000), "is silent"), "");
 }
@@ -185,7 +185,7 @@ TEST_F(LiveSourceTest, aDriverThatThrowsIsOpenedAgain) {
   source->open({});
   ScriptedSensor::does = Does::fail;
   EXPECT_NE(newsWithin(*source, milliseconds(1000), "the plug is out").find("the plug is out"), std::string::npos);
-  ScriptedSensor::does = Does::throw_int;  // for another reason now, and not told again
+  ScriptedSensor::does = Does::throw_int;  // it fails for another reason now, which is not reported again
   EXPECT_EQ(newsWithin(*source, milliseconds(1000), "is lost"), "");
   ScriptedSensor::does = Does::send;
   EXPECT_NE(newsWithin(*source, milliseconds(2000), "is back").find("is back"), std::string::npos);
@@ -212,7 +212,7 @@ TEST_F(LiveSourceTest, aDriverThatHangsIsLeftBehind) {
   source->close();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, milliseconds(4000));
   EXPECT_TRUE(source->hasLeftBehind());
-  ScriptedSensor::does = Does::nothing;  // so that it ends
+  ScriptedSensor::does = Does::nothing;  // so that the driver returns
   std::this_thread::sleep_for(milliseconds(100));
 }
 

@@ -7,10 +7,10 @@
 
 #include <string>
 
-/// Observations made by hand for the tests of live.
+/// Hand-made observations for the tests of live.
 namespace omnimapper::live::observations {
 
-/// A day in 2026, as the host's clock would tell it.
+/// A time in 2026, as of the host's clock.
 inline const base::Stamp kNow = base::stampFromUnix(1.79e9);
 
 inline base::Stamp at(double seconds) {

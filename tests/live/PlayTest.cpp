@@ -18,7 +18,7 @@
 
 #include "PlayedLog.h"
 
-// omnimapper-play at work: a log's laser and odometry come through their drivers as they are in the log.
+// Tests of omnimapper-play: a log's laser and odometry come through their drivers as they are in the log.
 namespace omnimapper::live::play_test {
 namespace {
 
@@ -31,7 +31,7 @@ std::uint16_t freePort() {
   return boundPort(listenTcp({}));
 }
 
-/// The first `seconds` of a robot's drive, in a rawlog; the truth of it all beside it.
+/// The first `seconds` of a robot's drive in a rawlog, with the true trajectory of the whole drive beside it.
 players::PlayedLog writeLog(const std::string& rawlog, const std::string& truth, double seconds) {
   testing::SimulatedLogOptions options;
   options.place = testing::SimulatedLogOptions::Place::box;
@@ -48,7 +48,7 @@ players::PlayedLog writeLog(const std::string& rawlog, const std::string& truth,
 
 class PlayTest : public ::testing::Test {
  protected:
-  // Plays the log to a LiveSource of both sensors, until all of `log` has come.
+  // Plays the log to a LiveSource of both sensors until all of it has come.
   void play(const players::PlayedLog& log, const std::string& protocol) {
     const auto laser_port = freePort(), odometry_port = freePort();
     std::vector<std::string> command{testing::ownProgram("omnimapper-play"),
@@ -96,13 +96,13 @@ class PlayTest : public ::testing::Test {
     source->close();
     program.send(SIGINT);
     const auto ended = program.wait();
-    EXPECT_TRUE(ended.code == 130 || ended.code == 0) << testing::toString(ended);  // 0: the log was over
+    EXPECT_TRUE(ended.code == 130 || ended.code == 0) << testing::toString(ended);  // 0: the log was played to its end
     std::istringstream words(ended.out);
     for (std::string word; words >> word;)
       if (word == "host_start" && words >> word) host_start = base::parseUnix(word);
   }
 
-  // Where in the log a stamp of the host is.
+  // The time in the log that corresponds to a stamp of the host.
   base::Stamp inLog(const players::PlayedLog& log, base::Stamp host) const {
     return log.start() + base::durationFromSeconds(base::secondsBetween(host_start, host) * kPace);
   }

@@ -9,7 +9,7 @@
 #include "PlayRun.h"
 #include "ScipCodec.h"
 
-// What logs are played with.
+// Tests of the programs and classes that play logs.
 namespace omnimapper::live::players_test {
 namespace {
 
@@ -36,7 +36,7 @@ TEST(HokuyoModel, hasAStepForEachBeam) {
   EXPECT_EQ(utm.max_mm, 30'000);
   EXPECT_EQ(utm.rpm, 2400);
   EXPECT_EQ(HokuyoModel::fitting(scanOf(180, 179), 75).steps_per_turn, 360) << "a SICK of the year 2000";
-  EXPECT_THROW(HokuyoModel::fitting(scanOf(100, 250), 10), base::Error) << "no whole number of steps in a turn";
+  EXPECT_THROW(HokuyoModel::fitting(scanOf(100, 250), 10), base::Error) << "a turn is no whole number of steps";
   EXPECT_THROW(HokuyoModel::fitting(scanOf(1, 10), 10), base::Error);
   EXPECT_THROW(HokuyoModel::fitting(scanOf(1081, 270, 300), 10), base::Error);
 }
@@ -45,7 +45,7 @@ TEST(HokuyoModel, scansGoFromRightToLeft) {
   auto scan = scanOf(1081, 270);
   const auto model = HokuyoModel::fitting(scan, 40);
   EXPECT_EQ(hokuyoScan(scan, model).ranges_mm[7], 1007u);
-  EXPECT_EQ(hokuyoScan(scan, model).ranges_mm[3], 0u) << "nothing was measured";
+  EXPECT_EQ(hokuyoScan(scan, model).ranges_mm[3], 0u) << "no measurement";
   scan.rightToLeft = false;
   EXPECT_EQ(hokuyoScan(scan, model).ranges_mm[1080 - 7], 1007u);
 }
@@ -66,7 +66,7 @@ TEST(ScipDevice, answersAsTheSpecificationSays) {
   EXPECT_EQ(device.measured(scan, 0).substr(0, 15), "MD0000000200000");
   EXPECT_FALSE(device.isMeasuring());
   EXPECT_EQ(device.measured(scan, 0), "");
-  EXPECT_EQ(device.receive("MD0000200000100\n", 0).substr(16, 2), "04") << "a step that it has not";
+  EXPECT_EQ(device.receive("MD0000200000100\n", 0).substr(16, 2), "04") << "a step that it does not have";
   EXPECT_EQ(device.receive("GD0000000200\nQT\n", 0), "GD0000000200\n10Q\n\nQT\n00P\n\n") << "it is off";
 }
 

@@ -46,7 +46,7 @@ TEST(Recorder, aRawlogHasAllInOrder) {
   EXPECT_EQ(recorder.failure(), "");
 }
 
-// A copy of the file while it is written is what stays when the writer is killed then.
+// A copy of the file while it is being written is the same as the file that stays if the writer is killed at that time.
 TEST(Recorder, allButTheLastSecondCanBeReadAtAnyTime) {
   const testing::ScratchFolder folder;
   Recorder recorder(folder.path(), "log", {});
@@ -99,7 +99,7 @@ TEST(Recorder, whatIsDiscardedLeavesNothingOfItsOwn) {
   Recorder(folder / "new", "log", {}).discard();
   EXPECT_FALSE(fs::exists(folder / "new"));
   Recorder(folder.path(), "log", {}).discard();
-  EXPECT_TRUE(fs::exists(folder.path())) << "it was there before";
+  EXPECT_TRUE(fs::exists(folder.path())) << "the folder existed before";
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
@@ -108,7 +108,7 @@ TEST(Recorder, saysWhenItsQueueIsFull) {
   RecorderOptions options;
   options.queue_bytes = 1000;
   Recorder recorder(folder.path(), "log", options);
-  EXPECT_TRUE(recorder.hasRoomFor(5000)) << "one of any size has room in an empty queue";
+  EXPECT_TRUE(recorder.hasRoomFor(5000)) << "an empty queue has room for an observation of any size";
   recorder.add(std::make_shared<const std::vector<std::uint8_t>>(*encode(odometry(0))));
   EXPECT_FALSE(recorder.hasRoomFor(5000));
 }

@@ -27,7 +27,7 @@ TEST(SensorClock, anObservationWithoutStampHasThatOfItsArrival) {
   EXPECT_EQ(clock.corrected(base::Stamp{}, at(3)), at(3));
 }
 
-// A device that counts from its start; the shortest latency of ten is 5 ms, and is taken for none.
+// The device's clock counts from its start. The shortest of ten latencies is 5 ms and is assumed to be zero.
 TEST(SensorClock, anotherClockIsMovedByTheShortestLatency) {
   SensorClock clock({}, kMaxOff);
   double last = 0;
@@ -58,7 +58,7 @@ TEST(SensorClock, aBurstThatWasHeldUpIsNoJump) {
   EXPECT_EQ(clock.jumps(), 0u);
 }
 
-// A machine that was busy for four seconds took in no image in time.
+// A machine that is busy for four seconds receives all images late.
 TEST(SensorClock, aBusyMachineIsNoJump) {
   SensorClock clock({}, kMaxOff);
   for (int i = 0; i < 300; ++i) {
@@ -68,7 +68,7 @@ TEST(SensorClock, aBusyMachineIsNoJump) {
   EXPECT_EQ(clock.jumps(), 0u);
 }
 
-// Nor one that was too busy for a minute: no latency is like the one before.
+// A machine that is busy for a minute receives all images late, but their latencies vary.
 TEST(SensorClock, aMachineThatIsTooBusyIsNoJump) {
   SensorClock clock({}, kMaxOff);
   for (int i = 0; i < 1000; ++i) {
@@ -91,7 +91,8 @@ TEST(SensorClock, doesAsItsOptionsSay) {
   options.clock = Clock::arrival;
   SensorClock by_arrival(options, kMaxOff);
   EXPECT_EQ(by_arrival.corrected(at(-100), at(3)), at(3));
-  EXPECT_GT(by_arrival.corrected(at(-100), at(3)), at(3)) << "two that arrived at once are two";
+  EXPECT_GT(by_arrival.corrected(at(-100), at(3)), at(3))
+      << "two observations that arrive at once have different stamps";
   EXPECT_EQ(by_arrival.corrected(at(-100), at(4)), at(4));
   options.clock = Clock::driver;
   options.clock_offset = -0.25;

@@ -77,7 +77,7 @@ TEST(SensorSection, aDriverThatIsNotThereIsNamed) {
   }
 }
 
-// MRPT's drivers take no notice of them.
+// MRPT's drivers ignore such keys.
 TEST(SensorSection, keysThatADriverDoesNotReadAreNamed) {
   const auto unread = [](const std::string& keys) {
     return makeDriver(sensorsOf("[live]\nsensors = front\n" + kLaser + keys).at(0))->unreadKeys();
@@ -102,7 +102,7 @@ TEST(SensorSection, everyGrabberIniOfMrptIsRead) {
   const std::string folder = "/usr/share/mrpt/config_files/rawlog-grabber";
   if (!fs::exists(folder))
     GTEST_SKIP() << "the examples of rawlog-grabber (Debian's mrpt-common) are not on this machine";
-  // Some other drivers cannot be made without their hardware, or have keys in these INIs that they do not read.
+  // Some drivers cannot be made without their hardware, or these INIs have keys that they do not read.
   const std::set<std::string> lasers{"CHokuyoURG", "CSickLaserSerial"};
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {

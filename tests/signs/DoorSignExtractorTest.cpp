@@ -40,11 +40,11 @@ class DoorSignExtractorTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(net::modelsFolder() + "/text_detector.onnx"))
-      GTEST_SKIP() << "the networks are not there: scripts/models fetches them";
+      GTEST_SKIP() << "the networks are missing: scripts/models fetches them";
   }
 };
 
-TEST_F(DoorSignExtractorTest, readsAPlateAndTellsWhereItIs) {
+TEST_F(DoorSignExtractorTest, readsAPlateAndLocatesIt) {
   const auto found = DoorSignExtractor({}).signsIn(*view());
   EXPECT_EQ(found->sensorLabel, "camera.signs");
   EXPECT_EQ(found->source_label, "camera");
@@ -134,7 +134,7 @@ TEST_F(DoorSignExtractorTest, whatIsNoReadableTextIsNotSure) {
   cv::flip(picture, mirrored, 1);
   expectNothingSure(mirrored, "mirrored");
   cv::flip(picture, on_its_head, -1);
-  expectNothingSure(on_its_head, "on its head");
+  expectNothingSure(on_its_head, "upside down");
   cv::GaussianBlur(picture, blurred, {}, 9);
   expectNothingSure(blurred, "blurred");
   cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 255);
@@ -156,7 +156,7 @@ TEST_F(DoorSignExtractorTest, aLineWithLettersThatTheAlphabetLacksIsNotSure) {
   EXPECT_THROW(DoorSignExtractor{options}, base::Error);
 }
 
-// Lines of letters given by their strokes, in cells of 4 x 6 units.
+// Lines of letters, which are given by their strokes in cells of 4 x 6 units.
 void writeStrokes(cv::Mat& picture, const std::vector<std::vector<std::vector<cv::Point>>>& letters, cv::Point at) {
   constexpr int kUnit = 7;
   for (const auto& letter : letters) {
@@ -188,7 +188,7 @@ TEST_F(DoorSignExtractorTest, anotherScriptIsNotSure) {
   expectNothingSure(picture, "another script");
 }
 
-// Folds bend the line and press its letters together; what is read of it anyway is right.
+// Folds in the paper bend the line and press its letters together; a text that is read anyway must be right.
 TEST_F(DoorSignExtractorTest, aShirtIsNotReadWronglyAndSure) {
   cv::Mat flat(480, 640, CV_8UC3, cv::Scalar(150, 170, 180)), worn;
   cv::ellipse(flat, {320, 420}, {150, 260}, 0, 0, 360, cv::Scalar(50, 60, 130), cv::FILLED);
@@ -215,7 +215,7 @@ TEST_F(DoorSignExtractorTest, aShirtIsNotReadWronglyAndSure) {
   }
 }
 
-// Its lines are on one thing, and a number among them is no sign of its own.
+// The lines of a poster are on one plate, and a number among them is not a separate sign.
 TEST_F(DoorSignExtractorTest, aPosterWithNumbersIsOneRegion) {
   cv::Mat picture(480, 640, CV_8UC3, cv::Scalar(150, 170, 180));
   picture(cv::Rect(180, 60, 280, 360)) = cv::Scalar(225, 235, 240);
@@ -236,7 +236,7 @@ TEST_F(DoorSignExtractorTest, aPosterWithNumbersIsOneRegion) {
   }
 }
 
-// A weak reflection of a window over it.
+// A weak reflection of a window covers the sign.
 TEST_F(DoorSignExtractorTest, aSignBehindGlassIsRead) {
   auto image = view();
   cv::Mat picture = image->image.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY), window(480, 640, CV_8UC3, cv::Scalar::all(0));
@@ -289,7 +289,7 @@ TEST_F(DoorSignExtractorTest, networksThatAreSwappedAreNamed) {
   refused("text_reader.onnx: is not the network that reads lines");
 }
 
-// A dark plate with bright text, as the classifier knows them.
+// A dark plate with bright text, like those that the classifier was trained on.
 TEST_F(DoorSignExtractorTest, saliencyFindsItToo) {
   DoorSignOptions options;
   options.detector = DoorSignOptions::Detector::saliency;
@@ -300,7 +300,7 @@ TEST_F(DoorSignExtractorTest, saliencyFindsItToo) {
     EXPECT_EQ(found->signs[0].texts[0].text, "26-138");
     EXPECT_GT(found->signs[0].score, 0.3);
     options.min_score = 1;
-    EXPECT_TRUE(DoorSignExtractor(options).signsIn(*view())->signs.empty()) << "nothing is as sure";
+    EXPECT_TRUE(DoorSignExtractor(options).signsIn(*view())->signs.empty()) << "no region has a probability as high";
     options.model = "/not/there.svm";
     EXPECT_THROW(DoorSignExtractor{options}, base::Error);
   } catch (const base::Error& error) {
@@ -308,7 +308,7 @@ TEST_F(DoorSignExtractorTest, saliencyFindsItToo) {
   }
 }
 
-// Where Tesseract is not built in, what to install is said.
+// If Tesseract is not built in, the error says what to install.
 TEST_F(DoorSignExtractorTest, tesseractReadsItToo) {
   DoorSignOptions options;
   options.reader = DoorSignOptions::Reader::tesseract;

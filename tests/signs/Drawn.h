@@ -7,14 +7,14 @@
 
 namespace omnimapper::signs {
 
-/// A grey picture, drawn by hand.
+/// A grey picture in which tests draw rectangles.
 struct Drawn {
   int width, height;
   std::vector<std::uint8_t> pixels;
 
   Drawn(int columns, int rows, std::uint8_t grey)
       : width(columns), height(rows), pixels(static_cast<std::size_t>(columns * rows), grey) {}
-  /// Columns and rows from the first to before the last.
+  /// Fills columns and rows from the first to the one before the last.
   void fill(int left, int top, int right, int bottom, std::uint8_t grey) {
     for (int row = top; row < bottom; ++row) {
       for (int column = left; column < right; ++column) pixels[static_cast<std::size_t>(row * width + column)] = grey;

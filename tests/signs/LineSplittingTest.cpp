@@ -6,7 +6,7 @@
 namespace omnimapper::signs {
 namespace {
 
-// Upright strokes of four pixels, every eight, in a part of a picture.
+// Draws upright strokes of four pixels, one every eight pixels, in a part of a picture.
 void addStrokes(cv::Mat& picture, const cv::Rect& where) {
   for (int x = where.x; x < where.x + where.width; x += 8)
     picture(cv::Rect(x, where.y, 4, where.height)) = cv::Scalar::all(220);
@@ -24,7 +24,7 @@ TEST(LineSplitting, twoLinesArePartedInTheRowBetweenThem) {
   EXPECT_LT(between, 61);
   EXPECT_EQ(parts[0][0].y(), 15);
   EXPECT_EQ(parts[1][3].y(), 85);
-  // Narrowed to its strokes and a fifth of its height.
+  // The part is narrowed to its strokes and a margin of a fifth of its height.
   EXPECT_NEAR(parts[0][0].x(), 40 - 0.2 * 35, 3);
   EXPECT_NEAR(parts[1][0].x(), 80 - 0.2 * 30, 3);
   EXPECT_NEAR(parts[1][1].x(), 156 + 0.2 * 30, 3);

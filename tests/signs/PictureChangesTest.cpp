@@ -10,8 +10,8 @@ namespace {
 
 using mrpt::obs::CObservationImage;
 
-// A grey wall with a dark plate, `shift` pixels to the right, a little noise of each image's own, and that much more
-// light.
+// A grey wall with a dark plate `shift` pixels to the right, a little noise that differs between images, and `light`
+// added to all grey levels.
 cv::Mat wall(int shift, int light, int seed) {
   cv::Mat picture(480, 640, CV_8UC3, cv::Scalar::all(150 + light));
   picture(cv::Rect(230 + shift, 150, 180, 130)) = cv::Scalar::all(60 + light);
@@ -37,7 +37,7 @@ TEST(PictureChanges, noiseAndLightAreNothingNewAndMotionIs) {
   EXPECT_FALSE(changes.isNew(image(wall(0, 12, 3))));
   EXPECT_FALSE(changes.isNew(image(wall(1, 0, 4)))) << "a tenth of a reduced pixel";
   EXPECT_TRUE(changes.isNew(image(wall(5, 0, 5))));
-  EXPECT_FALSE(changes.isNew(image(wall(5, 0, 6)))) << "since it stands still again";
+  EXPECT_FALSE(changes.isNew(image(wall(5, 0, 6)))) << "the camera stands still again";
 }
 
 TEST(PictureChanges, whatCreepsIsSeen) {
@@ -45,7 +45,7 @@ TEST(PictureChanges, whatCreepsIsSeen) {
   changes.isNew(image(wall(0, 0, 1)));
   int count = 0;
   for (int shift = 1; shift <= 40; ++shift) count += changes.isNew(image(wall(shift, 0, shift)));
-  EXPECT_GT(count, 5) << "each is held against the last that was new, and not against the one before";
+  EXPECT_GT(count, 5) << "each image is compared with the last new one, not with the one before";
   EXPECT_LT(count, 30);
 }
 

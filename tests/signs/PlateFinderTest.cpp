@@ -19,7 +19,7 @@ void fill(cv::Mat& picture, const Corners& quad, const cv::Scalar& colour) {
   cv::fillConvexPoly(picture, corners, colour);
 }
 
-// Letters of four bars, with the margin about them that a detector leaves.
+// Letters of four bars, with the margin around them that a detector leaves.
 void write(cv::Mat& picture, const Corners& text) {
   constexpr float kMargin = 5;
   for (float x = text[0].x() + kMargin; x + 4 < text[1].x() - kMargin; x += 8)

@@ -46,12 +46,12 @@ TEST(PlateRanges, areLengthsOfRaysAsWorkedByHand) {
     const auto found = rangeOf(wall(2000, right));
     ASSERT_TRUE(found) << right;
     EXPECT_NEAR(found->range, 2.0494, 0.0002) << right;
-    EXPECT_GT(found->sigma, 0.01 * 2.0494) << "a camera's scale is known to one in a hundred";
+    EXPECT_GT(found->sigma, 0.01 * 2.0494) << "the scale of a depth camera is known to one percent";
     EXPECT_LT(found->sigma, 0.03 * 2.0494);
   }
 }
 
-// Of ranges along the rays the same wall has longer ones off the middle.
+// If the image holds ranges along the rays, those of the same wall are longer off the middle.
 TEST(PlateRanges, takeRangesForRanges) {
   auto scan = wall(2049);
   scan.range_is_depth = false;
@@ -60,7 +60,8 @@ TEST(PlateRanges, takeRangesForRanges) {
   EXPECT_NEAR(found->range, 2.049, 0.003);
 }
 
-// The depth camera sees the plate elsewhere than the picture does: 3 m behind where a shelf of 1 m stands beside it.
+// The depth camera sees the plate in other columns than the picture does; everything to the left of the plate is 9 m
+// away.
 TEST(PlateRanges, areOfThePlateWhereThePictureShowsIt) {
   auto scan = wall(3000, 0.3);  // 0.3 m to the right: what is at column 430 of the picture is at 480 of the depths
   for (int row = 0; row < 480; ++row)

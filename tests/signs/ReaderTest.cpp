@@ -14,7 +14,7 @@ TEST(Alphabet, takesWhatItHasAndADotForAHyphen) {
   const Alphabet common(Alphabet::common()), digits("0123456789"), greek("αβγ");
   EXPECT_EQ(common.letterFor("A"), "A");
   EXPECT_EQ(common.letterFor("\u00b7"), "-");
-  EXPECT_EQ(common.letterFor("个"), "") << "what an arrow may be read as";
+  EXPECT_EQ(common.letterFor("个"), "") << "an arrow may be read as this letter";
   EXPECT_EQ(common.letterFor(" "), " ");
   EXPECT_EQ(digits.letterFor("\u00b7"), "");
   EXPECT_EQ(digits.letterFor("O"), "");
@@ -27,17 +27,18 @@ TEST(Alphabet, damagedUtf8IsLeftOut) {
 }
 
 TEST(DecodeSteps, lettersOnceUnlessABlankPartsThem) {
-  // Classes: blank, A, one that the alphabet has not, B.
+  // The classes are the blank, A, one whose letter is not in the alphabet, and B.
   const std::vector<std::string> letters{"", "A", "", "B"};
   const std::vector<float> steps{0.1f, 0.7f, 0.1f, 0.1f, 0.1f, 0.6f, 0.2f, 0.1f, 0.8f, 0.1f, 0,    0.1f,
                                  0.1f, 0.5f, 0.4f, 0,    0,    0.1f, 0.8f, 0.1f, 0.2f, 0.1f, 0.3f, 0.4f};
   const auto reading = decodeSteps(steps.data(), 6, letters);
-  // The fifth step has the letter A, whose class is the likeliest but for the one that has no letter: as before it.
+  // The fifth step gives the letter A, as the step before: its class is the likeliest after the one without a letter.
   EXPECT_EQ(reading.text, "AAB");
   ASSERT_EQ(reading.probabilities.size(), 3u);
   EXPECT_FLOAT_EQ(static_cast<float>(reading.probabilities[0]), 0.7f);
   EXPECT_FLOAT_EQ(static_cast<float>(reading.probabilities[2]), 0.4f);
-  EXPECT_FLOAT_EQ(static_cast<float>(reading.of_left_out), 0.1f) << "what was taken in the fifth step";
+  EXPECT_FLOAT_EQ(static_cast<float>(reading.of_left_out), 0.1f)
+      << "the probability of the letter taken in the fifth step";
 }
 
 TEST(NetworkReader, aFileWithoutLettersIsRefused) {
@@ -45,8 +46,8 @@ TEST(NetworkReader, aFileWithoutLettersIsRefused) {
   std::ofstream(folder / "empty.txt");
   std::ofstream(folder / "damaged.txt") << "A\n\xC3\nB\n";
   std::ofstream(folder / "words.txt") << "A\nBC\n";
-  for (const auto& [name, said] : {std::pair{"empty.txt", "empty.txt: no letters"},
-                                   {"missing.txt", "missing.txt: no letters"},
+  for (const auto& [name, said] : {std::pair{"empty.txt", "empty.txt: has no letters"},
+                                   {"missing.txt", "missing.txt: has no letters"},
                                    {"damaged.txt", "damaged.txt:2: is not one letter"},
                                    {"words.txt", "words.txt:2: is not one letter"}}) {
     try {
@@ -58,7 +59,7 @@ TEST(NetworkReader, aFileWithoutLettersIsRefused) {
   }
 }
 
-// Reads what it is told to, by the width of the patch.
+// Returns prepared readings by the width of the patch.
 class Scripted : public TextReader {
  public:
   explicit Scripted(std::vector<Reading> readings) : readings_(std::move(readings)) {}
@@ -70,10 +71,10 @@ class Scripted : public TextReader {
   std::vector<Reading> readings_;
 };
 
-// 100 x 20 px: patches of 100, 112 (twice, of these once with its contrast stretched) and 120 px.
+// A line of 100 x 20 px gives patches of 100, 112 (twice, once with stretched contrast) and 120 px.
 const Corners kLine = {Eigen::Vector2f(100, 100), {200, 100}, {200, 120}, {100, 120}};
 
-// Bars for letters, 5 px from the ends of the line.
+// Bars instead of letters, 5 px from the ends of the line.
 cv::Mat pictureOfLine() {
   cv::Mat picture(240, 320, CV_8UC3, cv::Scalar(120, 130, 140));
   for (int x = 105; x < 195; x += 8) picture(cv::Rect(x, 104, 3, 12)) = cv::Scalar(230, 230, 230);
@@ -92,7 +93,7 @@ TEST(ReadLine, readingsThatAgreeAreTaken) {
   EXPECT_GT(confidenceOf(line.evidence), 0.9);
 }
 
-// A reader of one letter for strokes of one line, and of none for more.
+// Reads one letter if the patch has strokes of one line, and none if of more.
 class OneLine : public TextReader {
  public:
   Reading read(const perception::ColourImage& patch) const override {

@@ -44,7 +44,7 @@ TEST(SaliencyProposer, regionsKeepTheLimitsOfSize) {
   EXPECT_TRUE(SaliencyProposer(options).propose(sign(300, 200).view()).empty());
 }
 
-// What is salient is the text, and its box is not the plate's.
+// The salient component is the text, so its box is not that of the plate.
 TEST(SaliencyProposer, withoutPlatesRegionsAreUprightBoxesOfComponents) {
   SaliencyOptions options;
   options.fit_plates = false;

@@ -23,7 +23,7 @@ HogOptions smallHog() {
   return hog;
 }
 
-// Two vectors, one on either side.
+// Two support vectors, one for each class.
 SignModel smallModel() {
   SignModel model;
   model.hog = smallHog();

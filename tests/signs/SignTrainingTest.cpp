@@ -20,7 +20,7 @@ SignTrainingOptions smallOptions() {
   return options;
 }
 
-// Signs on one side of x + y = 1, others on the other, `gap` apart; each a group of its own.
+// Signs on one side of x + y = 1 and others on the other, with `gap` between them; each region is a separate group.
 RegionSet separable(const std::string& name, int count, int gap) {
   base::SplitMix random(7);
   RegionSet set;
@@ -53,7 +53,7 @@ TEST(TrainMachine, twoPointsAreDividedHalfway) {
   EXPECT_NEAR(classifier.decision({40, 200}), -1, 1e-2);
 }
 
-TEST(TrainClassifier, separablePointsAreAllToldApart) {
+TEST(TrainClassifier, separablePointsAreAllClassifiedCorrectly) {
   const RegionSet set = separable("a", 150, 25);
   const SignClassifier classifier = trainClassifier({&set}, smallOptions());
   const SignRates rates = tryClassifier(classifier, set, 0.5);
@@ -68,7 +68,7 @@ TEST(TrainClassifier, theSameRegionsGiveTheSameBytes) {
   EXPECT_EQ(trainClassifier({&set}, smallOptions()).toBytes(), trainClassifier({&set}, smallOptions()).toBytes());
 }
 
-// What is stored of a vector is what was learnt, for both have 8 bits.
+// The stored vectors are exactly the training features, because both have 8 bits.
 TEST(TrainClassifier, vectorsAreRegionsThatWereLearnt) {
   const RegionSet set = separable("a", 90, 5);
   const SignClassifier classifier = trainClassifier({&set}, smallOptions());
@@ -115,7 +115,7 @@ TEST(CrossValidate, thereIsARowForEachBuildingAndOneForAll) {
   EXPECT_NE(text.find("Table 7"), std::string::npos);
 }
 
-TEST(CrossValidate, itEndsWhenItIsTold) {
+TEST(CrossValidate, itEndsWhenItIsStopped) {
   base::Progress quiet;
   EXPECT_THROW(crossValidate({separable("a", 90, 25)}, smallOptions(), quiet, [] { return true; }), base::Error);
 }

@@ -11,10 +11,10 @@
 namespace omnimapper::signs {
 namespace {
 
-// A network to which all that is bright is text.
+// A network that takes every bright pixel for text.
 class TextDetectorTest : public ::testing::Test {
  protected:
-  // `window` pixels square are looked at together, so that its answer is smaller by one less.
+  // It looks at squares of `window` pixels, so that its output is smaller than its input by `window` - 1.
   std::shared_ptr<const net::Network> network(int window = 1) const {
     using namespace testing::onnx_bytes;
     const std::vector<int> image{1, 3, 480, 736}, map{1, 1, 481 - window, 737 - window};
@@ -29,14 +29,14 @@ class TextDetectorTest : public ::testing::Test {
 };
 
 TEST_F(TextDetectorTest, linesAreTheCoresGrownByHandWorkedMargins) {
-  // Twice as large as what the network takes.
+  // The picture is twice as large as the network's input.
   cv::Mat picture(960, 1472, CV_8UC3, cv::Scalar::all(0));
   picture(cv::Rect(400, 200, 202, 42)) = cv::Scalar::all(255);
   picture(cv::Rect(100, 600, 202, 42)) = cv::Scalar::all(255);
-  picture(cv::Rect(900, 600, 4, 4)) = cv::Scalar::all(255);  // no text is so small
+  picture(cv::Rect(900, 600, 4, 4)) = cv::Scalar::all(255);  // too small for a text
   const auto lines = TextDetector(network()).detect(picture);
   ASSERT_EQ(lines.size(), 2u);
-  // The core is 100 x 20 px between the middles of its pixels: 1.6 times 2000 / 120 larger.
+  // The core is 100 x 20 px between the middles of its pixels; the line is larger by 1.6 times 2000 / 120.
   const float growth = 2 * 1.6f * 2000 / 120;
   const auto& first = lines[0];
   EXPECT_NEAR(widthOf(first.quad), 200 + growth, 0.5);

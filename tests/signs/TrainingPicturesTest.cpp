@@ -102,7 +102,7 @@ TEST(ReadTrainingFolder, aPictureThatIsNoneIsRefusedWhenItIsNeeded) {
                   .saveToFile(folder / "a.png"));
   try {
     readTrainingFolder(folder.path()).pictures.at(0).load();
-    FAIL() << "pictures of 16 bits have no pixels to look at";
+    FAIL() << "pictures of 16 bits are not supported";
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("a.png"), std::string::npos) << error.what();
   }

@@ -9,7 +9,8 @@ namespace omnimapper::calibration {
 
 namespace {
 
-// Where the point was in the picture's optical frame when the row that shows it was taken, and when the depths were.
+// The point in the picture's optical frame, and in the depth camera's, at the time when the row was taken that shows
+// it.
 Eigen::Vector3d inPicture(const Measurement& one, const Estimate& estimate) {
   const Eigen::Vector3d p = estimate.picture_from_world[one.view] * estimate.points[one.track];
   return later(p, one.velocity, estimate.timing[0] * one.row_share);
@@ -21,7 +22,7 @@ Eigen::Vector3d inDepths(const Measurement& one, const Estimate& estimate) {
   return estimate.camera.depth_from_picture * later(p, one.velocity, seconds);
 }
 
-// The surface that the depth image has where the estimate sees the point.
+// Sets the surface at the pixel of the depth image where the estimate predicts the point.
 void associate(Measurement& one, const CalibrationView& view, const Estimate& estimate) {
   const Eigen::Vector3d p = inDepths(one, estimate);
   one.plane = p.z() > 0.1 ? view.planeAt(project(estimate.camera.depthCamera().data(), p)) : std::nullopt;
@@ -32,7 +33,7 @@ Eigen::Vector2d missOf(const Measurement& one, const Estimate& estimate) {
   return one.pixel - project(estimate.camera.picture.data(), inPicture(one, estimate));
 }
 
-// [1/m] measured less expected; none without a surface.
+// [1/m] Measured minus predicted inverse depth; none without a surface.
 std::optional<double> depthMissOf(const Measurement& one, const Estimate& estimate) {
   if (!one.plane) return std::nullopt;
   const auto& camera = estimate.camera;
@@ -58,7 +59,7 @@ void leaveOutContradictions(BundleInput& input, const Estimate& estimate, double
                                     !(missOf(one, estimate).norm() < pixels * one.sigma);
                            }),
             all.end());
-  // A point that one view alone shows tells nothing but its own place.
+  // A point that only one view measures constrains nothing but itself.
   std::vector<int> counts(estimate.points.size(), 0);
   for (const auto& one : all) ++counts[one.track];
   all.erase(std::remove_if(all.begin(), all.end(), [&](const Measurement& one) { return counts[one.track] < 2; }),
@@ -84,30 +85,30 @@ Adjusted adjust(const BundleInput& input, const Estimate& start, const std::set<
 
 ViewMisses fitView(const std::vector<Measurement>& of_view, const CalibrationView& view, const Estimate& estimate,
                    const geometry::Se3& picture_from_world) {
-  Estimate alone{estimate.camera, {picture_from_world}, {}, estimate.timing};
+  Estimate single{estimate.camera, {picture_from_world}, {}, estimate.timing};
   std::vector<Measurement> measurements = of_view;
   for (auto& one : measurements) {
-    alone.points.push_back(estimate.points[one.track]);
-    one.track = alone.points.size() - 1;
+    single.points.push_back(estimate.points[one.track]);
+    one.track = single.points.size() - 1;
     one.view = 0;
   }
   for (int round = 0; round < 2; ++round) {
-    for (auto& one : measurements) associate(one, view, alone);
-    BundleProblem problem(alone);
+    for (auto& one : measurements) associate(one, view, single);
+    BundleProblem problem(single);
     for (const auto& one : measurements) problem.add(one);
     problem.keepViewsNearStart();
     problem.holdCamera();
     for (std::size_t i = 0; i < measurements.size(); ++i) problem.holdPoint(i);
     problem.solve({});
-    alone = problem.adjusted().estimate;
+    single = problem.adjusted().estimate;
   }
   ViewMisses result;
   for (const auto& one : measurements) {
     result.pixels.push_back(one.pixel);
-    result.misses.push_back(missOf(one, alone));
-    if (const auto miss = depthMissOf(one, alone)) result.depth_misses.push_back(*miss);
+    result.misses.push_back(missOf(one, single));
+    if (const auto miss = depthMissOf(one, single)) result.depth_misses.push_back(*miss);
   }
-  BundleProblem problem(alone);
+  BundleProblem problem(single);
   for (const auto& one : measurements) problem.add(one);
   problem.holdCamera();
   result.cost = problem.adjusted().cost;

@@ -13,13 +13,13 @@ namespace omnimapper::calibration {
 
 namespace {
 
-// Residuals beyond so many standard deviations count less and less.
+// Standard deviations beyond which residuals count less and less.
 constexpr double kPixelLoss = 2, kDepthLoss = 2;
 
 MotionBlock blockOf(const geometry::Se3& motion) {
   const Eigen::Vector3d turn = geometry::logSo3(motion.rotation);
-  const Eigen::Vector3d& way = motion.translation;
-  return {turn.x(), turn.y(), turn.z(), way.x(), way.y(), way.z()};
+  const Eigen::Vector3d& translation = motion.translation;
+  return {turn.x(), turn.y(), turn.z(), translation.x(), translation.y(), translation.z()};
 }
 
 geometry::Se3 motionOf(const MotionBlock& block) {
@@ -76,8 +76,8 @@ void BundleProblem::holdView(std::size_t view) {
 }
 
 void BundleProblem::keepViewsNearStart() {
-  constexpr double kWay = 0.3, kTurn = 0.3;  // [m] [rad]
-  const MotionBlock sigmas{kTurn, kTurn, kTurn, kWay, kWay, kWay};
+  constexpr double kTravel = 0.3, kTurn = 0.3;  // [m] [rad]
+  const MotionBlock sigmas{kTurn, kTurn, kTurn, kTravel, kTravel, kTravel};
   for (auto& view : views_) {
     if (!problem_.HasParameterBlock(view.data())) continue;
     problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<BlockPrior, 6, 6>(new BlockPrior{view, sigmas}), nullptr,
@@ -85,7 +85,7 @@ void BundleProblem::keepViewsNearStart() {
   }
 }
 
-// How far the log may be off, roughly: a camera that was never calibrated, of its kind's nominal values.
+// The prior standard deviations are roughly the errors of a camera that was never calibrated, with nominal values.
 std::vector<BundleProblem::Number> BundleProblem::numbersOf(const std::set<Group>& free) {
   constexpr double kFocal = 0.05, kCentre = 20, kRadial = 1, kTangential = 0.01, kScale = 0.1, kReadout = 0.03,
                    kDelay = 0.01;  // [-] [px] [-] ... [s]
@@ -151,7 +151,7 @@ void BundleProblem::solve(const std::function<bool()>& stop) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
-  options.num_threads = 1;  // sums have one order: the same input gives the same bits
+  options.num_threads = 1;  // sums have a fixed order, so the same input gives the same bits
   options.max_num_iterations = 40;
   options.function_tolerance = 1e-6;
   options.logging_type = ceres::SILENT;
@@ -205,7 +205,7 @@ Adjusted BundleProblem::adjusted() {
   problem_.Evaluate(options, &result.cost, nullptr, nullptr, free_.empty() ? nullptr : &jacobian);
   result.residuals = static_cast<std::size_t>(problem_.NumResiduals());
   if (free_.empty()) return result;
-  // Numbers in the order of the columns: by block, then by their place in it.
+  // Sorts the numbers like the columns: by block, then by their index in it.
   const std::vector<const double*> order{picture_.data(), depth_.data(), depth_from_picture_.data(), &scale_,
                                          timing_.data()};
   const auto rank = [&](const Number& n) {

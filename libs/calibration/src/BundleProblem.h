@@ -16,18 +16,19 @@ class BundleProblem {
 
   void add(const Measurement& measurement);
   void add(const MetricSpan& span, const std::vector<CalibrationView>& views);
-  /// Weak priors about `log` on what is free; all else of the camera is held.
+  /// Frees these parameters, with weak priors at the values of `log`; all others of the camera are held.
   void setFree(const std::set<Group>& free, const DepthCamera& log);
   void holdCamera() { setFree({}, start_.camera); }
   void holdPoint(std::size_t track) { problem_.SetParameterBlockConstant(points_[track].data()); }
   void holdView(std::size_t view);
-  /// Weak priors about where the views begin: what hangs together by nothing else stays there.
+  /// Adds weak priors at the initial poses of the views, so that views that nothing else constrains stay there.
   void keepViewsNearStart();
   /// Throws Error(interrupted) if it is stopped.
   void solve(const std::function<bool()>& stop);
 
   Estimate estimate() const;
-  /// What is free, in the order of setFree(), with the covariance that all residuals tell.
+  /// The estimate, and the free parameters in the order of setFree() with the covariance that follows from all
+  /// residuals.
   Adjusted adjusted();
 
  private:
@@ -35,11 +36,11 @@ class BundleProblem {
     Group group;
     int index;
     double* block;
-    int at;  // in the block
+    int at;  // index in the block
     double prior_sigma;
   };
   std::vector<Number> numbersOf(const std::set<Group>& free);
-  /// Of the numbers in `free_`, from the Jacobian: points and poses are integrated out.
+  /// Covariance of the numbers in `free_` from the Jacobian; points and poses are marginalized out.
   Eigen::MatrixXd covariance(const ceres::CRSMatrix& jacobian, std::size_t points, std::size_t pose_columns) const;
 
   Estimate start_;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kHoldEvery = 5, kFewestViews = 10, kFewestTracks = 150, kFewestInTrack = 3, kMostTracks = 3000;
 constexpr std::size_t kFewestSpans = 5, kFewestCorners = 600;
-// [px s/rad] by which a corner is less exact where the camera turns, which nobody knows exactly, row by row. Of
-// freiburg1_rpy's corners the calibrated rays are 1.4 px off without it, and 0.6 px with it.
+// [px s/rad] Additional standard deviation of a corner while the camera turns, because its rotation during the readout
+// of the rows is not known exactly. In freiburg1_rpy the calibrated rays are 1.4 px off without it, and 0.6 px with it.
 constexpr double kOfTurning = 2;
 
 bool isHeldBack(std::size_t view) {
@@ -49,7 +49,7 @@ std::vector<Measurement> measurementsOf(const std::vector<Track>& tracks, const 
   return all;
 }
 
-// The first of each stretch that is measured.
+// Marks the first view of each stretch that has measurements.
 std::vector<bool> firstViews(const std::vector<CalibrationView>& views, const std::vector<Measurement>& measurements) {
   std::vector<bool> is_seen(views.size(), false), first(views.size(), false);
   for (const auto& one : measurements) is_seen[one.view] = true;
@@ -64,13 +64,15 @@ std::vector<bool> firstViews(const std::vector<CalibrationView>& views, const st
 
 void refuseTooLittle(std::size_t views, std::size_t tracks) {
   const std::string remedy =
-      "; record half a minute in which the camera turns and moves slowly before things with corners, near and far";
+      "; record half a minute in which the camera turns and moves slowly in front of objects with corners, near and "
+      "far";
   if (views < kFewestViews)
     throw base::Error(base::ExitCode::nothing_to_map,
-                      "the camera moved too little to be calibrated: " + base::counted(views, "view") + " differ, of " +
-                          std::to_string(kFewestViews) + " that are needed" + remedy);
+                      "the camera moved too little to be calibrated: " + base::counted(views, "different view") +
+                          " of " + std::to_string(kFewestViews) + " that are needed" + remedy);
   if (tracks < kFewestTracks)
-    throw base::Error(base::ExitCode::nothing_to_map, "too few corners were seen in " + std::to_string(kFewestInTrack) +
+    throw base::Error(base::ExitCode::nothing_to_map, "too few corners were found in " +
+                                                          std::to_string(kFewestInTrack) +
                                                           " views: " + std::to_string(tracks) + " of " +
                                                           std::to_string(kFewestTracks) + " that are needed" + remedy);
 }
@@ -78,10 +80,10 @@ void refuseTooLittle(std::size_t views, std::size_t tracks) {
 void refuseTooFew(std::size_t corners) {
   if (corners >= kFewestCorners) return;
   throw base::Error(base::ExitCode::nothing_to_map,
-                    "only " + std::to_string(corners) + " corners agree with one another, of " +
+                    "only " + std::to_string(corners) + " corners are consistent with one another, of " +
                         std::to_string(kFewestCorners) +
-                        " that are needed; record half a minute in which the camera turns and moves slowly before "
-                        "things with corners, near and far, at 10 images in a second or more");
+                        " that are needed; record half a minute in which the camera turns and moves slowly in front of "
+                        "objects with corners, near and far, at 10 images in a second or more");
 }
 
 double trimmedRms(std::vector<double> squares) {
@@ -93,7 +95,7 @@ double trimmedRms(std::vector<double> squares) {
   return std::sqrt(sum / static_cast<double>(kept));
 }
 
-// Where a view that had no part should be: as the nearest one that had one moved.
+// Expected pose of a held-back view: that of the nearest view of the estimate, plus the tracked motion between them.
 geometry::Se3 expectedPose(const BundleInput& used, const Estimate& estimate, const std::vector<bool>& has_part,
                            std::size_t view) {
   const auto& views = used.views;
@@ -107,7 +109,7 @@ geometry::Se3 expectedPose(const BundleInput& used, const Estimate& estimate, co
   return estimate.picture_from_world[view];
 }
 
-// Only points that the estimate has from enough views are asked for.
+// Tests on the points that at least three views of the estimate measure.
 HeldBack testOn(const std::vector<Measurement>& held, const BundleInput& used, const Estimate& estimate) {
   std::vector<int> counts(estimate.points.size(), 0);
   std::vector<bool> has_part(used.views.size(), false);
@@ -141,14 +143,14 @@ HeldBack testOn(const std::vector<Measurement>& held, const BundleInput& used, c
   return result;
 }
 
-// Whether the scale of the depths may as well be the log's.
+// Whether the scale of the depths does not differ significantly from the log's.
 bool isScaleOfLog(const Adjusted& adjusted, const DepthCamera& log) {
   const auto is_scale = [](const Parameter& one) { return one.group == Group::scale; };
   const auto scale = std::find_if(adjusted.parameters.begin(), adjusted.parameters.end(), is_scale);
   return scale == adjusted.parameters.end() || std::abs(scale->value - log.depth_scale) < 2 * scale->sigma;
 }
 
-// Frees everything, then lets go what the log determines worst, until all that is free is determined.
+// Frees all groups, then drops the one that the log determines worst, until all free groups are determined.
 Adjusted adjustWhatIsDetermined(const BundleInput& input, const Estimate& start, std::set<Group> free,
                                 std::map<Group, Adjusted>& attempts) {
   Estimate from = start;
@@ -231,7 +233,7 @@ Calibration calibrate(const std::vector<CalibrationView>& views, const DepthCame
   const bool has_metres = input.spans.size() >= kFewestSpans;
   const auto groups = allGroups(log, has_metres);
 
-  // Wide gates while the camera is the log's, narrower ones as it fits.
+  // The gates are wide while the camera is the log's, and narrower when it fits better.
   associateSurfaces(input, start);
   auto adjusted = adjust(input, start, {Group::timing});
   leaveOutContradictions(input, adjusted.estimate, 20, 10);
@@ -246,7 +248,8 @@ Calibration calibrate(const std::vector<CalibrationView>& views, const DepthCame
   std::map<Group, Adjusted> attempts;
   adjusted = adjustWhatIsDetermined(input, adjusted.estimate, groups, attempts);
 
-  // How far registered depths are off is worth knowing; but told, it would cost mapping the picture at their edges.
+  // The pose error of registered depths is estimated for the report. It is not written: with it, mapping would lose the
+  // picture at the edges of the depths.
   if (log.is_registered) {
     auto with_place = groups;
     with_place.insert({Group::place, Group::turn});
@@ -257,7 +260,7 @@ Calibration calibrate(const std::vector<CalibrationView>& views, const DepthCame
   Calibration result;
   result.log = log;
   result.estimate = adjusted.estimate.camera;
-  result.findings = findingsOf(log, adjusted, attempts, has_metres);
+  result.groups = resultsOf(log, adjusted, attempts, has_metres);
   const auto held = measurementsOf(tracks, views, true);
   result.after = testOn(held, input, adjusted.estimate);
   for (int round = 0; round < 2; ++round) {

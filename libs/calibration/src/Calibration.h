@@ -10,22 +10,22 @@
 
 namespace omnimapper::calibration {
 
-/// One number of a camera, as a user meets it.
-struct Figure {
-  std::string key;       ///< as [calibration] has it, without "depth_" or "picture_"
-  double log, estimate;  ///< px, m, degrees, or no unit
-  double sigma;          ///< standard deviation; that of the weak prior where nothing was estimated
+/// A number of a camera, as the report shows it.
+struct NumberResult {
+  std::string key;       ///< as in [calibration], without "depth_" or "picture_"
+  double log, estimate;  ///< in px, m, degrees, or without a unit
+  double sigma;          ///< standard deviation; 0 if it was not estimated
 };
 
-/// What became of some numbers that belong together.
-struct Finding {
+/// The result of a group of numbers.
+struct GroupResult {
   Group group;
-  std::vector<Figure> metrics;
-  bool is_determined = false;  ///< by the log; else the log's values hold
-  std::string why;             ///< it is not; a sentence with the remedy
+  std::vector<NumberResult> numbers;
+  bool is_determined = false;  ///< whether the log determines them; else its values hold
+  std::string why;             ///< why it does not, with the remedy
 };
 
-/// How well held-back views fit, which had no part in the estimate.
+/// How well the views fit that were held back from the estimate.
 struct HeldBack {
   std::size_t corners = 0;
   double pixel_median = 0;  ///< [px]
@@ -36,15 +36,15 @@ struct HeldBack {
 };
 
 struct Calibration {
-  DepthCamera log, estimate;  ///< what is not determined is in `estimate` as in `log`
-  std::vector<Finding> findings;
+  DepthCamera log, estimate;  ///< parameters that are not determined have the same values in both
+  std::vector<GroupResult> groups;
   std::size_t views = 0, held_views = 0, tracks = 0, corners = 0, surfaces = 0, spans = 0;
   HeldBack before, after;
-  bool is_better = false;  ///< held-back views fit better
+  bool is_better = false;  ///< held-back views fit better than before
 };
 
-/// Refines what a log says of its camera by bundle adjustment over corners and the surfaces of depth images. Throws
-/// Error(nothing_to_map), with the remedy, where too little was seen, and Error(interrupted).
+/// Refines a log's calibration of its camera by bundle adjustment over corners and the surfaces of depth images. Throws
+/// Error(nothing_to_map), with the remedy, if the views show too little, and Error(interrupted).
 Calibration calibrate(const std::vector<CalibrationView>& views, const DepthCamera& log,
                       const std::vector<MetricSpan>& spans, base::Progress& progress,
                       const std::function<bool()>& stop);

@@ -27,7 +27,7 @@ std::string joined(const std::vector<std::string>& logs) {
   return all;
 }
 
-/// Wheels or given poses: how far the base moved between two stamps, in metres.
+/// Distance in metres that the base moved between two stamps, from wheels or given poses.
 class Metres {
  public:
   Metres() : wheels_({}) {}
@@ -39,10 +39,10 @@ class Metres {
   }
   bool areWheels() const { return given_.empty(); }
 
-  /// A span ends with the first view that is far enough from its first one.
+  /// Each span ends at the first view that is far enough from its first one.
   std::vector<MetricSpan> spansOf(const std::vector<CalibrationView>& views) const {
     constexpr double kFixed = 0.005, kOfWheels = 0.03, kWheelsScale = 0.01;  // [m] [-]
-    const double far_enough = areWheels() ? 0.3 : 0.08;                      // [m] wheels slip at every start
+    const double far_enough = areWheels() ? 0.3 : 0.08;  // [m] longer for wheels, which slip at every start
     std::vector<MetricSpan> spans;
     for (std::size_t i = 0; i < views.size(); ++i) {
       for (std::size_t j = i + 1; j < views.size() && views[j].stretch == views[i].stretch; ++j) {
@@ -89,18 +89,18 @@ class Metres {
                     joined(request.logs) + ": " + why + "; nothing was written.\nWhat was read:\n" + report.text());
 }
 
-/// What was seen of cameras with depths.
-struct Seen {
+/// Counts of the observations of the camera with depths.
+struct ObservationCounts {
   std::size_t scans = 0, with_depth = 0, with_picture = 0;
 };
 
-std::string whyNone(const Seen& seen, const CalibrationRequest& request) {
+std::string whyNone(const ObservationCounts& counts, const CalibrationRequest& request) {
   const std::string of = request.label.empty() ? "" : " with the label '" + request.label + "'";
-  if (seen.scans == 0) return "there is no observation of a camera with depths" + of;
-  if (seen.with_depth == 0) return "the camera's observations have no depth images";
-  if (seen.with_picture == 0)
-    return "the camera's observations have no pictures of 8 bits, in which corners could be found; record both";
-  return "the camera has a lens that this cannot refine (fisheye, or more than five numbers) or no calibration to "
+  if (counts.scans == 0) return "there is no observation of a camera with depths" + of;
+  if (counts.with_depth == 0) return "the camera's observations have no depth images";
+  if (counts.with_picture == 0)
+    return "the camera's observations have no pictures of 8 bits in which to find corners; record depths and pictures";
+  return "the camera has a lens that cannot be refined (fisheye, or more than five coefficients) or no calibration to "
          "start from; give one in an INI with [calibration] (--ini)";
 }
 
@@ -118,7 +118,7 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
   result.label = request.label;
   ViewChooser chooser(static_cast<std::size_t>(request.views));
   Metres metres;
-  Seen seen;
+  ObservationCounts counts;
   while (const auto observation = log.next()) {
     if (stop()) break;
     progress.report(0.8 * log.progress(), "following the camera");
@@ -128,10 +128,10 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
       continue;
     }
     if (!result.label.empty() && scan->sensorLabel != result.label) continue;
-    ++seen.scans;
-    seen.with_depth += scan->hasRangeImage;
+    ++counts.scans;
+    counts.with_depth += scan->hasRangeImage;
     if (!scan->hasRangeImage || !scan->hasIntensityImage) continue;
-    ++seen.with_picture;
+    ++counts.with_picture;
     result.label = scan->sensorLabel;
     if (known.isOf(scan->sensorLabel)) {
       const auto units = static_cast<double>(scan->rangeUnits);
@@ -149,7 +149,7 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
   if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing was written");
   result.report = log.report();
   if (!chooser.camera() && chooser.leftOut() > 0) refuse(request, chooser.whyLeftOut(), result.report);
-  if (!chooser.camera()) refuse(request, whyNone(seen, request), result.report);
+  if (!chooser.camera()) refuse(request, whyNone(counts, request), result.report);
   result.camera = *chooser.camera();
   result.images = chooser.images();
   result.lost = chooser.lost();

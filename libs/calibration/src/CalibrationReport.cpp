@@ -34,13 +34,13 @@ std::string nameOf(Group group, bool one_camera) {
     case Group::depth_centre:
       return "centre of the depths";
     case Group::place:
-      return "place of the picture's camera in the depth camera's optical frame";
+      return "position of the picture's camera in the depth camera's optical frame";
     case Group::turn:
-      return "turn of the picture's camera in that frame (rotation vector)";
+      return "rotation of the picture's camera in that frame (rotation vector)";
     case Group::scale:
       return "scale of the depths";
     case Group::timing:
-      return "times of rows";
+      return "readout times";
   }
   return "";
 }
@@ -50,9 +50,9 @@ int decimalsOf(const std::string& key) {
   return key.size() > 4 && key.compare(key.size() - 4, 4, "_deg") == 0 ? 3 : 4;
 }
 
-bool isTold(const Calibration& calibration, Group group) {
-  for (const auto& finding : calibration.findings)
-    if (finding.group == group) return finding.is_determined;
+bool isDetermined(const Calibration& calibration, Group group) {
+  for (const auto& result : calibration.groups)
+    if (result.group == group) return result.is_determined;
   return false;
 }
 
@@ -60,8 +60,8 @@ void writeCamera(std::ostream& out, const std::string& prefix, const Intrinsics&
                  bool lens) {
   static const char* const keys[] = {"fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
   for (std::size_t i = 0; i < camera.size(); ++i) {
-    const bool is_told = i < 2 ? focal : i < 4 ? centre : lens;
-    if (is_told) out << prefix << "_" << keys[i] << " = " << brief(camera[i], 8) << "\n";
+    const bool is_written = i < 2 ? focal : i < 4 ? centre : lens;
+    if (is_written) out << prefix << "_" << keys[i] << " = " << brief(camera[i], 8) << "\n";
   }
 }
 
@@ -76,12 +76,12 @@ void writePose(std::ostream& out, const DepthCamera& camera) {
 
 std::string verdictOf(const Calibration& calibration) {
   if (calibration.after.corners == 0)
-    return "the views that were held back show too few corners to test it: the log's calibration holds, and "
+    return "the held-back views show too few corners to test it: the log's calibration holds, and "
            "calibration.ini changes nothing; record more of the same places";
   if (!calibration.is_better)
-    return "the views that were held back fit no better: the log's calibration holds, and calibration.ini changes "
+    return "the held-back views fit no better: the log's calibration holds, and calibration.ini changes "
            "nothing";
-  return "the views that were held back fit better: calibration.ini has what is determined";
+  return "the held-back views fit better: calibration.ini has the values that are determined";
 }
 
 void writeHeldBack(std::ostream& out, const std::string& name, const HeldBack& held) {
@@ -99,20 +99,21 @@ std::string calibrationIni(const Calibration& calibration, const CalibrationLog&
       << "; omnimapper-graphslam -i INI -i calibration.ini -r LOG -o FOLDER\n"
       << "[calibration]\n"
       << labelLine(log.label);
-  // What an INI told before is told again, so that this one stands alone.
-  const bool tells_all = log.is_corrected;
+  // The values of the request's INI are written again, so that this INI is complete without it.
+  const bool writes_all = log.is_corrected;
   out << distortionLine(log.depth_distortion);
-  if (!calibration.is_better && !tells_all) return out.str();
-  const auto is_told = [&](Group group) { return tells_all || isTold(calibration, group); };
-  const bool focal = is_told(Group::focal), centre = is_told(Group::centre), lens = is_told(Group::lens);
+  if (!calibration.is_better && !writes_all) return out.str();
+  const auto is_written = [&](Group group) { return writes_all || isDetermined(calibration, group); };
+  const bool focal = is_written(Group::focal), centre = is_written(Group::centre), lens = is_written(Group::lens);
   writeCamera(out, "picture", camera.picture, focal, centre, lens);
   if (camera.is_registered) {
     writeCamera(out, "depth", camera.picture, focal, centre, lens);
   } else {
-    writeCamera(out, "depth", camera.depth, is_told(Group::depth_focal), is_told(Group::depth_centre), tells_all);
+    writeCamera(out, "depth", camera.depth, is_written(Group::depth_focal), is_written(Group::depth_centre),
+                writes_all);
   }
-  if (!camera.is_registered && (is_told(Group::place) || is_told(Group::turn))) writePose(out, camera);
-  if (is_told(Group::scale)) out << "depth_scale = " << brief(log.corrected_scale * camera.depth_scale, 8) << "\n";
+  if (!camera.is_registered && (is_written(Group::place) || is_written(Group::turn))) writePose(out, camera);
+  if (is_written(Group::scale)) out << "depth_scale = " << brief(log.corrected_scale * camera.depth_scale, 8) << "\n";
   return out.str();
 }
 
@@ -122,30 +123,30 @@ std::string reportText(const Calibration& calibration, const CalibrationLog& log
                       : "")
       << "calibration of '" << log.label << "' from " << title << "\n"
       << base::counted(log.images, "image") << " over " << fixed(log.travel, 1) << " m and "
-      << fixed(log.turn / base::option_text::kRadiansPerDegree, 0) << " deg of turning, lost in " << log.lost << "; "
-      << base::counted(calibration.views, "view") << ", of which " << calibration.held_views << " held back; "
+      << fixed(log.turn / base::option_text::kRadiansPerDegree, 0) << " deg of rotation, tracking lost in " << log.lost
+      << "; " << base::counted(calibration.views, "view") << ", of which " << calibration.held_views << " held back; "
       << base::counted(calibration.corners, "corner") << " of " << base::counted(calibration.tracks, "point") << ", "
       << calibration.surfaces << " with depth\n"
-      << (calibration.log.is_registered ? "the depths are of the picture's view: one camera\n"
-                                        : "depths and picture are of two cameras\n");
+      << (calibration.log.is_registered ? "depths are registered to the picture: one camera\n"
+                                        : "depths and picture are from two cameras\n");
   if (calibration.spans > 0)
-    out << base::counted(calibration.spans, "distance") << " in metres, of "
+    out << base::counted(calibration.spans, "distance") << " in metres, from "
         << (log.are_wheels ? "wheels" : "given poses") << "\n";
   out << "\n"
       << std::left << std::setw(20) << "" << std::setw(12) << "log" << std::setw(12) << "estimate"
       << "standard deviation\n";
-  for (const auto& finding : calibration.findings) {
-    out << nameOf(finding.group, calibration.log.is_registered) << "\n";
-    for (const auto& figure : finding.metrics) {
-      const int decimals = decimalsOf(figure.key);
-      out << "  " << std::setw(18) << figure.key << std::setw(12) << fixed(figure.log, decimals);
-      if (finding.is_determined || figure.sigma > 0)
-        out << std::setw(12) << fixed(figure.estimate, decimals) << "+- " << brief(figure.sigma, 2);
+  for (const auto& result : calibration.groups) {
+    out << nameOf(result.group, calibration.log.is_registered) << "\n";
+    for (const auto& number : result.numbers) {
+      const int decimals = decimalsOf(number.key);
+      out << "  " << std::setw(18) << number.key << std::setw(12) << fixed(number.log, decimals);
+      if (result.is_determined || number.sigma > 0)
+        out << std::setw(12) << fixed(number.estimate, decimals) << "+- " << brief(number.sigma, 2);
       out << "\n";
     }
-    if (!finding.is_determined) out << "  the log's value holds; " << finding.why << "\n";
+    if (!result.is_determined) out << "  the log's value holds; " << result.why << "\n";
   }
-  out << "\nviews held back, whose poses alone were fitted (" << calibration.after.corners << " corners):\n";
+  out << "\nheld-back views, of which only the poses were fitted (" << calibration.after.corners << " corners):\n";
   writeHeldBack(out, "before", calibration.before);
   writeHeldBack(out, "after", calibration.after);
   out << "verdict: " << verdictOf(calibration) << "\n";
@@ -166,14 +167,14 @@ std::string summaryJson(const Calibration& calibration, const CalibrationLog& lo
   json["corners"] = calibration.corners;
   json["depths"] = calibration.surfaces;
   json["distances_in_metres"] = calibration.spans;
-  for (const auto& finding : calibration.findings) {
+  for (const auto& result : calibration.groups) {
     nlohmann::ordered_json one;
-    one["name"] = nameOf(finding.group, calibration.log.is_registered);
-    one["is_determined"] = finding.is_determined;
-    if (!finding.is_determined) one["why"] = finding.why;
-    for (const auto& figure : finding.metrics)
+    one["name"] = nameOf(result.group, calibration.log.is_registered);
+    one["is_determined"] = result.is_determined;
+    if (!result.is_determined) one["why"] = result.why;
+    for (const auto& number : result.numbers)
       one["figures"].push_back(
-          {{"key", figure.key}, {"log", figure.log}, {"estimate", figure.estimate}, {"sigma", figure.sigma}});
+          {{"key", number.key}, {"log", number.log}, {"estimate", number.estimate}, {"sigma", number.sigma}});
     json["parameters"].push_back(one);
   }
   const auto held = [](const HeldBack& h) {

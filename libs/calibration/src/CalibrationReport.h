@@ -8,12 +8,13 @@
 
 namespace omnimapper::calibration {
 
-/// [calibration] of what is determined; without any number where the log's values hold.
+/// The INI section [calibration] with the values that are determined. If the log's calibration holds, it has only the
+/// values of the request's INI.
 std::string calibrationIni(const Calibration& calibration, const CalibrationLog& log, const std::string& title);
-/// Every number with its standard deviation, and what is not determined, with the reason.
+/// The report: every number with its standard deviation, and the reason for each that is not determined.
 std::string reportText(const Calibration& calibration, const CalibrationLog& log, const std::string& title);
 std::string summaryJson(const Calibration& calibration, const CalibrationLog& log);
-/// By how much the corners of held-back views miss over the picture, before and after.
+/// Draws the residuals of corners in held-back views over the picture, before and after.
 void drawResiduals(const Calibration& calibration, std::ostream& out);
 
 }  // namespace omnimapper::calibration

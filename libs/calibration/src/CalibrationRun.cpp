@@ -21,8 +21,8 @@ std::vector<std::string> warningsOf(const CalibrationLog& log) {
                   log.why_left_out);
   constexpr double kMuch = 0.2;
   if (static_cast<double>(log.lost) > kMuch * static_cast<double>(log.images))
-    all.push_back("the camera was lost in " + std::to_string(log.lost) + " of " + std::to_string(log.images) +
-                  " images: move it more slowly, before things with corners");
+    all.push_back("tracking of the camera was lost in " + std::to_string(log.lost) + " of " +
+                  std::to_string(log.images) + " images: move it more slowly, in front of objects with corners");
   return all;
 }
 

@@ -10,7 +10,7 @@ namespace omnimapper::calibration {
 
 std::optional<LocalPlane> CalibrationView::planeAt(const Eigen::Vector2d& depth_pixel) const {
   constexpr int kRadius = 4, kFewest = 41;  // [px], of 81 pixels
-  constexpr double kOneSurface = 0.08;      // in parts of the inverse depth
+  constexpr double kOneSurface = 0.08;      // largest spread, as a share of the inverse depth
   const int column = static_cast<int>(std::lround(depth_pixel.x())),
             row = static_cast<int>(std::lround(depth_pixel.y()));
   if (column < kRadius || row < kRadius || column + kRadius >= depth_width || row + kRadius >= depth_height)

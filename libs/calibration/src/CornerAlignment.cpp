@@ -13,7 +13,7 @@ namespace {
 constexpr int kRadius = 6, kSide = 2 * kRadius + 1;  // [px]
 using Patch = std::array<double, kSide * kSide>;
 
-// Between pixels; none outside.
+// Grey level, interpolated between pixels; none outside the picture.
 std::optional<double> greyAt(const CalibrationView& view, const Eigen::Vector2d& p) {
   const int x = static_cast<int>(std::floor(p.x())), y = static_cast<int>(std::floor(p.y()));
   if (x < 0 || y < 0 || x + 1 >= view.width || y + 1 >= view.height) return std::nullopt;
@@ -25,7 +25,7 @@ std::optional<double> greyAt(const CalibrationView& view, const Eigen::Vector2d&
   return (1 - v) * ((1 - u) * at(x, y) + u * at(x + 1, y)) + v * ((1 - u) * at(x, y + 1) + u * at(x + 1, y + 1));
 }
 
-// What `view` shows around a place, each step of the patch turned and stretched.
+// The grey levels of `view` around a place; `step` rotates and stretches the patch.
 std::optional<Patch> patchAt(const CalibrationView& view, const Eigen::Vector2d& place, const Eigen::Matrix2d& step) {
   Patch patch;
   std::size_t i = 0;
@@ -39,7 +39,7 @@ std::optional<Patch> patchAt(const CalibrationView& view, const Eigen::Vector2d&
   return patch;
 }
 
-// How the surroundings of a pixel of `from` are turned and stretched in `to`, by the surface that is seen there.
+// Rotation and stretching of the surroundings of a pixel of `from` when they are seen in `to`, by the surface there.
 std::optional<Eigen::Matrix2d> warpOf(const CalibrationView& from, const Eigen::Vector2d& pixel,
                                       const CalibrationView& to, const DepthCamera& camera) {
   constexpr double kStep = 4;  // [px]
@@ -48,14 +48,14 @@ std::optional<Eigen::Matrix2d> warpOf(const CalibrationView& from, const Eigen::
   if (!plane) return std::nullopt;
   const double columns_per_pixel = camera.depthCamera()[0] / camera.picture[0];
   const auto to_from_from = inverse(to.world_from_picture) * from.world_from_picture;
-  const auto seen = [&](const Eigen::Vector2d& off) -> std::optional<Eigen::Vector2d> {
+  const auto projected = [&](const Eigen::Vector2d& off) -> std::optional<Eigen::Vector2d> {
     const double inverse_depth = plane->at(*place + columns_per_pixel * off) / camera.depth_scale;
     if (!(inverse_depth > 0.05)) return std::nullopt;
     const Eigen::Vector3d p = to_from_from * Eigen::Vector3d(rayThrough(camera.picture, pixel + off) / inverse_depth);
     if (!(p.z() > 0.1)) return std::nullopt;
     return Eigen::Vector2d(project(camera.picture.data(), p));
   };
-  const auto middle = seen({0, 0}), right = seen({kStep, 0}), below = seen({0, kStep});
+  const auto middle = projected({0, 0}), right = projected({kStep, 0}), below = projected({0, kStep});
   if (!middle || !right || !below) return std::nullopt;
   Eigen::Matrix2d warp;
   warp << (*right - *middle) / kStep, (*below - *middle) / kStep;
@@ -67,10 +67,10 @@ std::optional<Eigen::Matrix2d> warpOf(const CalibrationView& from, const Eigen::
 
 struct Aligned {
   Eigen::Vector2d pixel;
-  double likeness;  ///< correlation of the greys
+  double likeness;  ///< correlation of the grey levels
 };
 
-// Lucas and Kanade's method, over shift, contrast and brightness.
+// Aligns with Lucas and Kanade's method, over shift, contrast and brightness.
 std::optional<Aligned> align(const Patch& reference, const CalibrationView& view, const Eigen::Vector2d& start,
                              const Eigen::Matrix2d& warp) {
   constexpr int kRounds = 20;
@@ -112,7 +112,7 @@ std::optional<Aligned> align(const Patch& reference, const CalibrationView& view
   return Aligned{place, likeness};
 }
 
-// The view in the middle of the track is the reference: the others look from either side of it.
+// The view in the middle of the track is the reference, because it is closest to all others.
 void alignTrack(Track& track, const std::vector<CalibrationView>& views, const DepthCamera& camera) {
   constexpr double kLeastLikeness = 0.85, kSigma = 0.35;  // [-] [px] of an aligned corner
   const CornerMeasurement reference = track.measurements[track.measurements.size() / 2];

@@ -9,9 +9,9 @@
 
 namespace omnimapper::calibration {
 
-/// Moves the corners of each track to where their surroundings agree best with those in one of its views, warped as the
-/// surface there is seen from the other: a corner as it is found is good to a pixel, one as it is aligned to a few
-/// tenths. Those that agree badly are left out, and tracks of fewer than `fewest` views then.
+/// Refines the corners of each track by aligning the patch around the corner of one view, warped by the surface there,
+/// with the other views. The accuracy of a corner improves from a pixel to a few tenths. Corners that agree badly are
+/// left out, and then tracks of fewer than `fewest` views.
 void alignCorners(std::vector<Track>& tracks, const std::vector<CalibrationView>& views, const DepthCamera& camera,
                   std::size_t fewest);
 

@@ -10,7 +10,7 @@ namespace {
 std::optional<Intrinsics> intrinsicsOf(const mrpt::img::TCamera& camera) {
   if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt || !(camera.fx() > 1 && camera.fy() > 1))
     return std::nullopt;
-  // A lens of eight numbers: five that were fitted would count beside three that were not.
+  // A lens of eight coefficients is not supported: five would be fitted, and the other three would stay beside them.
   if (camera.dist[5] != 0 || camera.dist[6] != 0 || camera.dist[7] != 0) return std::nullopt;
   const bool is_straight = camera.distortion == mrpt::img::DistortionModel::none;
   Intrinsics all{camera.fx(), camera.fy(), camera.cx(), camera.cy()};
@@ -20,7 +20,7 @@ std::optional<Intrinsics> intrinsicsOf(const mrpt::img::TCamera& camera) {
 
 }  // namespace
 
-// The lens bends little: what it adds is taken off again and again (as OpenCV does).
+// The distortion of the lens is small, so it is removed by iteration (as in OpenCV).
 Eigen::Vector3d rayThrough(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
   constexpr int kRounds = 20;
   const Eigen::Vector2d focal(camera[0], camera[1]);
@@ -40,7 +40,7 @@ std::optional<DepthCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& sc
   camera.picture = *picture;
   camera.width = static_cast<int>(scan.intensityImage.getWidth());
   camera.height = static_cast<int>(scan.intensityImage.getHeight());
-  // MRPT's depth camera has x forward; the picture's is optical.
+  // MRPT's depth frame has x forward; the picture's frame is optical.
   if (!camera.is_registered)
     camera.depth_from_picture =
         inverse(geometry::sensorFromOptical()) * geometry::fromMrpt(scan.relativePoseIntensityWRTDepth);

@@ -64,10 +64,10 @@ std::vector<std::size_t> indicesOf(Group group, const Adjusted& adjusted) {
   return all;
 }
 
-// Standard deviation of what the lens moves, the worst of some places on the way from the middle to the rim [px].
+// Standard deviation of the lens distortion [px], the largest over a grid of places between the middle and the rim.
 double lensSigma(const Adjusted& adjusted, const std::vector<std::size_t>& indices) {
   const auto& camera = adjusted.estimate.camera;
-  constexpr double kShare = 0.35;  // of the width and height, from the middle
+  constexpr double kShare = 0.35;  // distance of the grid from the middle, as a share of width and height
   constexpr double kStep = 1e-6;
   Eigen::MatrixXd covariance(5, 5);
   for (int i = 0; i < 5; ++i)
@@ -91,7 +91,7 @@ double lensSigma(const Adjusted& adjusted, const std::vector<std::size_t>& indic
   return std::sqrt(worst);
 }
 
-// Whether the lens turns back on itself before the corner of the picture, where two directions would have one pixel.
+// Whether the radial distortion is not monotonic within the picture, so that two directions have the same pixel.
 bool folds(const DepthCamera& camera) {
   const auto& c = camera.picture;
   const double corner = std::hypot(0.5 * camera.width / c[0], 0.5 * camera.height / c[1]);
@@ -99,9 +99,9 @@ bool folds(const DepthCamera& camera) {
   double before = 0;
   for (int i = 1; i <= kSteps; ++i) {
     const double r = corner * i / kSteps, r2 = r * r;
-    const double bent = r * (1 + r2 * (c[4] + r2 * (c[5] + r2 * c[8])));
-    if (bent <= before) return true;
-    before = bent;
+    const double distorted = r * (1 + r2 * (c[4] + r2 * (c[5] + r2 * c[8])));
+    if (distorted <= before) return true;
+    before = distorted;
   }
   return false;
 }
@@ -110,14 +110,14 @@ std::string remedyOf(Group group) {
   switch (group) {
     case Group::focal:
     case Group::centre:
-      return "turn the camera slowly by 30 degrees and more about each of its axes before things that have corners";
+      return "turn the camera slowly by 30 degrees and more about each of its axes in front of objects with corners";
     case Group::lens:
-      return "let corners come near every rim of the picture, not only its middle";
+      return "record corners near every edge of the picture, not only in its middle";
     case Group::depth_focal:
     case Group::depth_centre:
     case Group::place:
     case Group::turn:
-      return "let the camera see slanted surfaces with corners, near and far, in every part of the image";
+      return "record slanted surfaces with corners, near and far, in every part of the image";
     case Group::timing:
       break;
     case Group::scale:
@@ -128,59 +128,59 @@ std::string remedyOf(Group group) {
 
 std::string reasonOf(Group group, const Adjusted* attempt, bool has_metres) {
   if (group == Group::scale && !has_metres)
-    return "not determined: a larger scale and a longer way look the same, and nothing in the log measures metres "
+    return "not determined: a larger scale and a longer distance look the same, and nothing in the log measures metres "
            "between views that are far enough apart; " +
            remedyOf(group);
   if (group == Group::scale && attempt != nullptr && undetermined(group, *attempt) <= 1)
-    return "the estimate differs from it by less than two standard deviations";
+    return "the estimate differs from the log's value by less than two standard deviations";
   if (attempt != nullptr && attempt->estimate.camera.is_registered && (group == Group::place || group == Group::turn))
-    return "the depths are registered to the picture; this is what is left of it, and it is not written, for the "
-           "picture "
-           "would have to be turned into another view";
+    return "the depths are registered to the picture; the estimate is the remaining error, and it is not written, "
+           "because the picture would have to be warped to another view";
   if (attempt == nullptr) return "not determined; " + remedyOf(group);
   if (group == Group::lens && folds(attempt->estimate.camera))
-    return "not determined: what fits the corners folds the picture's rim; " + remedyOf(group);
+    return "not determined: the lens that fits the corners is not monotonic up to the picture's rim; " +
+           remedyOf(group);
   return "not determined: the standard deviation is " + base::brief(undetermined(group, *attempt), 2) +
-         " times what is bearable; " + remedyOf(group);
+         " times the largest acceptable one; " + remedyOf(group);
 }
 
 }  // namespace
 
 double undetermined(Group group, const Adjusted& adjusted) {
-  // [-] [px] [px] [m] [rad] [-] standard deviations that are bearable, and how much narrower than the prior they must
-  // be.
+  // [-] [px] [px] [m] [rad] [-] Largest acceptable standard deviations, and their largest acceptable share of the
+  // prior's.
   constexpr double kFocal = 0.01, kCentre = 5, kLens = 1, kPlace = 0.01, kTurn = 0.5 * kDegree, kScale = 0.02;
   constexpr double kShareOfPrior = 0.7;
   const auto indices = indicesOf(group, adjusted);
   double worst = 0;
   for (const std::size_t i : indices) {
     const auto& one = adjusted.parameters[i];
-    double bearable = 1;
+    double acceptable = 1;
     switch (group) {
       case Group::focal:
       case Group::depth_focal:
-        bearable = kFocal * one.value;
+        acceptable = kFocal * one.value;
         break;
       case Group::centre:
       case Group::depth_centre:
-        bearable = kCentre;
+        acceptable = kCentre;
         break;
       case Group::lens:
-        bearable = std::numeric_limits<double>::infinity();
+        acceptable = std::numeric_limits<double>::infinity();
         break;
       case Group::place:
-        bearable = kPlace;
+        acceptable = kPlace;
         break;
       case Group::turn:
-        bearable = kTurn;
+        acceptable = kTurn;
         break;
       case Group::scale:
-        bearable = kScale;
+        acceptable = kScale;
         break;
       case Group::timing:
-        return 0;  // which is of the motion, and only to be taken out
+        return 0;  // the timing belongs to this log's motion and is only estimated to remove its effect
     }
-    worst = std::max(worst, one.sigma / bearable);
+    worst = std::max(worst, one.sigma / acceptable);
     if (group != Group::lens) worst = std::max(worst, one.sigma / (kShareOfPrior * one.prior_sigma));
   }
   if (group == Group::lens && indices.size() == 5) {
@@ -190,27 +190,27 @@ double undetermined(Group group, const Adjusted& adjusted) {
   return worst;
 }
 
-std::vector<Finding> findingsOf(const DepthCamera& log, const Adjusted& adjusted,
-                                const std::map<Group, Adjusted>& attempts, bool has_metres) {
+std::vector<GroupResult> resultsOf(const DepthCamera& log, const Adjusted& adjusted,
+                                   const std::map<Group, Adjusted>& attempts, bool has_metres) {
   std::vector<Group> groups{Group::focal, Group::centre, Group::lens};
   if (!log.is_registered) groups.insert(groups.end(), {Group::depth_focal, Group::depth_centre});
   groups.insert(groups.end(), {Group::place, Group::turn, Group::scale});
-  std::vector<Finding> findings;
+  std::vector<GroupResult> results;
   for (const Group group : groups) {
     const auto found = attempts.find(group);
     const bool is_determined = !indicesOf(group, adjusted).empty();
     const Adjusted* source = is_determined ? &adjusted : found != attempts.end() ? &found->second : nullptr;
-    Finding finding{group, {}, is_determined, is_determined ? "" : reasonOf(group, source, has_metres)};
+    GroupResult result{group, {}, is_determined, is_determined ? "" : reasonOf(group, source, has_metres)};
     const auto before = valuesOf(group, log), after = valuesOf(group, source ? source->estimate.camera : log);
     const auto indices = source ? indicesOf(group, *source) : std::vector<std::size_t>();
     for (std::size_t i = 0; i < before.size(); ++i) {
       const double unit = group == Group::turn ? kDegree : 1;
-      finding.metrics.push_back({keysOf(group)[i], before[i], after[i],
-                                 i < indices.size() ? source->parameters[indices[i]].sigma / unit : 0});
+      result.numbers.push_back({keysOf(group)[i], before[i], after[i],
+                                i < indices.size() ? source->parameters[indices[i]].sigma / unit : 0});
     }
-    findings.push_back(std::move(finding));
+    results.push_back(std::move(result));
   }
-  return findings;
+  return results;
 }
 
 }  // namespace omnimapper::calibration

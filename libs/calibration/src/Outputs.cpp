@@ -19,14 +19,15 @@ void refuseFolderOfMap(const std::string& folder) {
   std::error_code none;
   if (std::filesystem::exists(folder + "/map.omnimap", none))
     throw base::Error(base::ExitCode::unwritable_output,
-                      folder + ": a map is in this folder, which a calibration would replace; give it one of its own");
+                      folder + ": a map is in this folder, and a calibration would replace it; use another folder");
 }
 
 std::string labelLine(const std::string& label) {
   const bool is_plain = std::all_of(label.begin(), label.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/' || c == ':';
   });
-  return (is_plain ? "label = " + label : "; of every camera: the label of this one cannot stand here") + "\n";
+  return (is_plain ? "label = " + label : "; for every camera: the label of this one cannot be written in an INI") +
+         "\n";
 }
 
 std::string distortionLine(const std::vector<double>& coefficients) {

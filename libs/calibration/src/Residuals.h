@@ -9,7 +9,7 @@
 
 namespace omnimapper::calibration {
 
-/// A motion as the solver has it: rotation vector [rad], then translation [m].
+/// A motion as a parameter block of the solver: rotation vector [rad], then translation [m].
 using MotionBlock = std::array<double, 6>;
 
 template <class Scalar>
@@ -19,11 +19,12 @@ Eigen::Matrix<Scalar, 3, 1> moved(const Scalar* motion, const Eigen::Matrix<Scal
   return {p.x() + motion[3], p.y() + motion[4], p.z() + motion[5]};
 }
 
-/// When parts of an image are taken [s]: from the first row of the picture to its last, the same of the depths, and
-/// from the middle of the picture to that of the depths.
+/// Times within an image [s]: readout of the picture from its first row to its last, the same of the depths, and delay
+/// of the depths' middle after the picture's.
 using Timing = std::array<double, 3>;
 
-/// A point in the frame of a camera that moves, so much later; `velocity` in that frame: v [m/s], w [rad/s].
+/// The coordinates of a fixed point in the frame of a moving camera after `seconds`. `velocity` is in that frame: v
+/// [m/s], w [rad/s].
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 1> later(const Eigen::Matrix<Scalar, 3, 1>& p, const geometry::Vector6d& velocity,
                                   const Scalar& seconds) {
@@ -33,7 +34,7 @@ Eigen::Matrix<Scalar, 3, 1> later(const Eigen::Matrix<Scalar, 3, 1>& p, const ge
           p.z() - seconds * (v[2] + w[0] * p.y() - w[1] * p.x())};
 }
 
-/// How far a corner is from where the picture's camera should show its point, in standard deviations.
+/// Predicted minus measured pixel of a point in the picture, in standard deviations.
 struct PixelResidual {
   Eigen::Vector2d pixel;
   double sigma;                                              ///< [px]
@@ -53,8 +54,9 @@ struct PixelResidual {
   }
 };
 
-/// How far a point is from the surface that the depth image shows in its place, in inverse depth, which is linear in
-/// the image of a plane; in standard deviations. Through the slope the depth camera's intrinsics are measured, too.
+/// Measured minus predicted inverse depth of a point, in standard deviations. The measured one is read from the plane
+/// that the depth image shows there, as inverse depth is linear in the image of a plane. Through the slope of the plane
+/// the residual also measures the depth camera's intrinsics.
 struct DepthResidual {
   LocalPlane plane;
   double row_share = 0;                                      ///< of its row in the depth image
@@ -75,7 +77,8 @@ struct DepthResidual {
   }
 };
 
-/// How far the base moved between two views, beside how far wheels or given poses say; in standard deviations.
+/// Distance between the bases of two views minus the distance that wheels or given poses measured, in standard
+/// deviations.
 struct DistanceResidual {
   Eigen::Vector3d base_in_first, base_in_second;  ///< [m] in the pictures' optical frames
   double distance, sigma;                         ///< [m]
@@ -110,7 +113,7 @@ struct BlockPrior {
   }
 };
 
-/// Weak prior: a number is about what the log says, in standard deviations.
+/// Weak prior of a number at the log's value, in standard deviations.
 struct NumberPrior {
   int index;
   double value, sigma;

@@ -13,7 +13,7 @@ namespace omnimapper::calibration {
 
 namespace {
 
-constexpr int kCell = 32;  // [px] of the grid that corners are looked up in
+constexpr int kCell = 32;  // [px] of the grid in which corners are looked up
 
 struct Corners {
   std::vector<Eigen::Vector2d> pixels;
@@ -24,7 +24,8 @@ struct Corners {
   std::vector<std::vector<std::size_t>> cells;
 };
 
-// The strongest of each part of the picture: the rim tells more of a lens than one bright poster in the middle.
+// Keeps the strongest corners of each part of the picture, because corners near the rim determine a lens better than
+// many on a poster in the middle.
 std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> all, int width, int height, std::size_t most) {
   constexpr int kColumns = 16, kRows = 12;
   std::sort(all.begin(), all.end(), [](const cv::KeyPoint& a, const cv::KeyPoint& b) {
@@ -51,7 +52,7 @@ Corners cornersOf(const CalibrationView& view, const DepthCamera& camera) {
   constexpr int kDetected = 6000, kLevels = 5, kEdge = 16, kFastThreshold = 8;
   constexpr std::size_t kMost = 800;
   constexpr float kScale = 1.2F;
-  constexpr double kSigma = 0.7;  // [px] of a corner of the finest level
+  constexpr double kSigma = 0.7;  // [px] of a corner at the finest level
   Corners corners;
   corners.columns = view.width / kCell + 1;
   corners.rows = view.height / kCell + 1;
@@ -83,10 +84,10 @@ int distance(const std::array<std::uint64_t, 4>& a, const std::array<std::uint64
   return static_cast<int>(sum);
 }
 
-// The corner near a place that looks like that one, and like no other there.
+// The corner near a place with the most similar descriptor; none if another one there is nearly as similar.
 std::optional<std::size_t> likestNear(const Corners& corners, const Eigen::Vector2d& place,
                                       const std::array<std::uint64_t, 4>& descriptor) {
-  constexpr double kGate = 28, kRatio = 0.8;  // [px], which bears a focal length that is 5 % off
+  constexpr double kGate = 28, kRatio = 0.8;  // [px] wide enough for a focal length that is 5 % off
   constexpr int kFarthest = 64;               // of 256 bits
   const int left = std::max(0, static_cast<int>(place.x() - kGate) / kCell);
   const int top = std::max(0, static_cast<int>(place.y() - kGate) / kCell);
@@ -113,7 +114,7 @@ std::optional<std::size_t> likestNear(const Corners& corners, const Eigen::Vecto
   return best;
 }
 
-using Links = std::vector<std::size_t>;  // by corner of the one view the other's; npos: none
+using Links = std::vector<std::size_t>;  // for each corner of one view the index of the other's, or kNone
 constexpr auto kNone = static_cast<std::size_t>(-1);
 
 Links linksTo(const Corners& from, const Corners& to, const geometry::Se3& to_from_from, const DepthCamera& camera) {
@@ -160,7 +161,7 @@ std::optional<Eigen::Vector2d> depthPixelOf(const CalibrationView& view, const D
                                             const Eigen::Vector2d& pixel) {
   if (camera.is_registered) return pixel;
   const Eigen::Vector3d ray = rayThrough(camera.picture, pixel);
-  double depth = 2;  // [m] at first; the two cameras are near one another
+  double depth = 2;  // [m] initial value; the two cameras are close together
   Eigen::Vector2d place = pixel;
   for (int i = 0; i < 3; ++i) {
     place = project(camera.depth.data(), Eigen::Vector3d(camera.depth_from_picture * Eigen::Vector3d(depth * ray)));
@@ -187,7 +188,7 @@ std::optional<Eigen::Vector3d> pointAt(const CalibrationView& view, const DepthC
 std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const DepthCamera& camera, std::size_t fewest,
                               std::size_t most) {
   std::vector<Corners> corners;
-  std::vector<std::size_t> first{0};  // number of a view's first corner
+  std::vector<std::size_t> first{0};  // index of a view's first corner among all
   for (const auto& view : views) {
     corners.push_back(cornersOf(view, camera));
     first.push_back(first.back() + corners.back().pixels.size());
@@ -204,7 +205,7 @@ std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const D
     }
   }
   std::map<std::size_t, Track> tracks;
-  std::map<std::size_t, bool> is_twice;  // whether one view shows it twice: then a link is wrong
+  std::map<std::size_t, bool> is_twice;  // whether one view has two of its corners; then a link is wrong
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (std::size_t i = 0; i < corners[v].pixels.size(); ++i) {
       const auto group = groups.find(first[v] + i);

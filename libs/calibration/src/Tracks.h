@@ -10,28 +10,28 @@
 
 namespace omnimapper::calibration {
 
-/// Where a view shows a point.
+/// The position of a point in a view.
 struct CornerMeasurement {
   std::size_t view;
-  Eigen::Vector2d pixel;  ///< of the picture, as the lens shows it
+  Eigen::Vector2d pixel;  ///< in the picture, with lens distortion
   double sigma;           ///< [px]
 };
 
-/// One point of the place, in the views that show it.
+/// A point of the scene, with its positions in the views that show it.
 struct Track {
-  Eigen::Vector3d point;  ///< in the world [m]; the start
+  Eigen::Vector3d point;  ///< [m] in the world; initial value
   std::vector<CornerMeasurement> measurements;
 };
 
-/// Corners (ORB) that look alike in views which by their poses see the same, linked to tracks of at least `fewest`
-/// views. The same input gives the same tracks.
+/// Links ORB corners that look alike, in views whose poses are close enough to show the same, to tracks of at least
+/// `fewest` views. Returns at most `most` tracks, those of most views first. The same input gives the same tracks.
 std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const DepthCamera& camera, std::size_t fewest,
                               std::size_t most);
 
-/// Where the depth image shows what is in that pixel of the picture; none where there is no depth.
+/// The pixel of the depth image that shows the same point as this pixel of the picture; none if it has no depth.
 std::optional<Eigen::Vector2d> depthPixelOf(const CalibrationView& view, const DepthCamera& camera,
                                             const Eigen::Vector2d& pixel);
-/// The point that a pixel of the picture shows, in the picture's optical frame; none where there is no depth.
+/// The point that a pixel of the picture shows, in the picture's optical frame; none if it has no depth.
 std::optional<Eigen::Vector3d> pointAt(const CalibrationView& view, const DepthCamera& camera,
                                        const Eigen::Vector2d& pixel);
 

@@ -91,7 +91,7 @@ void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
     turn_ += angle;
     view.turn_rate = angle / seconds;
     view.velocity = geometry::minus(motion, geometry::Se3()) / seconds;
-    // The velocity at an image is between those from the one before and to the one after.
+    // The velocity at an image is the mean of those since the image before and until the one after.
     if (!kept_.empty() && kept_.back().view.stamp == tracked.last)
       kept_.back().view.velocity = 0.5 * (kept_.back().view.velocity + view.velocity);
   }
@@ -104,7 +104,7 @@ void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
   view.height = camera_->height;
   view.depth_width = raw_view.depth().width();
   view.depth_height = raw_view.depth().height();
-  // Only what is kept costs memory, so images come last.
+  // The pixels are copied last, so that only views that are kept cost memory.
   const auto bin =
       static_cast<std::size_t>((travel_ / 0.08 + turn_ / (4 * base::option_text::kRadiansPerDegree)) / spacing_);
   if (!kept_.empty() && kept_.back().bin == bin && kept_.back().view.stretch == stretch_ &&
@@ -120,7 +120,7 @@ void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
   if (kept_.size() >= 2 * most_ && spacing_ < kWidestSpacing) thin();
 }
 
-// Twice the spacing: of two neighbouring bins the slower view stays.
+// Doubles the spacing; of two neighbouring bins the view with the slower rotation stays.
 void ViewChooser::thin() {
   std::vector<Candidate> fewer;
   for (auto& one : kept_) {

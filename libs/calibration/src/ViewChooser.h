@@ -14,27 +14,30 @@
 
 namespace omnimapper::calibration {
 
-/// Follows a camera by its images and keeps some of them: evenly along its way and its turning, and of those near one
-/// another the one in which it turned most slowly, for a shutter that reads row by row bends fast ones.
+/// Tracks a camera by its images and keeps some of them, evenly spaced over the distance that it travels and the angle
+/// that it turns. Of neighbouring images it keeps the one in which the camera turned most slowly, because a rolling
+/// shutter distorts images of a fast rotation.
 class ViewChooser {
  public:
-  /// `most` views at the end.
+  /// take() returns at most `most` views.
   explicit ViewChooser(std::size_t most) : most_(most), tracker_({}, {}, {}) {}
 
-  /// An image with depths and picture; one of another size than the first, or that cannot be read, is left out.
+  /// Adds an image with depths and picture. An image of another size than the first, or that cannot be read, is left
+  /// out.
   void add(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
-  /// The views in the order of time. To be called once, at the end.
+  /// The views in the order of time; call it once, at the end.
   std::vector<CalibrationView> take();
 
-  /// Whether there are so many views that more of the log would only take them farther apart than they can be matched.
+  /// Whether there are enough views: more of the log would only increase their spacing, until they can no longer be
+  /// matched.
   bool isFull() const { return spacing_ >= kWidestSpacing && kept_.size() > most_; }
   const std::optional<DepthCamera>& camera() const { return camera_; }
   std::size_t images() const { return images_; }
   std::size_t lost() const { return lost_; }
-  /// Images that were left out, and why the first was.
+  /// Number of images that were left out, and the reason for the first one.
   std::size_t leftOut() const { return left_out_; }
   const std::string& whyLeftOut() const { return why_left_out_; }
-  /// How far the camera went [m] and turned [rad], all in all.
+  /// Total distance that the camera travelled [m] and angle that it turned [rad].
   double travel() const { return travel_; }
   double turn() const { return turn_; }
 

@@ -10,7 +10,7 @@ namespace omnimapper::calibration {
 namespace {
 
 constexpr int kColumns = 16, kRows = 12;
-constexpr double kLonger = 20;  // than on the picture
+constexpr double kLonger = 20;  // factor by which residuals are drawn longer
 
 Eigen::Vector2d medianOf(std::vector<double> across, std::vector<double> down) {
   const auto middle = [](std::vector<double>& all) {
@@ -20,7 +20,7 @@ Eigen::Vector2d medianOf(std::vector<double> across, std::vector<double> down) {
   return {middle(across), middle(down)};
 }
 
-// In each part of the picture the median of what its corners miss by, as a line from the part's middle.
+// Draws in each part of the picture the median residual of its corners, as a line from the part's middle.
 void drawPanel(draw::Svg& svg, const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const DepthCamera& camera,
                const HeldBack& held, const std::string& name) {
   svg.box(corner, size, "#f4f4f4");
@@ -57,7 +57,7 @@ void drawResiduals(const Calibration& calibration, std::ostream& out) {
   const double width = 560, height = width * camera.height / camera.width, rim = 20, top = 64;
   draw::Svg svg(out, 2 * width + 3 * rim, height + top + rim);
   svg.text({rim, 24},
-           "corners of views held back, less where the camera should show them; medians, 20 times as long as on the "
+           "corners of held-back views minus their predicted positions; medians, drawn 20 times as long as in the "
            "picture, red from 3 px",
            draw::Svg::Anchor::start, 14);
   drawPanel(svg, {rim, top}, {width, height}, camera, calibration.before, "before");

@@ -24,7 +24,8 @@ base::Error cameraError(const std::string& sentence) {
   return base::Error(base::ExitCode::unreadable_input, sentence);
 }
 
-// Stays open as long as the program: OpenNI2's drivers are loaded once, and tell what is plugged in.
+// OpenNI2 stays initialized until the program ends: its drivers are loaded once and report which cameras are plugged
+// in.
 void openOpenNI2() {
   static const auto status = openni::OpenNI::initialize();
   if (status != openni::STATUS_OK)
@@ -35,11 +36,11 @@ void openOpenNI2() {
 
 class CCheckedOpenNI2::Driver : public mrpt::hwdrivers::COpenNI2Sensor {
  public:
-  // Number of its camera among those that are there.
+  // Number of its camera among those that are plugged in.
   int deviceNumber() const { return m_user_device_number; }
 };
 
-/// Streams of the same camera beside MRPT's: what comes to all of them is there for MRPT's, too.
+/// Opens streams of the same camera in addition to MRPT's. When all of them have a frame, MRPT's have one, too.
 class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListener {
  public:
   explicit Watch(const std::string& uri) : uri_(uri), registration_(*this) {
@@ -49,7 +50,7 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
     for (std::size_t i = 0; i < kTypes.size(); ++i) {
       auto& stream = streams_[i];
       if (!device_.hasSensor(kTypes[i]) || stream.create(device_, kTypes[i]) != openni::STATUS_OK) continue;
-      // One that does not start here, such as the infrared beside the colours, did not start for MRPT either.
+      // A stream that does not start here, such as infrared beside colour, did not start for MRPT either.
       if (stream.start() != openni::STATUS_OK) {
         stream.destroy();
         continue;
@@ -69,11 +70,11 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  // Whether all streams have a frame that came since forget().
+  // Waits until all streams have a frame that came since forget(); false if one has none within `patience`.
   bool waitForFrames(std::chrono::milliseconds patience) {
     std::unique_lock lock(mutex_);
     const bool is_over = changed_.wait_for(lock, patience, [this] { return is_gone_ || came_ == works_; });
-    if (is_gone_) throw cameraError("OpenNI2 says that the camera is gone");
+    if (is_gone_) throw cameraError("OpenNI2 reports that the camera is gone");
     return is_over;
   }
   void forget() {
@@ -82,7 +83,7 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
   }
 
  private:
-  // OpenNI2 keeps a pointer to the listener until it is removed, also where the camera cannot be opened.
+  // OpenNI2 keeps a pointer to the listener until it is removed, even if the camera cannot be opened.
   class Registration {
    public:
     explicit Registration(openni::OpenNI::DeviceDisconnectedListener& listener) : listener_(listener) {
@@ -95,7 +96,7 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
    private:
     openni::OpenNI::DeviceDisconnectedListener& listener_;
   };
-  // OpenNI2 wants one for each stream.
+  // OpenNI2 needs a listener for each stream.
   class Listener : public openni::VideoStream::NewFrameListener {
    public:
     void listen(Watch& watch, std::size_t stream) {
@@ -137,7 +138,7 @@ CCheckedOpenNI2::CCheckedOpenNI2() {
   m_state = ssUninitialized;
 }
 
-// MRPT's driver throws while it is destroyed if the camera of its number was never there, which would end the program.
+// The destructor of MRPT's driver throws if there was never a camera of its number, which would end the program.
 CCheckedOpenNI2::~CCheckedOpenNI2() {
   watch_.reset();
   if (driver_ && driver_->deviceNumber() >= driver_->getNumDevices()) static_cast<void>(driver_.release());
@@ -153,7 +154,7 @@ void CCheckedOpenNI2::loadConfig_sensorSpecific(const mrpt::config::CConfigFileB
     for (const auto& key : keys) copy->write(each, key, ini.read_string(each, key, ""));
   }
   ini_ = std::move(copy);
-  m_grab_decimation = 0;  // MRPT's driver reads that key, too
+  m_grab_decimation = 0;  // MRPT's driver applies that key itself
   section_ = section;
 }
 
@@ -179,7 +180,7 @@ void CCheckedOpenNI2::initialize() {
 }
 
 void CCheckedOpenNI2::doProcess() {
-  if (!watch_) throw base::Error(base::ExitCode::internal, "a CCheckedOpenNI2 works after initialize() alone");
+  if (!watch_) throw base::Error(base::ExitCode::internal, "a CCheckedOpenNI2 works only after initialize()");
   try {
     if (!watch_->waitForFrames(std::chrono::milliseconds(100))) return;
     driver_->doProcess();

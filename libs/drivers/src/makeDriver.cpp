@@ -45,22 +45,22 @@ class MrptDriver : public live::SensorDriver {
 
  private:
   CGenericSensor::Ptr sensor_;
-  const CheckedSensor* checked_;  // null for a driver that is none
+  const CheckedSensor* checked_;  // null if the driver is no CheckedSensor
   std::vector<std::string> unread_keys_;
 };
 
-// Drivers that MRPT has in name alone where a library was missing when it was built, and what reads the device instead.
+// The driver that reads the device instead of one that MRPT was built without; null if there is none.
 const char* insteadOf(const std::string& driver) {
   return driver == "CKinect" ? "KinectSensor" : nullptr;
 }
 
-// Drivers of MRPT that are read through checks of ours.
+// The checked version of MRPT's driver if this library has one, else the driver itself.
 std::string checkedDriver(const std::string& driver) {
   if (driver == "CHokuyoURG") return "CCheckedHokuyo";
   return driver == "COpenNI2Sensor" ? "CCheckedOpenNI2" : driver;
 }
 
-// What was not installed where a driver was left out of the build.
+// The package that was not installed if a driver was left out of the build; empty for other drivers.
 std::string packageOf(const std::string& driver) {
   if (driver == "KinectSensor") return "libfreenect-dev";
   return driver == "COpenNI2Sensor" ? "libopenni2-dev" : "";
@@ -69,8 +69,8 @@ std::string packageOf(const std::string& driver) {
 base::Error noDriver(const std::string& where, const std::string& driver) {
   using base::ExitCode;
   if (const std::string package = packageOf(driver); !package.empty())
-    return base::Error(ExitCode::unknown_plugin, where + "this was built without what " + driver + " needs; install " +
-                                                     package + ", and configure and build again");
+    return base::Error(ExitCode::unknown_plugin, where + "omnimapper was built without the library that " + driver +
+                                                     " needs; install " + package + ", and configure and build again");
   return base::Error(ExitCode::unknown_plugin, where + "there is no driver " + driver +
                                                    "; it is a class of mrpt::hwdrivers, such as CHokuyoURG, or of a "
                                                    "library that [live] libraries names");
@@ -79,12 +79,12 @@ base::Error noDriver(const std::string& where, const std::string& driver) {
 std::unique_ptr<live::SensorDriver> makeDriver(const live::SensorSection& section) {
   const std::string where = section.file + ": sensor [" + section.name + "]: ";
   if (const char* instead = insteadOf(section.driver))
-    throw base::Error(base::ExitCode::unknown_plugin,
-                      where + "MRPT was built without what " + section.driver + " needs; write driver = " + instead);
+    throw base::Error(base::ExitCode::unknown_plugin, where + "MRPT was built without the library that " +
+                                                          section.driver + " needs; write driver = " + instead);
   const auto sensor = [&] {
     try {
       return CGenericSensor::createSensorPtr(checkedDriver(section.driver));
-    } catch (const std::exception& error) {  // a class that MRPT has in name alone
+    } catch (const std::exception& error) {  // a class that MRPT declares but was built without
       throw base::Error(base::ExitCode::unknown_plugin, where + base::sentenceOf(error));
     }
   }();

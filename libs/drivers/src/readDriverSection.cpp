@@ -9,7 +9,8 @@ namespace omnimapper::drivers {
 
 void refuseUnknownKeys(const mrpt::config::CConfigFileBase& ini, const std::string& section,
                        const std::vector<base::OptionSpec>& specs) {
-  // What mrpt::hwdrivers::CGenericSensor::loadConfig(), rawlog-grabber and --live read in the section of any driver.
+  // Keys that mrpt::hwdrivers::CGenericSensor::loadConfig(), rawlog-grabber and --live read in the section of every
+  // driver.
   std::vector<std::string> known{"driver",
                                  "sensorLabel",
                                  "process_rate",

@@ -15,8 +15,8 @@ namespace omnimapper::drivers {
 void refuseUnknownKeys(const mrpt::config::CConfigFileBase& ini, const std::string& section,
                        const std::vector<base::OptionSpec>& specs);
 
-/// The options of a driver from its section of an INI that MRPT hands over in loadConfig(). Throws Error unknown_key,
-/// wrong_type or out_of_range, naming section, key, value and what fits.
+/// Reads the options of a driver from its section of an INI, which MRPT passes to loadConfig(). Throws Error
+/// unknown_key, wrong_type or out_of_range, naming section, key, value and the valid values.
 template <class Struct>
 Struct readDriverSection(const mrpt::config::CConfigFileBase& ini, const std::string& section) {
   const auto& table = Struct::table();
@@ -35,8 +35,8 @@ Struct readDriverSection(const mrpt::config::CConfigFileBase& ini, const std::st
   return result;
 }
 
-/// What read() returns, for the body of a loadConfig_sensorSpecific(): the loadConfig() of MRPT around it makes a plain
-/// std::exception, without the exit code, of every exception that is not of MRPT's own kind.
+/// Returns what read() returns, for the body of a loadConfig_sensorSpecific(). It wraps a base::Error in MRPT's kind of
+/// exception, because MRPT's loadConfig() converts every other one to a plain std::exception without the exit code.
 template <class Read>
 auto readUnderMrpt(const Read& read) {
   try {

@@ -15,7 +15,7 @@ namespace omnimapper::live {
 
 namespace {
 
-// What is large, and may be left out for a newer one.
+// Whether an observation is large and may be left out because of a newer one.
 bool isOfCamera(const mrpt::obs::CObservation& observation) {
   using namespace mrpt::obs;
   return dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
@@ -59,7 +59,7 @@ void Arrivals::add(mrpt::obs::CObservation& observation, base::Stamp arrival, Se
   arrived_.notify_one();
 }
 
-// Of more than so many frames of one camera the oldest goes.
+// Drops the oldest frame of a camera if camera_queue frames of it wait.
 void Arrivals::makeRoomFor(const std::string& label) {
   const auto is_alike = [&](const Waiting& one) { return one.is_camera && one.label == label; };
   const auto waiting = std::count_if(waiting_.begin(), waiting_.end(), is_alike);
@@ -84,7 +84,7 @@ std::optional<Arrivals::Waiting> Arrivals::takeFirst(std::chrono::milliseconds p
   return first;
 }
 
-// One of a class that its library encodes and cannot read again costs only itself.
+// An observation whose class can be encoded but not read again is left out; the others are not affected.
 std::optional<LiveObservation> Arrivals::next(std::chrono::milliseconds patience) {
   while (const auto first = takeFirst(patience)) {
     try {

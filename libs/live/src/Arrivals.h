@@ -21,25 +21,26 @@
 
 namespace omnimapper::live {
 
-/// Where the threads of all sensors leave their observations, and the mapper takes them: each is stamped, encoded once,
-/// given to the recorder, and waits for the mapper in the same order.
+/// The queue between the threads of all sensors and the mapper. Each observation is stamped, encoded once, given to the
+/// recorder, and waits for the mapper in the same order.
 class Arrivals {
  public:
-  /// `recorder` may be null: nothing is recorded.
+  /// If `recorder` is null, nothing is recorded.
   Arrivals(const LiveOptions& options, std::unique_ptr<Recorder> recorder);
 
-  /// From the thread of a sensor. `clock` is that sensor's alone; its observation is changed.
+  /// Adds an observation, whose label and stamp are corrected; from the thread of its sensor. `clock` is that sensor's.
   void add(mrpt::obs::CObservation& observation, base::Stamp arrival, SensorClock& clock);
-  /// An object of a driver that is no observation.
+  /// Counts an object of a driver that is no observation.
   void addOther(const std::string& class_name);
 
-  /// The oldest that waits, as a reader of the recording would get it; waits so long for one.
+  /// The oldest observation that waits, as a reader of the recording would get it; none if none comes within
+  /// `patience`.
   std::optional<LiveObservation> next(std::chrono::milliseconds patience);
-  /// Lets go what waits, for nobody maps it; it counts as given.
+  /// Discards the observations that wait, if nobody maps them; they count as given.
   void discardWaiting();
-  /// From now on nothing is taken any more.
+  /// Ignores all observations from now on.
   void close();
-  /// Numbers of those that were left out since the last call, for newer ones of their cameras.
+  /// Numbers of observations that were left out since the last call because of newer ones of their cameras.
   std::vector<std::uint64_t> takeDropped();
 
   source::SourceReport report() const;

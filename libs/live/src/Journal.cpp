@@ -15,7 +15,7 @@ namespace {
 
 const std::string kFirstLine = "omnimapper journal 1", kExtension = ".journal";
 
-// a NUMBER, d NUMBER, b, j.
+// Reads a line: a NUMBER, d NUMBER, b or j.
 std::optional<JournalEvent> eventOf(std::string_view line) {
   JournalEvent event;
   if (line == "b" || line == "j") {
@@ -77,7 +77,7 @@ bool JournalWriter::flush() {
 
 Journal Journal::read(const std::string& path) {
   if (std::filesystem::path(path).extension() != kExtension)
-    refuse(path, "the name of a journal ends in " + kExtension);
+    refuse(path, "the name of a journal must end in " + kExtension);
   const std::string text = base::readInput(path, "journal of a live run");
   if (text.compare(0, kFirstLine.size() + 1, kFirstLine + "\n") != 0) refuse(path, "not a journal of a live run");
   Journal journal;

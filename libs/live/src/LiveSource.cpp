@@ -12,9 +12,8 @@ namespace omnimapper::live {
 namespace {
 
 constexpr std::chrono::milliseconds kStep(100);
-constexpr std::chrono::milliseconds kToStop(2000);  // a read() takes a tenth of a second, a laser's last words one
-constexpr std::chrono::milliseconds kToOpen(
-    30000);  // lasers and cameras that start their motors take up to ten seconds
+constexpr std::chrono::milliseconds kToStop(2000);   // a read() takes a tenth of a second, and ending a laser takes one
+constexpr std::chrono::milliseconds kToOpen(30000);  // lasers and cameras with motors take up to ten seconds
 
 }  // namespace
 
@@ -41,7 +40,7 @@ struct LiveSource::Parts {
   std::shared_ptr<Arrivals> arrivals;
   std::optional<source::ImageSettings> images;  // while sensors are open
   std::vector<SensorThread> threads;
-  bool has_left_behind = false, has_told_failure = false;
+  bool has_left_behind = false, has_reported_failure = false;
 };
 
 LiveSource::LiveSource(std::vector<SensorSection> sensors, const LiveOptions& options,
@@ -119,10 +118,10 @@ std::vector<std::string> LiveSource::takeNews() {
     for (auto& sentence : thread.takeNews()) all.push_back(std::move(sentence));
   }
   const auto* recorder = parts_->arrivals->recorder();
-  if (recorder && !parts_->has_told_failure) {
+  if (recorder && !parts_->has_reported_failure) {
     if (const auto failure = recorder->failure(); !failure.empty()) {
       all.push_back(failure + "; what was recorded before that can be read");
-      parts_->has_told_failure = true;
+      parts_->has_reported_failure = true;
     }
   }
   return all;

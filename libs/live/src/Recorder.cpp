@@ -23,10 +23,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kBlock = std::chrono::milliseconds(900);  // of observations in one member of gzip
+constexpr auto kBlock = std::chrono::milliseconds(900);  // time of the observations in one member of gzip
 constexpr std::size_t kLargestBlock = 16 << 20;          // [bytes] a third of a second of a VGA camera at 30 Hz
 
-// All of it, or what the system says.
+// Writes all bytes. Throws the system's reason if it cannot.
 void writeAll(int file, const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t some = ::write(file, bytes.data() + done, bytes.size() - done);
@@ -48,7 +48,7 @@ mrpt::obs::CObservation::Ptr decode(const Encoded& encoded) {
   mrpt::serialization::CSerializable::Ptr object;
   mrpt::serialization::OctetVectorToObject(*encoded, object);
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-  if (!observation) throw std::runtime_error("what was recorded is no observation");
+  if (!observation) throw std::runtime_error("the recorded object is no observation");
   return observation;
 }
 
@@ -88,9 +88,10 @@ bool Recorder::hasRoomFor(std::size_t bytes) const {
 void Recorder::add(const Encoded& observation) {
   const std::lock_guard lock(mutex_);
   if (closing_ || !failure_.empty()) return;
-  constexpr std::size_t kBeyond = 4;  // times the queue: cameras are left out before, so this is what is not of cameras
+  // In queue sizes. Camera frames are left out before, so this is reached by data of other sensors.
+  constexpr std::size_t kBeyond = 4;
   if (waiting_bytes_ > kBeyond * options_.queue_bytes) {
-    failure_ = folder_ + "/" + files_.back() + ": recording ended: the disk does not write what comes";
+    failure_ = folder_ + "/" + files_.back() + ": recording ended: the disk is too slow for the data";
     for (const auto& one : waiting_) waiting_bytes_ -= one->size();
     waiting_.clear();
     return;
@@ -184,7 +185,7 @@ void Recorder::run() {
   }
 }
 
-// A block is in the file as a whole or not at all.
+// Writes a block as a whole or not at all.
 void Recorder::writeBlock(const std::vector<Encoded>& block, std::size_t bytes) {
   if (options_.split_bytes > 0 && file_bytes_ >= options_.split_bytes) openNext();
   const std::string member = compressed(block, bytes);
@@ -192,7 +193,7 @@ void Recorder::writeBlock(const std::vector<Encoded>& block, std::size_t bytes) 
     writeAll(file_, member);
   } catch (const std::exception&) {
     if (::ftruncate(file_, static_cast<off_t>(file_bytes_)) == 0) throw;
-    throw std::runtime_error("what was written last cannot be taken back: " + std::string(std::strerror(errno)));
+    throw std::runtime_error("the incomplete last block cannot be removed: " + std::string(std::strerror(errno)));
   }
   file_bytes_ += member.size();
   const std::lock_guard lock(mutex_);

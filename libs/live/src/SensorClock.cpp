@@ -14,14 +14,14 @@ constexpr double kLong = 5;        // [s]
 
 base::Stamp SensorClock::corrected(base::Stamp stamp, base::Stamp arrival) {
   if (options_.clock == SensorOptions::Clock::arrival || !base::isValid(stamp)) {
-    // Several that are read at once arrived one after the other: two of one stamp would count as one.
+    // Observations that are read at once get different stamps, because two with the same stamp would count as one.
     last_given_ = std::max(arrival, last_given_ + base::Duration(1));
     return last_given_;
   }
-  const base::Stamp told = stamp + base::durationFromSeconds(options_.clock_offset);
-  if (options_.clock == SensorOptions::Clock::driver) return told;
-  constexpr double kDrift = 1e-4;  // of a quartz, at most
-  const double off = base::secondsBetween(told, arrival);
+  const base::Stamp reported = stamp + base::durationFromSeconds(options_.clock_offset);
+  if (options_.clock == SensorOptions::Clock::driver) return reported;
+  constexpr double kDrift = 1e-4;  // largest drift of a quartz
+  const double off = base::secondsBetween(reported, arrival);
   newest_.push_back({arrival, off});
   while (newest_.size() > kMany && base::secondsBetween(newest_[1].arrival, arrival) >= kLong) newest_.pop_front();
   if (hasJumped(off)) {
@@ -33,12 +33,12 @@ base::Stamp SensorClock::corrected(base::Stamp stamp, base::Stamp arrival) {
   }
   is_new_ = is_new_ && newest_.size() < kMany;
   last_arrival_ = arrival;
-  return told + base::durationFromSeconds(offset_);
+  return reported + base::durationFromSeconds(offset_);
 }
 
-// What comes from the future, or a minute late, is by another clock at once. What comes a little late may have been
-// held up on its way, by a busy machine for many seconds: then it is late by now more, now less. By another clock all
-// of it is late by as much.
+// A stamp from the future, or a minute late, is by another clock, which is decided at once. A stamp that is a little
+// late may belong to an observation that was held up, on a busy machine for many seconds, but then the delay varies.
+// With another clock all stamps are late by the same time.
 bool SensorClock::hasJumped(double off) const {
   constexpr double kNoLatency = 60;  // [s]
   const double late = off - offset_;

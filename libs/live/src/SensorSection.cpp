@@ -51,7 +51,7 @@ SensorSection sectionOf(const std::string& name, const std::string& file,
   return section;
 }
 
-// Counted from the folder of the INI that names it, or of the first one.
+// The path of the grabber INI, relative to the folder of the INI that names it, or of the first INI.
 std::string pathOfGrabber(const LiveOptions& options, const base::Config& config) {
   namespace fs = std::filesystem;
   const std::string place = config.placeOf("live", "grabber");  // FILE:LINE, or the command line
@@ -61,7 +61,7 @@ std::string pathOfGrabber(const LiveOptions& options, const base::Config& config
 }
 
 void loadLibraries(const LiveOptions& options, const base::Config& config) {
-  if (!options.libraries.empty()) loadDrivers();  // theirs are classes of what it brings
+  if (!options.libraries.empty()) loadDrivers();  // their classes derive from MRPT's, which this loads
   for (const auto& library : options.libraries) {
     if (!config.isTrusted("live", "libraries"))
       throw base::Error(base::ExitCode::plugin_library,
@@ -72,15 +72,16 @@ void loadLibraries(const LiveOptions& options, const base::Config& config) {
   }
 }
 
-// What a driver refuses is refused now rather than when all is under way.
+// Makes each driver once, so that errors in its keys are found before the run begins.
 void tryDrivers(const std::vector<SensorSection>& sensors) {
   std::set<std::string> labels;
   for (const auto& sensor : sensors) {
     const std::string label = makeDriver(sensor)->label();
     if (labels.insert(label).second) continue;
-    throw base::Error(base::ExitCode::out_of_range,
-                      sensor.file + ": sensor [" + sensor.name + "] has the sensorLabel " + label +
-                          " of another sensor; give each its own, by which the map tells them apart");
+    throw base::Error(
+        base::ExitCode::out_of_range,
+        sensor.file + ": sensor [" + sensor.name + "] has the sensorLabel " + label +
+            " of another sensor; give each sensor a different one, because observations are assigned by it");
   }
 }
 
@@ -128,7 +129,7 @@ std::vector<SensorSection> readSensors(const LiveOptions& options, const base::C
                                                          name + "] for this sensor; write one with its driver");
     sensors.push_back(sectionOf(name, config.placeOf(name), ini));
     std::vector<std::string> keys;
-    ini->getAllKeys(name, keys);  // the driver's own keys are for the driver to judge
+    ini->getAllKeys(name, keys);  // the driver itself checks its own keys
     sensors.back().options = config.section(name).read<SensorOptions>(keys);
   }
   if (!options.grabber.empty()) {

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using State = SensorMetrics::State;
 
-constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);  // often enough, and no load for a device
+constexpr auto kBetweenAttempts = std::chrono::milliseconds(500);  // often enough without a load for the device
 constexpr auto kRateWindow = std::chrono::seconds(3);
 
 double secondsSince(Clock::time_point begin) {
@@ -43,15 +43,15 @@ struct SensorThread::Shared {
   const SensorSection section;
   const LiveOptions options;
   const std::shared_ptr<Arrivals> arrivals;
-  SensorClock clock;  // the thread's alone
+  SensorClock clock;  // used only by the thread
 
   std::mutex mutex;
   std::condition_variable changed;
   bool stopping = false, was_open = false, failed_to_open = false, ended = false;
   SensorMetrics metrics;
   Clock::time_point last_arrival = Clock::now();
-  std::uint64_t left_out_before = 0;  // by drivers of this sensor before the present one
-  std::uint64_t tells_left_out_at = 1;
+  std::uint64_t left_out_before = 0;  // by earlier drivers of this sensor
+  std::uint64_t next_left_out_report = 1;
   std::deque<Clock::time_point> arrived;  // in the last seconds
   std::deque<double> gaps;                // [s] between the last arrivals
   std::vector<std::string> news;
@@ -60,18 +60,18 @@ struct SensorThread::Shared {
     const std::lock_guard lock(mutex);
     return stopping;
   }
-  // Returns early if it is to stop.
+  // Returns early when the thread is stopped.
   void sleep(std::chrono::duration<double> time) {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, time, [this] { return stopping; });
   }
-  // [s] A sensor that sends seldom is not silent yet.
+  // [s] Silence is judged by the longest recent gap, because some sensors send seldom.
   double longestGap() const { return gaps.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end()); }
   double reopensAfter() {
     const std::lock_guard lock(mutex);
     return std::max(options.reopen_after, 3 * longestGap());
   }
-  void tell(const std::string& sentence) { news.push_back("sensor [" + section.name + "] " + sentence); }
+  void addNews(const std::string& sentence) { news.push_back("sensor [" + section.name + "] " + sentence); }
 
   std::string unreadKey(const std::string& key) const {
     return "has a key that its driver " + section.driver + " does not read: " + key;
@@ -80,7 +80,7 @@ struct SensorThread::Shared {
   void opened(const SensorDriver& driver) {
     const std::lock_guard lock(mutex);
     if (!was_open) {
-      for (const auto& key : driver.unreadKeys()) tell(unreadKey(key));
+      for (const auto& key : driver.unreadKeys()) addNews(unreadKey(key));
       metrics.state = State::working;
       last_arrival = Clock::now();
     }
@@ -92,7 +92,7 @@ struct SensorThread::Shared {
     const auto now = Clock::now();
     const bool was_working = metrics.state == State::working && metrics.observations > 0;
     if (metrics.state == State::lost || metrics.state == State::silent) {
-      tell("is back after " + inSeconds(std::chrono::duration<double>(now - last_arrival).count()));
+      addNews("is back after " + inSeconds(std::chrono::duration<double>(now - last_arrival).count()));
       ++metrics.reopened;
     }
     metrics.state = State::working;
@@ -105,29 +105,29 @@ struct SensorThread::Shared {
     while (now - arrived.front() > kRateWindow) arrived.pop_front();
     if (clock.jumps() > metrics.clock_jumps) {
       char text[160];
-      std::snprintf(text, sizeof text, "has a clock that is %.3f s from the host's; its stamps are moved by that",
+      std::snprintf(text, sizeof text, "has a clock that is %.3f s from the host's; its stamps are corrected by that",
                     clock.offset());
-      tell(text);
+      addNews(text);
     }
     metrics.clock_jumps = clock.jumps();
     metrics.clock_offset = clock.offset();
   }
-  // Told once, and each time that there are twice as many.
+  // Reports rejected data the first time, and each time that their number has doubled.
   void leftOut(const SensorDriver& driver) {
     const std::lock_guard lock(mutex);
     metrics.left_out = left_out_before + driver.leftOut();
-    if (metrics.left_out < tells_left_out_at) return;
-    tell("sent invalid data, which was discarded: " + driver.leftOutByReason());
-    tells_left_out_at = 2 * metrics.left_out;
+    if (metrics.left_out < next_left_out_report) return;
+    addNews("sent invalid data, which was discarded: " + driver.leftOutByReason());
+    next_left_out_report = 2 * metrics.left_out;
   }
-  // What a driver threw. The first failure of a sensor that was never open ends the thread.
+  // Handles an exception of the driver. The first failure of a sensor that was never open ends the thread.
   void failed(const std::string& reason) {
     const std::lock_guard lock(mutex);
     if (!was_open) {
       failed_to_open = true;
       metrics.problem = reason;
     } else if (metrics.state != State::lost) {
-      tell("is lost: " + reason + "; it is opened again as soon as it answers");
+      addNews("is lost: " + reason + "; it is opened again as soon as it answers");
       metrics.problem = reason;
       metrics.losses += metrics.state != State::silent;
     }
@@ -144,8 +144,8 @@ void SensorThread::start() {
 }
 
 void SensorThread::run(const std::shared_ptr<Shared>& shared) {
-  // MRPT's sockets write to devices that have hung up, which would end the program; and a driver that is interrupted
-  // takes that for a failure of its device.
+  // These signals are blocked, because MRPT's sockets write to devices that have closed the connection, which would end
+  // the program, and a driver that is interrupted takes that for a failure of its device.
   sigset_t blocked;
   sigemptyset(&blocked);
   for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) sigaddset(&blocked, signal);
@@ -156,7 +156,7 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
     } catch (const std::exception& error) {
       shared->failed(base::sentenceOf(error));
     } catch (...) {
-      shared->failed("its driver has thrown what is no std::exception");
+      shared->failed("its driver has thrown an object that is no std::exception");
     }
     {
       const std::lock_guard lock(shared->mutex);
@@ -172,7 +172,7 @@ void SensorThread::run(const std::shared_ptr<Shared>& shared) {
   shared->changed.notify_all();
 }
 
-// A key that the driver does not read may be why it does not open its device.
+// If the driver cannot be opened, the keys that it does not read are named, because they may be the reason.
 void SensorThread::openDriver(Shared& shared, SensorDriver& driver) {
   try {
     driver.open();
@@ -184,7 +184,7 @@ void SensorThread::openDriver(Shared& shared, SensorDriver& driver) {
   shared.opened(driver);
 }
 
-// Until the sensor fails, falls silent, or is to stop.
+// Reads until the sensor fails, falls silent, or is stopped.
 void SensorThread::readDriver(Shared& shared) {
   const auto driver = makeDriver(shared.section);
   openDriver(shared, *driver);
@@ -200,7 +200,7 @@ void SensorThread::readDriver(Shared& shared) {
     std::size_t count = 0;
     for (const auto& object : objects) {
       const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-      // A reader of logs takes a comment for no observation, either.
+      // Comments are no observations, as for readers of logs.
       if (observation && !std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(object)) {
         shared.arrivals->add(*observation, arrival, shared.clock);
         ++count;
@@ -212,7 +212,7 @@ void SensorThread::readDriver(Shared& shared) {
       shared.arrivedNow(count);
       silent_since = Clock::now();
     } else if (driver->hasFailed()) {
-      throw std::runtime_error("its driver says that it failed");
+      throw std::runtime_error("its driver reports that it failed");
     } else if (!driver->waitsForOthers() && secondsSince(silent_since) > shared.reopensAfter()) {
       throw std::runtime_error("it has sent nothing for " + inSeconds(secondsSince(silent_since)));
     }
@@ -251,7 +251,7 @@ std::vector<std::string> SensorThread::takeNews() {
   if (shared_->metrics.state == State::working && silence > patience && !shared_->ended) {
     shared_->metrics.state = State::silent;
     ++shared_->metrics.losses;
-    shared_->tell("is silent: it has sent nothing for " + inSeconds(silence));
+    shared_->addNews("is silent: it has sent nothing for " + inSeconds(silence));
   }
   return std::exchange(shared_->news, {});
 }

@@ -18,21 +18,21 @@ namespace omnimapper::live {
 
 class SensorDriver;
 
-/// Reads one sensor: opens its driver, hands on what that gives, and opens it again when it fails or falls silent.
+/// Reads one sensor: opens its driver, passes its observations on, and opens it again when it fails or falls silent.
 class SensorThread {
  public:
   SensorThread(SensorSection section, const LiveOptions& options, std::shared_ptr<Arrivals> arrivals);
 
   void start();
-  /// Waits so long for the driver to be open, or to have failed; true if either is so.
+  /// Waits until the driver is open or has failed to open; false if neither happens within `patience`.
   bool waitUntilOpen(std::chrono::milliseconds patience) const;
   /// Whether the first opening failed.
   bool hasFailedToOpen() const;
-  /// Ends the thread; false if its driver does not return within that time: it is left behind then, and keeps alive
-  /// what it uses.
+  /// Ends the thread; false if its driver does not return within `patience`. The thread is left running then, and keeps
+  /// the objects alive that it uses.
   bool stop(std::chrono::milliseconds patience);
 
-  /// Sentences since the last call. Silence is noticed here.
+  /// Sentences about events since the last call. Silence is detected in this call.
   std::vector<std::string> takeNews();
   SensorMetrics metrics() const;
 
@@ -42,7 +42,7 @@ class SensorThread {
   static void openDriver(Shared& shared, SensorDriver& driver);
   static void readDriver(Shared& shared);
 
-  std::shared_ptr<Shared> shared_;  // with the thread, which may outlive this object
+  std::shared_ptr<Shared> shared_;  // shared with the thread, which may outlive this object
   std::thread thread_;
 };
 

@@ -34,8 +34,8 @@ Descriptor bound(const SocketAddress& address, int type) {
                                                             ". Choose another port or address, or end that program.");
   };
   if (!socket) fail("make a socket for");
-  // A program that was just ended leaves the port busy for a minute; this takes it all the same, but never from a
-  // program that listens.
+  // A program that has just ended leaves the port busy for a minute. This option takes the port anyway, but never from
+  // a program that listens.
   const int on = 1;
   if (type == SOCK_STREAM) setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&system), sizeof system) != 0) fail("listen at");

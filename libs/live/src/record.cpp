@@ -26,7 +26,7 @@ base::ExitCode Recorded::code() const {
 Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
                 base::Progress& progress, const std::function<bool()>& stop) {
   using Clock = std::chrono::steady_clock;
-  const auto sections = readSensors(options, config);  // what is refused leaves no file
+  const auto sections = readSensors(options, config);  // an error here leaves no file
   LiveSource source(sections, options, std::make_unique<Recorder>(folder, nameByTime(), recorderOptions(options)));
   source.open(stop);
   const auto begin = Clock::now();
@@ -45,7 +45,7 @@ Recorded record(const LiveOptions& options, const base::Config& config, const st
   recorded.sensors = source.sensors();
   source.close();
   const auto at_end = source.sensors();
-  for (std::size_t i = 0; i < at_end.size(); ++i) {  // what came until they were closed, in the state before that
+  for (std::size_t i = 0; i < at_end.size(); ++i) {  // counts until the sensors were closed, with the state before that
     recorded.sensors[i].observations = at_end[i].observations;
     recorded.sensors[i].left_out = at_end[i].left_out;
   }

@@ -6,7 +6,7 @@ namespace omnimapper::signs {
 
 namespace {
 
-// Bytes of the letter that begins with this one; 0 if none does.
+// Number of bytes of a letter that begins with this byte; 0 if no letter does.
 std::size_t lengthOf(unsigned char first) {
   if (first < 0x80) return 1;
   if (first >= 0xC2 && first < 0xE0) return 2;

@@ -6,19 +6,19 @@
 
 namespace omnimapper::signs {
 
-/// Means of the lengths [px] of its left and right, and of its upper and lower side.
+/// The height is the mean length [px] of the left and the right side, the width that of the upper and the lower side.
 float heightOf(const Corners& quad);
 float widthOf(const Corners& quad);
 
-/// [px^2] of a convex one.
+/// Area [px^2] of a convex quadrilateral.
 float areaOf(const Corners& quad);
 
 Eigen::Vector2f middleOf(const Corners& quad);
 
-/// Whether a point is within a convex one.
+/// Whether a point is in a convex quadrilateral.
 bool contains(const Corners& quad, const Eigen::Vector2f& point);
 
-/// Larger by these shares of its height on each side.
+/// Margins on each side of a quadrilateral, as shares of its height.
 struct Margins {
   float left = 0, right = 0, up = 0, down = 0;
 };

@@ -35,7 +35,7 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
   auto in = base::openInput(path, "table of signs");
   std::string line;
   if (!std::getline(in, line))
-    throw base::Error(base::ExitCode::unreadable_input, path + ": is empty; its first line names its columns");
+    throw base::Error(base::ExitCode::unreadable_input, path + ": is empty; its first line must name the columns");
   const auto names = fieldsOf(line);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!columns_.emplace(names[i], i).second) {
@@ -46,8 +46,8 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
   while (std::getline(in, line)) {
     rows_.push_back(fieldsOf(line));
     if (rows_.back().size() != names.size()) {
-      refuse(rows_.size() - 1, std::to_string(rows_.back().size()) + " fields where the first line names " +
-                                   std::to_string(names.size()));
+      refuse(rows_.size() - 1,
+             std::to_string(rows_.back().size()) + " fields, but the first line names " + std::to_string(names.size()));
     }
   }
 }

@@ -7,18 +7,18 @@
 
 namespace omnimapper::signs {
 
-/// Lines of fields separated by commas, the first of which names the columns. Fields in double quotes may hold commas,
-/// and double quotes twice.
+/// A table of comma-separated fields whose first line names the columns. A field in double quotes may hold commas, and
+/// a double quote in it is written twice.
 class CsvTable {
  public:
-  /// Throws Error(unreadable_input), also for lines of another number of fields than the first.
+  /// Throws Error(unreadable_input) if the file cannot be read, or a line has another number of fields than the first.
   explicit CsvTable(const std::string& path);
 
   std::size_t size() const { return rows_.size(); }
   bool has(const std::string& column) const { return columns_.count(column) > 0; }
   /// Throws Error(unreadable_input) if there is no such column.
   const std::string& text(std::size_t row, const std::string& column) const;
-  /// Throws Error(unreadable_input) if it is no finite number.
+  /// Throws Error(unreadable_input) if the field is not a finite number.
   double number(std::size_t row, const std::string& column) const;
   /// Throws Error(unreadable_input) about that row.
   [[noreturn]] void refuse(std::size_t row, const std::string& why) const;

@@ -118,7 +118,7 @@ std::string validLetters(const std::string& letters) {
 
 }  // namespace
 
-// All that is needed to read an image, made once.
+// Detectors and readers, which are made once for all images.
 class DoorSignExtractor::Finder {
  public:
   explicit Finder(const DoorSignOptions& options)
@@ -178,7 +178,8 @@ class DoorSignExtractor::Finder {
  private:
   std::string folder() const { return options_.models.empty() ? net::modelsFolder() : options_.models; }
 
-  // The library is a program: it is taken from its own place alone, wherever an INI has its networks.
+  // The ONNX Runtime library is executable code, so it is taken only from the default folder, even if an INI names
+  // another folder of networks.
   std::shared_ptr<const net::Network> networkOf(const std::string& file) const {
     const bool is_opencv = options_.backend == DoorSignOptions::Backend::opencv;
     return std::make_shared<net::Network>(folder() + "/" + file,
@@ -190,8 +191,8 @@ class DoorSignExtractor::Finder {
     if (options_.reader == DoorSignOptions::Reader::network)
       return std::make_unique<NetworkReader>(networkOf("text_reader.onnx"), folder() + "/text_reader.letters.txt",
                                              alphabet);
-    // Of its own threads Tesseract makes more than it has use for: with them a line takes five times as long. How many
-    // it may have is read when its library is loaded.
+    // By default Tesseract starts more threads than it can use, so that a line takes five times as long. It reads the
+    // limit when its library is loaded.
     setenv("OMP_THREAD_LIMIT", "1", 0);
     const auto make = reinterpret_cast<TextReader* (*)(const Alphabet&)>(
         base::functionOfLibrary("libomnimapper-tesseract.so", "omnimapperTesseractReader", "Tesseract cannot read",
@@ -200,7 +201,7 @@ class DoorSignExtractor::Finder {
     return std::unique_ptr<const TextReader>(make(alphabet));
   }
 
-  // Each line is on the best region that its middle is in.
+  // Assigns each line to the best region that contains its middle.
   static std::vector<Plate> platesOf(const std::vector<SignRegion>& regions, const std::vector<Corners>& lines) {
     std::vector<Plate> plates;
     for (const auto& region : regions) plates.push_back({region.corners_px, region.score, {}});
@@ -227,7 +228,7 @@ class DoorSignExtractor::Finder {
   }
 
   DoorSignOptions options_;
-  std::unique_ptr<const SignDetector> salient_;  // none where lines of text tell
+  std::unique_ptr<const SignDetector> salient_;  // null if signs are detected by lines of text
   TextDetector detector_;
   std::unique_ptr<const TextReader> reader_;
 };
@@ -245,11 +246,11 @@ void measureRanges(const mrpt::obs::CObservation3DRangeScan& scan, const percept
       sign.range_sigma = measured->sigma;
     }
   } catch (const base::Error&) {
-    // Depths that are not there, or of a camera without a calibration: a sign does without its range.
+    // Without depths, or with a depth camera that is not calibrated, the signs have no range.
   }
 }
 
-// The calibration for an image that is larger or smaller than those that it was made of, but shows the same.
+// Scales a calibration to an image of another size but the same field of view.
 mrpt::img::TCamera fittingCamera(mrpt::img::TCamera camera, const cv::Mat& picture, const std::string& label) {
   const auto columns = static_cast<unsigned>(picture.cols), rows = static_cast<unsigned>(picture.rows);
   if (camera.ncols == 0 || camera.nrows == 0 || (camera.ncols == columns && camera.nrows == rows)) return camera;

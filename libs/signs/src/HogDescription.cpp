@@ -13,14 +13,14 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr float kAround = 0.3f;  // of the longer side that is cut out with a region
-constexpr float kThinnest = 2;   // sides of a region that can be warped, at least [px]
+constexpr float kAround = 0.3f;  // margin that is cut out around a region, as a share of its longer side
+constexpr float kThinnest = 2;   // [px] shortest side of a region that can be warped
 
 double side(const Corners& corners, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
   return std::max((corners[b] - corners[a]).norm(), (corners[d] - corners[c]).norm());
 }
 
-// The region, warped to the window; empty if it is not within the picture.
+// The region, warped to the window; empty if it is outside the picture or too thin.
 cv::Mat windowOf(const cv::Mat& grey, const Corners& corners, const HogOptions& options) {
   const cv::Size window(options.columns * options.cell, options.rows * options.cell);
   const auto inner = static_cast<float>(1 - 2 * options.margin);
@@ -33,7 +33,7 @@ cv::Mat windowOf(const cv::Mat& grey, const Corners& corners, const HogOptions& 
                cv::Point(cvCeil(bounds.x + bounds.width + padding), cvCeil(bounds.y + bounds.height + padding))) &
       cv::Rect(0, 0, grey.cols, grey.rows);
   if (cut.width < kThinnest || cut.height < kThinnest || !(std::min(width, height) >= kThinnest)) return {};
-  // Averaged to about the window's size first: warping takes single pixels.
+  // The region is first averaged to about the window's size, because warping samples single pixels.
   const float scale = std::min(1.0f, std::max(static_cast<float>(window.width) * inner / width,
                                               static_cast<float>(window.height) * inner / height));
   const cv::Size size(std::max(2, cvRound(scale * static_cast<float>(cut.width))),

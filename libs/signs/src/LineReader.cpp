@@ -13,16 +13,16 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr int kRows = 48;                // of the patch in which the ends of a text are looked at
-constexpr double kClear = 0.5;           // of the line's height, how far beside it
-constexpr double kInk = 0.35;            // of the text's contrast
-constexpr int kDark = 3, kBright = 252;  // beyond, a pixel shows nothing
+constexpr int kRows = 48;       // height of the patch in which the ends of a text are examined
+constexpr double kClear = 0.5;  // largest clearance, as a share of the line's height
+constexpr double kInk = 0.35;   // a pixel that differs by more than this share of the text's contrast is not background
+constexpr int kDark = 3, kBright = 252;  // a pixel outside these grey levels shows nothing
 
 struct Levels {
   double low, high;
 };
 
-// The grey levels below and above which `share` of the pixels is.
+// The grey levels below and above which `share` of the pixels are.
 Levels levelsOf(const cv::Mat& grey, double share) {
   std::array<int, 256> counts{};
   for (int row = 0; row < grey.rows; ++row)
@@ -59,7 +59,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-// Whether a column shows the background of a text alone.
+// Whether a column shows only the background of a text.
 bool isClear(const cv::Mat& grey, int column, double background, double contrast) {
   int shown = 0, other = 0;
   for (int row = 0; row < grey.rows; ++row) {
@@ -79,11 +79,11 @@ double clearanceOf(const cv::Mat& picture, const Corners& line) {
   for (const auto& corner : wide) from.emplace_back(corner.x(), corner.y());
   const float right = static_cast<float>(columns - 1), bottom = static_cast<float>(rows - 1);
   const std::vector<cv::Point2f> to{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}};
-  cv::Mat patch;  // black, which shows nothing, where the picture ends
+  cv::Mat patch;  // outside the picture it is black, which shows nothing
   cv::warpPerspective(picture, patch, cv::getPerspectiveTransform(from, to), {columns, rows}, cv::INTER_LINEAR,
                       cv::BORDER_CONSTANT);
   const cv::Mat grey = inGrey(patch);
-  // The letters' grey levels, and the background's, which is above and below them.
+  // The grey levels of the letters, and of the background above and below them.
   constexpr int kBeside = kRows / 8;
   cv::Mat background;
   cv::vconcat(grey(cv::Rect(kRows, 0, columns - 2 * kRows, kBeside)),
@@ -91,7 +91,7 @@ double clearanceOf(const cv::Mat& picture, const Corners& line) {
   const auto levels = levelsOf(grey(cv::Rect(kRows, 0, columns - 2 * kRows, rows)), 0.05);
   const double level = levelsOf(background, 0.5).low;
   const double contrast = std::max(1.0, levels.high - levels.low);
-  // The longest clear stretch about the end of the line's box, which may be within the last letter or beyond it.
+  // The longest clear stretch around the end of the line's box; this end may be within the last letter or beyond it.
   const auto clearanceFrom = [&](int first, int last) {
     int longest = 0, length = 0;
     for (int column = std::max(0, first); column <= std::min(last, columns - 1); ++column) {
@@ -160,7 +160,7 @@ std::vector<ReadLine> readLines(const cv::Mat& picture, const Corners& text, con
   if (!whole.empty() && confidence >= kSure) return whole;
   std::vector<ReadLine> parts;
   double sum = 0;
-  int tried = 0;  // a part without a text counts as one that is not sure at all
+  int tried = 0;  // a part without text counts with a confidence of 0
   for (const auto& part : partsOf(picture, text)) {
     auto lines = readLines(picture, part, reader);
     tried += lines.empty() ? 1 : static_cast<int>(lines.size());
@@ -173,8 +173,9 @@ std::vector<ReadLine> readLines(const cv::Mat& picture, const Corners& text, con
   return are_surer ? parts : whole;
 }
 
-// Of lines whose readings all agree and that have background at both ends nearly all are right, whatever the reader
-// says of its letters; of those without, one in seven is not, for letters are missing.
+// If all readings of a line agree and it has clear background at both ends, it is nearly always right, whatever
+// probabilities the reader gives its letters. Without clear background one in seven is wrong, because letters are
+// missing.
 double confidenceOf(const ReadingEvidence& evidence) {
   constexpr double kClearEnough = 0.2, kIfNotClear = 0.85;
   constexpr double kOfWeakest = 0.15, kOfAgreement = 1.5;

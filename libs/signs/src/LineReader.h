@@ -10,12 +10,12 @@
 
 namespace omnimapper::signs {
 
-/// What tells how far the reading of a line can be trusted.
+/// Measures that determine how far the reading of a line can be trusted.
 struct ReadingEvidence {
-  double weakest_letter = 0;  ///< least probability of a letter by the reader's own word, in all readings that agree
-  double agreement = 0;       ///< share of the readings, of larger and smaller patches, that have the same text
-  /// How much of the text's background is beside it, at the end that has less, in heights of the line's box, at most
-  /// 0.5. A text that the end of the image cuts, or something before it, has none there.
+  double weakest_letter = 0;  ///< smallest probability that the reader gives a letter, in all agreeing readings
+  double agreement = 0;       ///< share of the readings (of larger and smaller patches) that have this text
+  /// Width of the clear background beside the text, at the end that has less of it, in heights of the line's box; at
+  /// most 0.5. A text that is cut by the edge of the image, or by an object in front of it, has none there.
   double clearance = 0;
   double height_px = 0;  ///< of the line's box in the picture
 };
@@ -25,9 +25,10 @@ struct LineReading {
   ReadingEvidence evidence;
 };
 
-/// Reads a line in a picture several times, in patches that hold more or less of what is about it and with its contrast
-/// stretched, and takes what most say: a line whose box leaves a letter out, or holds a screw beside the text, is not
-/// read the same in all. A network is often sure of what is wrong, so what counts is how far these readings agree.
+/// Reads a line in a picture several times, in patches with more or less of its surroundings and with stretched
+/// contrast, and returns the text for which most readings speak, weighted by their probabilities. If the box leaves a
+/// letter out, or holds a screw beside the text, the readings differ. A network is often sure of a wrong text, so the
+/// agreement of the readings is what counts.
 LineReading readLine(const cv::Mat& picture, const Corners& line, const TextReader& reader);
 
 struct ReadLine {
@@ -35,16 +36,17 @@ struct ReadLine {
   LineReading reading;
 };
 
-/// Reads a text in a picture that should be one line. Where that is not sure and there may be two lines in it, one
-/// above the other, which a detector that sees the picture made small takes for one, these are read too, and taken if
-/// they are surer in the mean. From the top; none that has no text.
+/// Reads a text in a picture that should be one line. A detector that works on a small copy of the picture may take two
+/// lines, one above the other, for one; so if the reading is uncertain and the text can be split, the parts are read
+/// too, and returned if their mean confidence is higher. Lines are sorted from the top, and those without text left
+/// out.
 std::vector<ReadLine> readLines(const cv::Mat& picture, const Corners& text, const TextReader& reader);
 
-/// How likely a reading is right, 0 to 1: at least 0.9 means that one in a hundred is wrong. What it was chosen on and
-/// how well it holds: doc/results/signs.md.
+/// Probability that a reading is right, 0 to 1: of the readings with at least 0.9, one in a hundred is wrong.
+/// doc/results/signs.md says on which data the formula was chosen and how well it holds.
 double confidenceOf(const ReadingEvidence& evidence);
 
-/// The patch that a quadrilateral shows, upright; empty for one without a pixel.
+/// The upright patch of a quadrilateral; empty if a side is shorter than 2 px or longer than 4096 px.
 cv::Mat patchOf(const cv::Mat& picture, const Corners& quad);
 
 }  // namespace omnimapper::signs

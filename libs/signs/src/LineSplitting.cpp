@@ -12,11 +12,12 @@ namespace {
 
 using Eigen::Vector2f;
 
-constexpr float kLeastLine = 6;      // [px] of the picture, height of a line
-constexpr float kLeastShare = 0.2f;  // of the text's height; what is lower may be dots above a letter
-constexpr float kValley = 0.6f;      // of the edges in the less busy of the two lines beside it
+constexpr float kLeastLine = 6;  // [px] smallest height of a line in the picture
+// Smallest height of a line, as a share of the text's; a lower part may be the dots above a letter.
+constexpr float kLeastShare = 0.2f;
+constexpr float kValley = 0.6f;  // largest activity of the row between two lines, as a share of the less busy line's
 
-// Of the mean change along x in each row, or down each column, above the least of them.
+// Activity of each row, or of each column: the mean change along x, less the smallest mean.
 std::vector<float> activityOf(const cv::Mat& edges, int across) {
   cv::Mat mean;
   cv::reduce(edges, mean, across, cv::REDUCE_AVG, CV_32F);
@@ -27,13 +28,13 @@ std::vector<float> activityOf(const cv::Mat& edges, int across) {
   return {mean.begin<float>(), mean.end<float>()};
 }
 
-// How busy the busiest row is, if as many rows as a line has are at least half as busy; else 0.
+// The activity of the busiest row, if at least `line` rows are half as busy; else 0.
 float busiestOf(const float* begin, const float* end, int line) {
   const float most = *std::max_element(begin, end);
   return std::count_if(begin, end, [&](float value) { return 2 * value >= most; }) >= line ? most : 0;
 }
 
-// The emptiest row between two lines that are busier by far.
+// The emptiest row between two lines that are far busier.
 std::optional<int> valleyIn(const std::vector<float>& activity) {
   const int rows = static_cast<int>(activity.size());
   const int line = static_cast<int>(std::max(kLeastLine, kLeastShare * static_cast<float>(rows)));
@@ -49,7 +50,7 @@ std::optional<int> valleyIn(const std::vector<float>& activity) {
   return best;
 }
 
-// The part of a region from one share of its height to another, and of its width.
+// The part of a region between these shares of its height and width.
 Corners partOf(const Corners& quad, float top, float bottom, float left, float right) {
   const auto at = [&](float x, float y) -> Vector2f {
     return (1 - y) * ((1 - x) * quad[0] + x * quad[1]) + y * ((1 - x) * quad[3] + x * quad[2]);
@@ -57,7 +58,7 @@ Corners partOf(const Corners& quad, float top, float bottom, float left, float r
   return {at(left, top), at(right, top), at(right, bottom), at(left, bottom)};
 }
 
-// Without what is empty left and right of the line, but for a fifth of its height.
+// The line without the empty parts on its left and right, except for a margin of a fifth of its height.
 Corners narrowed(const cv::Mat& edges, const Corners& line) {
   constexpr float kBusy = 0.15f, kMargin = 0.2f;
   const auto activity = activityOf(edges, 0);

@@ -7,9 +7,9 @@
 
 namespace omnimapper::signs {
 
-/// The upper and the lower part of a text that may be two lines: between them is a row that changes less along its
-/// length than rows above and below. Each is as wide as what is in it. None where there is no such row, or the text is
-/// so small that this cannot be told.
+/// The upper and the lower part of a text that may be two lines. Between them is a row whose grey levels change less
+/// along it than those of the rows above and below. Each part is as wide as its content. None if there is no such row,
+/// or the text is too small to decide.
 std::vector<Corners> partsOf(const cv::Mat& picture, const Corners& text);
 
 }  // namespace omnimapper::signs

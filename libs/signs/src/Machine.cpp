@@ -17,7 +17,7 @@ namespace {
 constexpr int kMostSteps = 20000;
 constexpr double kAccuracy = 1e-4;
 
-// The sorted lower label counts as the positive one in OpenCV's machine.
+// OpenCV's machine takes the lower label as the positive class.
 enum Label : int { kSign = 0, kOther = 1 };
 
 bool holdsBoth(const std::vector<const LabelledRegion*>& regions) {
@@ -66,7 +66,7 @@ int foldOf(const LabelledRegion& region, const SignTrainingOptions& options, Fol
   std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
   for (const char c : region.group) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   hash += 2 * static_cast<std::uint64_t>(options.seed) + (what == FoldsOf::trial ? 0 : 1);
-  // The numbers of one generator, which are even for names and seeds that are alike.
+  // The generator distributes the folds evenly even if names and seeds are similar.
   return base::SplitMix(hash).below(options.folds);
 }
 
@@ -82,9 +82,10 @@ SignClassifier trainOn(const std::vector<const LabelledRegion*>& regions, const 
       (region->is_sign ? of_signs : of_others).push_back(machine.decision(region->features));
   }
   if (of_signs.empty() || of_others.empty()) {
-    throw base::Error(base::ExitCode::unreadable_input,
-                      "the training pictures show too little: signs and other things are needed in at least two folds; "
-                      "take more pictures");
+    throw base::Error(
+        base::ExitCode::unreadable_input,
+        "there are too few training pictures: signs and regions without a sign are needed in at least two folds; "
+        "take more pictures");
   }
   SignModel model = trainMachine(regions, options);
   const PlattScaling scaling = fitPlatt(of_signs, of_others);

@@ -6,15 +6,17 @@
 
 namespace omnimapper::signs {
 
-/// The support vector machine of these regions, which hold signs and others; its probability is not fitted yet.
+/// Trains a support vector machine on these regions, which must contain both signs and others; its probability is not
+/// fitted yet.
 SignModel trainMachine(const std::vector<const LabelledRegion*>& regions, const SignTrainingOptions& options);
 
-/// Folds of a cross-validation, and of those within its folds, which are others.
+/// Purpose of the folds: those of the cross-validation, or those on which the probability is fitted. The two divisions
+/// are independent of each other.
 enum class FoldsOf { trial, calibration };
-/// The fold of a group's regions, 0 to folds - 1; its name and the seed decide it.
+/// The fold of a region, 0 to folds - 1; it follows from the name of the region's group and the seed.
 int foldOf(const LabelledRegion& region, const SignTrainingOptions& options, FoldsOf what);
 
-/// trainClassifier() of regions.
+/// As trainClassifier(), for a list of regions.
 SignClassifier trainOn(const std::vector<const LabelledRegion*>& regions, const SignTrainingOptions& options);
 
 }  // namespace omnimapper::signs

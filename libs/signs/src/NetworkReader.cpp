@@ -22,18 +22,18 @@ NetworkReader::NetworkReader(std::shared_ptr<const net::Network> network, const 
       refuse(letters_file + ":" + std::to_string(letters_.size()), "is not one letter in UTF-8");
     letters_.push_back(alphabet.letterFor(letter));
   }
-  if (letters_.size() < 2) refuse(letters_file, "no letters are there");
+  if (letters_.size() < 2) refuse(letters_file, "has no letters");
   const auto shape = [&]() -> std::vector<int> {
     try {
       return network_->run({{1, 3, kRows, kColumns}, std::vector<float>(3 * kRows * kColumns)}).shape;
     } catch (const base::Error&) {
-      return {};  // it takes another input
+      return {};  // the network takes another input
     }
   }();
   if (shape.size() != 3) refuse(network_->path(), "is not the network that reads lines");
   if (shape[2] != static_cast<int>(letters_.size())) {
-    refuse(letters_file, "has " + std::to_string(letters_.size() - 1) + " letters, and " + network_->path() +
-                             " knows " + std::to_string(shape[2] - 1));
+    refuse(letters_file, "has " + std::to_string(letters_.size() - 1) + " letters, but " + network_->path() + " has " +
+                             std::to_string(shape[2] - 1));
   }
 }
 

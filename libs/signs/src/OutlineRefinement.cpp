@@ -11,17 +11,17 @@ namespace {
 
 using Eigen::Vector2f;
 
-constexpr int kAlongSide = 32;      // along a side
-constexpr int kLongestReach = 24;   // [px]
-constexpr float kTolerance = 1.5f;  // [px] of a point from the line that is fitted to a side
+constexpr int kAlongSide = 32;      // places along a side at which its edge is sought
+constexpr int kLongestReach = 24;   // [px] largest distance at which an edge is sought
+constexpr float kTolerance = 1.5f;  // [px] largest distance of a point from the line that is fitted to a side
 
 struct Line {
   Vector2f point, direction;
 };
 
-// Colours along the normal of a side at one place: where they change most, in steps of a pixel from the side.
+// Distance [px] from a place on a side, along its normal, at which the colours change most; none if they hardly change.
 std::optional<float> strongestChange(const cv::Mat& picture, const Vector2f& at, const Vector2f& normal, int reach) {
-  constexpr float kLeast = 4;  // grey levels a pixel, in the channel that changes most
+  constexpr float kLeast = 4;  // grey levels per pixel, in the channel that changes most
   float best = 0, best_change = kLeast;
   for (int step = -reach; step <= reach; ++step) {
     const Vector2f before = at + static_cast<float>(step - 1) * normal,
@@ -51,7 +51,7 @@ Line sideLine(const cv::Mat& picture, const Vector2f& from, const Vector2f& to, 
     if (const auto offset = strongestChange(picture, from + share * along, normal, reach))
       points.emplace_back(share, *offset);
   }
-  // Of the lines through two of the points, that which most lie near; then the least squares of those.
+  // Takes the line through two of the points that has most points near it, then the least-squares line of these.
   std::size_t most = 0;
   Vector2f best(0, 0);  // offset at the beginning and at the end
   const auto isNear = [](const Vector2f& ends, const Vector2f& point) {

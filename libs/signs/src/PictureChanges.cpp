@@ -10,7 +10,7 @@
 
 namespace omnimapper::signs {
 
-// Nothing reduced of what cannot be read; the extractor tells why.
+// An image that cannot be read gives an empty reduced image; the extractor reports why.
 PictureChanges::View PictureChanges::viewOf(const mrpt::obs::CObservation& raw) {
   constexpr int kColumns = 64;
   View view;

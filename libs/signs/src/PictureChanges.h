@@ -10,10 +10,10 @@
 
 namespace omnimapper::signs {
 
-/// Whether an image shows something that the last new one of its camera did not: both are reduced to 64 columns, and
-/// some pixel differs by more than `levels`, of 255 grey levels, from what all of them differ by in the mean, which is
-/// the exposure. An image of another size, or of a camera that stands or is calibrated otherwise, is new, and so is one
-/// that cannot be read.
+/// Decides whether an image differs from the last new one of its camera. Both are reduced to 64 columns; the image is
+/// new if the difference at some pixel deviates by more than `levels` (of 255 grey levels) from the mean difference,
+/// which is attributed to the exposure. An image of another size, of a camera with another pose or calibration, or one
+/// that cannot be read, is new too.
 class PictureChanges : public perception::Novelty {
  public:
   explicit PictureChanges(double levels) : levels_(levels) {}
@@ -30,7 +30,7 @@ class PictureChanges : public perception::Novelty {
   bool areAlike(const View& a, const View& b) const;
 
   double levels_;
-  std::map<std::string, View> last_;  // by sensor
+  std::map<std::string, View> last_;  // by sensor label
 };
 
 }  // namespace omnimapper::signs

@@ -14,12 +14,12 @@ cv::Mat matOf(const ColourImage& picture) {
   if (picture.width == 0 || picture.height == 0) return {};
   const int channels = picture.order == ColourImage::Order::grey ? 1 : 3;
   if (!picture.pixels || picture.width < 0 || picture.height < 0 || picture.stride / channels < picture.width) {
-    throw base::Error(base::ExitCode::unreadable_input, "a picture of " + std::to_string(picture.width) + " x " +
-                                                            std::to_string(picture.height) + " pixels with rows of " +
-                                                            std::to_string(picture.stride) +
-                                                            " bytes cannot be: " + "describe its memory rightly");
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                          " pixels cannot have rows of " + std::to_string(picture.stride) +
+                          " bytes: " + "give its true size and stride");
   }
-  // OpenCV has no matrix of constant pixels; nobody writes into this one.
+  // OpenCV has no matrix of constant pixels, but this one is never written to.
   return cv::Mat(picture.height, picture.width, CV_8UC(channels), const_cast<std::uint8_t*>(picture.pixels),
                  static_cast<std::size_t>(picture.stride));
 }
@@ -38,7 +38,7 @@ ColourImage pixelsOf(const mrpt::img::CImage& picture) {
     pixels = picture.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
   } catch (const mrpt::img::CExceptionExternalImageNotFound& error) {
     throw base::Error(base::ExitCode::missing_images,
-                      std::string("a picture is not there: ") + error.what() + ". Put it beside its log.");
+                      std::string("a picture is missing: ") + error.what() + ". Put it beside its log.");
   }
   if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3)) {
     throw base::Error(base::ExitCode::unreadable_input,

@@ -6,10 +6,10 @@
 
 namespace omnimapper::signs {
 
-/// The same pixels, not copied; empty for a picture without any. Throws as SignDetector::detect().
+/// A view of the pixels without a copy; empty for a picture without pixels. Throws as SignDetector::detect().
 cv::Mat matOf(const perception::ColourImage& picture);
 
-/// One channel; the same pixels where they have one already.
+/// The pixels in one channel; pixels that have one channel already are not copied.
 cv::Mat greyOf(const cv::Mat& pixels, perception::ColourImage::Order order);
 
 }  // namespace omnimapper::signs

@@ -9,18 +9,18 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr int kSide = 64;             // of the picture that is searched, at most [px]
-constexpr int kLeastSide = 6;         // [px]
-constexpr int kRim = 2;               // [px]
+constexpr int kSide = 64;             // [px] largest side of the cutting
+constexpr int kLeastSide = 6;         // [px] smallest side of the cutting
+constexpr int kRim = 2;               // [px] width of the cutting's rim
 constexpr double kLeastContrast = 6;  // grey levels by which a plate differs from its surroundings
-constexpr double kOtsuShare = 0.7;    // of Otsu's threshold, which is between the wall and the text of a sign
-constexpr int kLeastPixels = 8;       // of a plate within the box
+constexpr double kOtsuShare = 0.7;    // of Otsu's threshold, which lies between wall and text of a sign
+constexpr int kLeastPixels = 8;       // smallest number of a plate's pixels within the box
 
-// The surroundings of the box, small.
+// The box with its surroundings, scaled down.
 struct Cutting {
   cv::Mat pixels;
-  cv::Point2f from;  // in the whole picture [px]
-  float scale;       // of the cutting to the picture
+  cv::Point2f from;  // [px] its upper left corner in the whole picture
+  float scale;       // of the cutting relative to the picture
 };
 
 std::optional<Cutting> cutOut(const cv::Mat& pixels, const cv::Rect2f& box, double surroundings) {
@@ -54,7 +54,7 @@ std::uint8_t medianOfRim(const cv::Mat& channel) {
   return rim[rim.size() / 2];
 }
 
-// By how much each pixel differs from the rim, in the channel in which it does most.
+// The difference of each pixel from the rim, in the channel with the largest one.
 cv::Mat differenceFromRim(const cv::Mat& pixels) {
   std::vector<cv::Mat> channels;
   cv::split(pixels, channels);
@@ -82,7 +82,7 @@ cv::Mat componentIn(const cv::Mat& mask, const cv::Rect& box) {
   return labels == static_cast<int>(best - pixels.begin());
 }
 
-// Of pixels of the cutting, at their outer edges in the whole picture.
+// The outer edges, in the whole picture, of corner pixels of the cutting.
 Corners inPicture(const Corners& corners, const Cutting& cutting) {
   static const Eigen::Vector2f outwards[] = {{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}};
   Corners result;

@@ -8,18 +8,17 @@
 
 namespace omnimapper::signs {
 
-/// The flat thing around a box of a picture that differs in colour from what is around it: the component of what
-/// differs from the rim of the box's surroundings that covers most of the box, and the outermost points of its convex
-/// hull towards each corner. `surroundings`: how far they reach to all sides, in the box's longer side. None where
-/// nothing differs.
+/// Finds the plate around a box of a picture by its colour: of the connected components that differ from the rim of the
+/// box's surroundings, the one that covers most of the box. The corners are its outermost points towards each corner.
+/// `surroundings` is the margin around the box, relative to its size. None if nothing differs from the rim.
 std::optional<Corners> findPlate(const cv::Mat& pixels, const cv::Rect2f& box, double surroundings);
 
-/// The outermost of the points, middles of pixels, towards each corner.
+/// The outermost of the points (middles of pixels) towards each corner.
 Corners outermostCorners(const std::vector<cv::Point>& points);
 
-/// The smallest upright rectangle around it [px].
+/// The smallest upright rectangle around the corners [px].
 cv::Rect2f boundsOf(const Corners& corners);
-/// Area that two share over the area of both together.
+/// Intersection over union of two rectangles.
 double overlapOf(const cv::Rect2f& a, const cv::Rect2f& b);
 
 }  // namespace omnimapper::signs

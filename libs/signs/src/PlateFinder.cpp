@@ -10,7 +10,7 @@ namespace omnimapper::signs {
 
 namespace {
 
-// What the parts of a candidate's worth weigh beside its edges, of which 1.3 is all.
+// Weights of the parts of a candidate's worth; its edges add at most 1.3.
 constexpr double kOfSize = 0.06, kOfLine = 0.1, kOfCutLine = 0.3;
 
 struct Candidate {
@@ -19,7 +19,8 @@ struct Candidate {
   std::vector<std::size_t> lines;
 };
 
-// A candidate about `line`, by all lines of the picture. None if that line is not on it.
+// Computes the worth of a candidate around `line` from all lines of the picture. Returns false if that line is not on
+// it.
 bool weigh(const std::vector<Corners>& lines, std::size_t line, Candidate& candidate) {
   float tallest = 0;
   int cut = 0;

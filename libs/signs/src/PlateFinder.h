@@ -7,17 +7,17 @@
 
 namespace omnimapper::signs {
 
-/// A plate, and what is written on it.
+/// A plate with the lines of text on it.
 struct Plate {
   Corners quad;                    ///< its outline [px]
-  double score = 0;                ///< how much of its outline is an edge, 0 to 1; 0 where no outline was found
+  double score = 0;                ///< share of its outline that is an edge, 0 to 1; 0 if no outline was found
   std::vector<std::size_t> lines;  ///< indices of the lines of text that are on it, from top to bottom
 };
 
-/// The plates that lines of text are written on. About each line, straight edges across which the colour changes are
-/// sought on its four sides; of the quadrilaterals of four such edges that is taken which has edges all along its
-/// outline, is large, holds many lines and cuts none. A line that no outline was found for has a plate of its own,
-/// somewhat larger than the line. Each line is on one plate.
+/// Finds the plates that lines of text are written on. On the four sides of each line, straight edges with a change of
+/// colour are sought; of the quadrilaterals of four such edges, the one is taken that has edges all along its outline,
+/// is large, holds many lines and cuts none. A line without such an outline gets a separate plate, somewhat larger than
+/// the line. Each line is on exactly one plate.
 ///
 /// `picture` is of 8 bits, BGR. The same picture gives the same bits.
 std::vector<Plate> findPlates(const cv::Mat& picture, const std::vector<Corners>& lines);

@@ -10,25 +10,24 @@ namespace {
 
 using Eigen::Vector2f;
 
-constexpr float kHeight = 16;  // [px] of the text in the upright patch in which edges are sought
-constexpr float kReach = 7;    // of the text's height, beyond it
-constexpr float kFullEdge =
-    6;  // a difference of colour a pixel (CIELAB, brightness from 0 to 255) that counts as an edge wholly
-constexpr float kBeyondText = 2;  // [px] of the patch
-constexpr float kApart = 3;       // [px] of the patch, between two candidates of a side
+constexpr float kHeight = 16;     // [px] height of the text in the upright patch in which edges are sought
+constexpr float kReach = 7;       // how far the patch reaches beyond the text, in heights of the text
+constexpr float kFullEdge = 6;    // change of colour per pixel (CIELAB, lightness 0 to 255) that counts as a full edge
+constexpr float kBeyondText = 2;  // [px] smallest distance of a side from the text, in the patch
+constexpr float kApart = 3;       // [px] smallest distance between two candidates of a side, in the patch
 constexpr double kLeastEdge = 0.5;
 constexpr int kSlopes = 17, kSamples = 40;
 constexpr float kSlopeStep = 1.5f * 3.14159265f / 180;
 
-// What is about a text, upright, so large that the text is kHeight tall, and the text's box in it.
+// The surroundings of a text, upright and scaled so that the text is kHeight tall, and the text's box in them.
 struct Patch {
   cv::Mat across,
-      down;  // how much of an edge each pixel is, 0 to 1: one that a side left or right, above or below may be
+      down;  // edge strength of each pixel, 0 to 1: `across` for left and right sides, `down` for upper and lower ones
   cv::Matx23f from_picture;
   float left = 0, right = 0, top = 0, bottom = 0;
 };
 
-// Shares of a full edge, in `across` for changes along x; zero where the picture ends.
+// Strength of the edges along (dx, dy), as a share of a full edge; zero at the border of the picture.
 cv::Mat edgesOf(const cv::Mat& lab, const cv::Mat& is_seen, int dx, int dy) {
   cv::Mat gradient, squares[3], sum;
   cv::Sobel(lab, gradient, CV_32F, dx, dy, 3, 1.0 / 8);
@@ -57,7 +56,7 @@ Patch patchAbout(const cv::Mat& picture, const Corners& text) {
   patch.right = half.x() + 0.5f * width;
   patch.top = half.y() - 0.5f * kHeight;
   patch.bottom = half.y() + 0.5f * kHeight;
-  // What is made smaller is smoothed first, but not beyond what the patch shows.
+  // Before it is scaled down, the picture is smoothed, but only the part that the patch shows.
   const cv::Rect about = cv::boundingRect(std::vector<cv::Point2f>{
                              {middle.x() - (half.norm() + 4) / scale, middle.y() - (half.norm() + 4) / scale},
                              {middle.x() + (half.norm() + 4) / scale, middle.y() + (half.norm() + 4) / scale}}) &
@@ -80,7 +79,8 @@ Patch patchAbout(const cv::Mat& picture, const Corners& text) {
   return patch;
 }
 
-// Whether a plate may look so: of opposite sides the nearer one looks longer, but no sign is read from so near.
+// Whether a plate can have this shape. Of two opposite sides the nearer one looks longer, but twice as long only from
+// so near that no sign is read from there.
 bool isPlausible(const Corners& quad) {
   constexpr float kMost = 2;
   const auto areAlike = [](float a, float b) { return a < kMost * b && b < kMost * a; };
@@ -88,13 +88,12 @@ bool isPlausible(const Corners& quad) {
          areAlike((quad[3] - quad[0]).norm(), (quad[2] - quad[1]).norm());
 }
 
-// A side left or right: x = at + slope (y - middle), or, of a side above or below, with x and y swapped.
+// A left or right side, x = at + slope (y - middle); for an upper or lower side, x and y are swapped.
 struct Side {
   float at, slope, edge;
 };
 
-// How much of an edge lies along a line that is `at` where y is `middle`, from `begin` to `end`; 0 if it leaves the
-// patch.
+// Mean edge strength from y = `begin` to `end` along the line with x = `at` at y = `middle`; 0 if it leaves the patch.
 float edgeAlong(const cv::Mat& edges, float at, float slope, float middle, int begin, int end) {
   float sum = 0;
   for (int y = begin; y <= end; ++y) {
@@ -105,8 +104,8 @@ float edgeAlong(const cv::Mat& edges, float at, float slope, float middle, int b
   return sum / static_cast<float>(end - begin + 1);
 }
 
-// The straightest edges whose place in the middle is from `low` to `high`, by what of them lies from `begin` to `end`,
-// and of those that are alike there by how they go on.
+// The strongest straight edges whose position in the middle is from `low` to `high`. They are compared by their
+// strength from `begin` to `end`, and with less weight by that beyond.
 std::vector<Side> sidesWithin(const cv::Mat& edges, float low, float high, float begin, float end, std::size_t most) {
   constexpr float kBeyond = 2 * kHeight, kOfBeyond = 0.3f;
   std::vector<Side> all, kept;

@@ -10,15 +10,15 @@ namespace omnimapper::signs {
 /// A quadrilateral of four straight edges.
 struct Outline {
   Corners quad;                            ///< [px]
-  double mean_edge = 0, weakest_edge = 0;  ///< shares of its sides that are edges: of all four, of the least
+  double mean_edge = 0, weakest_edge = 0;  ///< share of a side that is an edge: mean and smallest of the four
 };
 
-/// Those about a line of text, in no order, none with a side of which less than half is an edge. They reach at most
-/// seven times the text's height beyond it.
+/// Outlines around a line of text, in no particular order. At least half of each side is an edge, and they reach beyond
+/// the text by at most seven times its height.
 std::vector<Outline> outlinesAbout(const cv::Mat& picture, const Corners& text);
 
-/// The quadrilateral whose sides lie on the strongest edges that are at most `reach` [px] from those of this one; a
-/// side that no straight edge is along stays as it is.
+/// Moves each side of an outline to the strongest straight edge that is at most `reach` [px] away; a side without such
+/// an edge stays as it is.
 Corners refined(const cv::Mat& picture, const Corners& outline, float reach);
 
 }  // namespace omnimapper::signs

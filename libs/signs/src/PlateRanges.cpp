@@ -15,7 +15,7 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr int kStride = 4;  // [px] of the depth image, between the rows and columns that are used
+constexpr int kStride = 4;  // [px] step between the rows and columns of the depth image that are used
 
 double medianOf(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -31,7 +31,7 @@ PlateRanges::PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const p
   const auto& image = view.depth();
   const auto& camera = image.camera();
   const bool is_one_view = perception::isPictureOfDepthView(scan);
-  // Both in the optical frames of their cameras.
+  // Both frames are optical frames of their cameras.
   const geometry::Se3 picture_from_depth =
       geometry::inverse(geometry::fromMrpt(scan.relativePoseIntensityWRTDepth)) * geometry::sensorFromOptical();
   for (int row = kStride / 2; row < image.height(); row += kStride) {
@@ -40,22 +40,22 @@ PlateRanges::PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const p
                                     static_cast<std::size_t>(column));
       if (!(depth > 0) || !std::isfinite(depth)) continue;
       if (is_one_view) {
-        seen_.push_back({Eigen::Vector2f(static_cast<float>(column), static_cast<float>(row)), depth});
+        depth_pixels_.push_back({Eigen::Vector2f(static_cast<float>(column), static_cast<float>(row)), depth});
         continue;
       }
       const Eigen::Vector3d point = picture_from_depth * Eigen::Vector3d((column - camera.cx) / camera.fx * depth,
                                                                          (row - camera.cy) / camera.fy * depth, depth);
       constexpr double kNearest = 0.01;  // [m]
-      if (point.z() > kNearest) seen_.push_back({lens.project(point).place.cast<float>(), point.z()});
+      if (point.z() > kNearest) depth_pixels_.push_back({lens.project(point).place.cast<float>(), point.z()});
     }
   }
 }
 
 std::optional<PlateRange> PlateRanges::of(const Corners& plate, const Eigen::Vector3d& ray) const {
   constexpr std::size_t kFewest = 12;
-  constexpr double kMostSpread = 0.1;  // of the depth: median distance from the median
+  constexpr double kMostSpread = 0.1;  // largest median deviation from the median, as a share of it
   std::vector<double> depths;
-  for (const auto& [pixel, depth] : seen_)
+  for (const auto& [pixel, depth] : depth_pixels_)
     if (contains(plate, pixel)) depths.push_back(depth);
   if (depths.size() < kFewest || !(ray.z() > 0)) return std::nullopt;
   const double depth = medianOf(depths);

@@ -15,23 +15,24 @@ struct PlateRange {
   double range, sigma;
 };
 
-/// What a depth camera measures of the plates that its picture shows.
+/// Distances of plates in a picture, measured by the depth image of the same observation.
 class PlateRanges {
  public:
-  /// `lens`: of the picture. Throws Error(missing_images) for a depth image in a file that was not loaded, and
+  /// `lens` is that of the picture. Throws Error(missing_images) for a depth image in a file that was not loaded, and
   /// Error(unreadable_input) for a camera without a calibration.
   PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const perception::LensModel& lens);
 
-  /// From the picture's camera to where this ray (unit, its optical frame) meets the plate of these corners [px]. None
-  /// where the depth camera sees too little of it, or things at different distances. Noise: perception::DepthNoise.
+  /// Distance from the picture's camera along this ray (unit vector in its optical frame) to the plate with these
+  /// corners [px]. None if the depth image has too few pixels of it, or their distances differ too much. The noise is
+  /// that of perception::DepthNoise.
   std::optional<PlateRange> of(const Corners& plate, const Eigen::Vector3d& ray) const;
 
  private:
-  struct Seen {
-    Eigen::Vector2f pixel;  // in the picture
-    double depth;           // [m] in the picture's camera
+  struct DepthPixel {
+    Eigen::Vector2f pixel;  // position in the picture
+    double depth;           // [m] in the frame of the picture's camera
   };
-  std::vector<Seen> seen_;
+  std::vector<DepthPixel> depth_pixels_;
 };
 
 }  // namespace omnimapper::signs

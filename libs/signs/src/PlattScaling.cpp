@@ -13,7 +13,7 @@ constexpr double kRidge = 1e-12;  // keeps the Hessian regular
 struct Sums {
   double loss = 0, by_slope = 0, by_offset = 0, slope_slope = 0, slope_offset = 0, offset_offset = 0;
 
-  // Cross entropy of what should be `target`, and its derivatives.
+  // Adds the cross entropy of a value whose probability should be `target`, and its derivatives.
   void add(double y, double target, double weight, const PlattScaling& at) {
     const double z = at.slope * y + at.offset, p = 1 / (1 + std::exp(z));
     loss += weight * (z >= 0 ? target * z + std::log1p(std::exp(-z)) : (target - 1) * z + std::log1p(std::exp(z)));

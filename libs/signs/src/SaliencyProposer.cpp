@@ -12,11 +12,11 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr double kSame = 0.9;      // overlap of two regions that are one
-constexpr double kSameBox = 0.8;   // the same of two components before plates are fitted
-constexpr int kLeastPicture = 16;  // smaller pictures show nothing [px]
+constexpr double kSame = 0.9;      // smallest overlap of two regions that count as one
+constexpr double kSameBox = 0.8;   // smallest overlap of two components that count as one, before plates are fitted
+constexpr int kLeastPicture = 16;  // [px] smaller pictures have no regions
 
-// Saliency of a picture at a size of its own, over its mean.
+// Saliency of a picture that is scaled to `size`, divided by its mean.
 cv::Mat saliencyOf(const cv::Mat& grey, const cv::Size& size) {
   cv::Mat small, saliency;
   cv::resize(grey, small, size, 0, 0, cv::INTER_AREA);
@@ -34,7 +34,8 @@ class BoxList {
  public:
   BoxList(const SaliencyOptions& options, const cv::Size& picture) : options_(options), picture_(picture) {}
 
-  /// Unless its size is not a sign's, or one that overlaps it by `same` is there.
+  /// Adds a box unless its size is not that of a sign, or a box of the list overlaps it by `same`. Returns whether it
+  /// was added.
   bool add(const cv::Rect2f& box, double same) {
     if (box.width < static_cast<float>(options_.min_width) || box.height < static_cast<float>(options_.min_height) ||
         box.width > options_.max_share * picture_.width || box.height > options_.max_share * picture_.height)

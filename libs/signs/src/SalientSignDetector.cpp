@@ -9,7 +9,8 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr double kCovered = 0.5;  // part of the smaller of two regions of one thing that the other covers
+// Two regions are of one sign if they share more than this part of the smaller one.
+constexpr double kCovered = 0.5;
 
 bool areOnOneAnother(const cv::Rect2f& a, const cv::Rect2f& b) {
   return (a & b).area() > kCovered * std::min(a.area(), b.area());

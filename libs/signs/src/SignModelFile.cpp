@@ -13,7 +13,8 @@ namespace omnimapper::signs {
 
 namespace {
 
-// "omnimapper signs", version (4 bytes), checksum of all that follows (4), then writeBody()'s.
+// The file has "omnimapper signs", the version (4 bytes), a checksum of everything after it (4), then what readBody()
+// reads.
 constexpr std::string_view kMagic = "omnimapper signs";
 constexpr std::uint64_t kVersion = 1;
 constexpr std::uint64_t kMostVectors = 100000;
@@ -34,13 +35,13 @@ SignModel readBody(std::string_view bytes, const std::string& name) {
   for (double* value : {&model.hog.margin, &model.gamma, &model.bias, &model.slope, &model.offset}) *value = in.real();
   const std::uint64_t count = in.uint(4), length = in.uint(4);
   if (count > kMostVectors || length != static_cast<std::uint64_t>(model.hog.length()))
-    refuse(name, "its sizes do not fit one another. Train it anew with omnimapper-train-doorsigns.");
+    refuse(name, "its sizes do not fit one another. Train it again with omnimapper-train-doorsigns.");
   for (std::uint64_t i = 0; i < count; ++i) {
     model.weights.push_back(in.real());
     const std::string_view vector = in.raw(length);
     model.vectors.emplace_back(vector.begin(), vector.end());
   }
-  if (!in.atEnd()) refuse(name, "something follows its end. Take another copy of the file.");
+  if (!in.atEnd()) refuse(name, "has bytes after its end. Take another copy of the file.");
   return model;
 }
 
@@ -80,16 +81,16 @@ SignClassifier SignClassifier::fromBytes(std::string_view bytes, const std::stri
   if (version != kVersion) {
     refuse(name, "is a model of door signs of version " + std::to_string(version) +
                      ", and this program reads version " + std::to_string(kVersion) +
-                     ". Train it anew with omnimapper-train-doorsigns, or take the program "
+                     ". Train it again with omnimapper-train-doorsigns, or take the program "
                      "that wrote it.");
   }
   const std::string_view body = bytes.substr(kMagic.size() + 8);
   if (checksumOf(body) != checksum)
-    refuse(name, "is damaged: its checksum does not fit. Take another copy of the file, or train it anew.");
+    refuse(name, "is damaged: its checksum does not fit. Take another copy of the file, or train it again.");
   try {
     return SignClassifier(readBody(body, name));
   } catch (const std::invalid_argument& error) {
-    refuse(name, std::string("holds ") + error.what() + ". Train it anew with omnimapper-train-doorsigns.");
+    refuse(name, std::string("holds ") + error.what() + ". Train it again with omnimapper-train-doorsigns.");
   }
 }
 

@@ -11,7 +11,8 @@ namespace omnimapper::signs {
 
 namespace {
 
-constexpr double kSameThing = 0.5, kOtherThing = 0.3;  // overlap with a sign of a region that is it, and that is none
+// A region with at least the first overlap with a sign is that sign; with less than the second it is none.
+constexpr double kSignOverlap = 0.5, kOtherOverlap = 0.3;
 
 struct Sign {
   cv::Rect2f box;
@@ -40,11 +41,11 @@ std::pair<Verdict, const Sign*> verdictOn(const cv::Rect2f& region, const std::v
       overlap = overlapOf(sign.box, region);
     }
   }
-  if (overlap >= kSameThing) return {Verdict::sign, best};
-  return {overlap < kOtherThing ? Verdict::other : Verdict::unclear, nullptr};
+  if (overlap >= kSignOverlap) return {Verdict::sign, best};
+  return {overlap < kOtherOverlap ? Verdict::other : Verdict::unclear, nullptr};
 }
 
-// So many of them, by chance, in their order.
+// Keeps `count` of the regions, drawn at random, in their order.
 void keepSome(std::vector<Corners>& regions, int count, base::SplitMix& random) {
   while (static_cast<int>(regions.size()) > count)
     regions.erase(regions.begin() + random.below(static_cast<int>(regions.size())));
@@ -86,9 +87,9 @@ std::vector<const LabelledRegion*> regionsOf(const std::vector<const RegionSet*>
 }
 
 void countIn(const SignClassifier& classifier, const LabelledRegion& region, double min_score, SignRates& rates) {
-  const bool told = (classifier.probability(region.features) > min_score) == region.is_sign;
+  const bool is_right = (classifier.probability(region.features) > min_score) == region.is_sign;
   ++(region.is_sign ? rates.signs : rates.others);
-  (region.is_sign ? rates.signs_told : rates.others_told) += told;
+  (region.is_sign ? rates.signs_right : rates.others_right) += is_right;
 }
 
 }  // namespace
@@ -138,7 +139,7 @@ SignRates tryClassifier(const SignClassifier& classifier, const RegionSet& set, 
 
 namespace {
 
-// What classifiers of the other folds say of each: one for each set.
+// The rates of each set, when each fold is classified by a machine that was trained on the other folds.
 std::vector<SignRates> overFolds(const std::vector<const RegionSet*>& sets, const SignTrainingOptions& options) {
   std::vector<SignRates> rates(sets.size());
   for (int fold = 0; fold < options.folds; ++fold) {
@@ -170,7 +171,7 @@ SignTrial tryOut(const std::vector<const RegionSet*>& learnt, const std::vector<
   }
   for (const SignRates& fold : folds) {
     trial.cross_validated.signs += fold.signs, trial.cross_validated.others += fold.others;
-    trial.cross_validated.signs_told += fold.signs_told, trial.cross_validated.others_told += fold.others_told;
+    trial.cross_validated.signs_right += fold.signs_right, trial.cross_validated.others_right += fold.others_right;
   }
   return trial;
 }

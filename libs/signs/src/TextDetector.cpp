@@ -12,15 +12,16 @@ namespace {
 
 using Eigen::Vector2f;
 
-// Of PaddleOCR's DB detectors, channels in the order blue, green, red.
+// Means and deviations of PaddleOCR's DB detectors, channels in the order blue, green, red.
 constexpr float kMeans[] = {0.485f, 0.456f, 0.406f}, kDeviations[] = {0.229f, 0.224f, 0.225f};
-constexpr float kInCore = 0.3f;      // probability of a pixel
-constexpr double kLeastScore = 0.5;  // mean probability of a core
-constexpr float kThinnestCore = 3;   // [px] of the network's answer
-// The network marks a line's core: by how much it is smaller, area over perimeter, comes from its training.
+constexpr float kInCore = 0.3f;      // smallest probability of a pixel in the core of a line
+constexpr double kLeastScore = 0.5;  // smallest mean probability of a core
+constexpr float kThinnestCore = 3;   // [px] of the network's output, smallest side of a core
+// The network finds only the core of a line. Its sides are moved outwards by this factor times its area over its
+// perimeter, as follows from the network's training.
 constexpr float kGrowth = 1.6f;
 
-// The picture at the upper left of what the network takes, black about it.
+// The network's input, with the picture at its upper left and black around it.
 net::Tensor inputOf(const cv::Mat& picture) {
   constexpr int kPlane = TextDetector::kRows * TextDetector::kColumns;
   net::Tensor input{{1, 3, TextDetector::kRows, TextDetector::kColumns}, std::vector<float>(3 * kPlane)};
@@ -45,7 +46,7 @@ double meanWithin(const cv::Mat& probability, const std::vector<cv::Point>& outl
   return cv::mean(probability(box), mask)[0];
 }
 
-// Text is read from left to right, and from the top where it stands upright.
+// The corners in the order of Corners, for text that runs from left to right.
 Corners inReadingOrder(const cv::RotatedRect& rectangle) {
   std::array<cv::Point2f, 4> corners;
   rectangle.points(corners.data());
@@ -63,7 +64,7 @@ TextDetector::TextDetector(std::shared_ptr<const net::Network> network) : networ
     try {
       return network_->run(inputOf(cv::Mat::zeros(kRows, kColumns, CV_8UC3))).shape;
     } catch (const base::Error&) {
-      return {};  // it takes another input
+      return {};  // the network takes another input
     }
   }();
   if (shape != std::vector<int>{1, 1, kRows, kColumns})

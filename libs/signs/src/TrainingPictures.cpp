@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kMask[] = ".mask";
-constexpr int kLeastMask = 50;  // pixels of a sign in a mask
+constexpr int kLeastMask = 50;  // smallest number of pixels of a sign in a mask
 
 [[noreturn]] void refusePictures(const std::string& path, const std::string& why) {
   throw base::Error(base::ExitCode::unreadable_input, path + ": " + why);
@@ -33,7 +33,7 @@ mrpt::img::CImage load(const std::string& path) {
   return image;
 }
 
-// Whether four corners go about a region clockwise, as one sees it, without a side that crosses another.
+// Whether the four corners go clockwise, as seen in the picture, around a convex region.
 bool isQuadrilateral(const Corners& corners) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2d side = (corners[(i + 1) % 4] - corners[i]).cast<double>();
@@ -64,7 +64,7 @@ std::vector<TrueSign> signsOfMask(const std::string& path) {
   return signs;
 }
 
-// With the signs of the table; pictures are named in it at most.
+// Adds the signs of the table to their pictures. The table need not name every picture.
 void addSigns(const std::string& path, std::vector<TrainingPicture>& pictures) {
   const CsvTable table(path);
   for (std::size_t row = 0; row < table.size(); ++row) {
@@ -80,13 +80,13 @@ void addSigns(const std::string& path, std::vector<TrainingPicture>& pictures) {
     }
     if (!isQuadrilateral(sign.corners_px)) {
       table.refuse(row,
-                   "its corners are no convex region: give them in the order upper left, upper right, lower "
+                   "its corners form no convex region: give them in the order upper left, upper right, lower "
                    "right, lower left");
     }
     if (table.has("sign")) sign.sign = table.text(row, "sign");
     if (table.has("visible")) sign.visible = table.number(row, "visible");
     if (sign.visible < 0 || sign.visible > 1)
-      table.refuse(row, "column visible: the share of the sign that is seen is from 0 to 1");
+      table.refuse(row, "column visible: the share of the sign that is seen must be from 0 to 1");
     picture->signs.push_back(std::move(sign));
   }
 }

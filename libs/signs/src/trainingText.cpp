@@ -37,7 +37,7 @@ std::string toText(const std::vector<RegionSet>& sets, const std::vector<SignTri
             padded(base::fixed(trial.cross_validated.trueNegative(), 3), 15) + std::to_string(trial.vectors) + "\n";
   }
   text +=
-      "\nTrained on, tried on (thesis, Table 7): true positive, true negative; over the folds where both are the "
+      "\nTrained on, tested on (thesis, Table 7): true positive, true negative; cross-validated where both are the "
       "same\n" +
       name("trained on");
   for (const RegionSet& set : sets) text += padded(set.name, std::max<std::size_t>(14, set.name.size() + 2));

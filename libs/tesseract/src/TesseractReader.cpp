@@ -10,9 +10,10 @@ namespace omnimapper::tesseract_reader {
 
 namespace {
 
-constexpr int kRows = 64, kMargin = 12;  // [px] of the patch as Tesseract gets it, and of what is about it
+constexpr int kRows = 64, kMargin = 12;  // [px] height of the patch that Tesseract gets, and the margin around it
 
-// Dark on light, with a margin of the background's colour, as in the documents that Tesseract was trained on.
+// The patch as dark text on light background with a margin of the background's colour, as in the documents that
+// Tesseract was trained on.
 cv::Mat documentOf(const perception::ColourImage& patch) {
   const cv::Mat colours(patch.height, patch.width, CV_8UC3, const_cast<std::uint8_t*>(patch.pixels),
                         static_cast<std::size_t>(patch.stride));

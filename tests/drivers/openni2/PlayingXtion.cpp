@@ -1,7 +1,7 @@
 // A driver of OpenNI2 that plays the depths and pictures of a rawlog as an Xtion. Environment: OMNIMAPPER_PLAYED_LOG is
-// the rawlog, of 640 x 480 images. At its end the device is unplugged, and after OMNIMAPPER_UNPLUGGED_S seconds, if
-// that is told, plugged in again; if that is "never", it stays where it is and sends nothing until it is opened anew.
-// For tests: OpenNI2 loads it from a folder of the build alone.
+// the rawlog, of 640 x 480 images. At its end the device is unplugged, and plugged in again after
+// OMNIMAPPER_UNPLUGGED_S seconds, if that is set; if it is "never", the device stays plugged in and sends nothing until
+// it is opened again. Only for tests: OpenNI2 loads it from a folder of the build.
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
@@ -20,12 +20,12 @@
 #include <thread>
 #include <vector>
 
-// OniDriverAPI.h leaves these to its user.
+// OniDriverAPI.h requires its user to define these.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(pointer) delete (pointer)
 #include <Driver/OniDriverAPI.h>
 
-// Every driver has classes of these names, and they may not be one another's.
+// Every driver has classes of these names, so they must not be visible to other drivers.
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -34,7 +34,7 @@ constexpr int kWidth = 640, kHeight = 480, kRate = 30;
 constexpr std::size_t kPixels = static_cast<std::size_t>(kWidth) * kHeight;
 
 struct Frame {
-  std::chrono::duration<double> time;  // since the first
+  std::chrono::duration<double> time;  // since the first image
   std::vector<std::uint16_t> millimetres;
   std::vector<std::uint8_t> red_green_blue;
 };
@@ -69,7 +69,7 @@ OniVideoMode modeOf(OniSensorType type) {
   return {type == ONI_SENSOR_DEPTH ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888, kWidth, kHeight, kRate};
 }
 
-/// What is played, from the moment at which the first stream starts.
+/// The images that are played, from the time at which the first stream starts.
 class Play {
  public:
   explicit Play(std::vector<Frame> frames) : frames_(std::move(frames)) {}
@@ -77,7 +77,7 @@ class Play {
   const std::vector<Frame>& frames() const { return frames_; }
   Clock::time_point begin() {
     const std::lock_guard lock(mutex_);
-    // MRPT's driver rests for a second after it has started the streams.
+    // MRPT's driver sleeps for a second after it has started the streams.
     if (!begin_) begin_ = Clock::now() + std::chrono::milliseconds(1200);
     return *begin_;
   }
@@ -192,7 +192,7 @@ class Stream : public oni::driver::StreamBase {
   std::thread thread_;
 };
 
-// MRPT opens an infrared stream, too, in the format of the colours, and waits for its frames.
+// MRPT opens an infrared stream, too, in the format of the colour stream, and waits for its frames.
 constexpr OniSensorType kSensors[] = {ONI_SENSOR_DEPTH, ONI_SENSOR_COLOR, ONI_SENSOR_IR};
 
 class Device : public oni::driver::DeviceBase {
@@ -237,7 +237,7 @@ class Driver : public oni::driver::DriverBase {
     std::strcpy(info_.uri, "omnimapper-playing-xtion");
     std::strcpy(info_.vendor, "OmniMapper");
     std::strcpy(info_.name, "rawlog");
-    info_.usbVendorId = 0x1d27;  // an Xtion's
+    info_.usbVendorId = 0x1d27;  // the ids of an Xtion
     info_.usbProductId = 0x0609;
   }
   ~Driver() override { shutdown(); }
@@ -262,7 +262,7 @@ class Driver : public oni::driver::DriverBase {
   }
 
  private:
-  // From a thread of its own: OpenNI2 stops the streams in this call.
+  // This needs a separate thread, because OpenNI2 stops the streams in this call.
   void unplug() {
     const char* seconds = std::getenv("OMNIMAPPER_UNPLUGGED_S");
     if (seconds && std::string(seconds) == "never") return;

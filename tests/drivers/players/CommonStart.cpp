@@ -6,7 +6,7 @@ namespace omnimapper::players {
 
 namespace {
 
-constexpr double kBeforeStart = 0.1;  // [s] in which the players, who ask every 10 or 20 ms, learn of it
+constexpr double kBeforeStart = 0.1;  // [s] in which all players, which poll every 10 or 20 ms, learn the start
 
 }  // namespace
 

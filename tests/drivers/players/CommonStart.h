@@ -7,15 +7,15 @@
 
 namespace omnimapper::players {
 
-/// When the players of one log begin together: at a given time, or 0.1 s after the hosts of all of them are there.
-/// For several threads.
+/// The time at which the players of one log begin together: a given one, or 0.1 s after the hosts of all of them have
+/// connected. Thread-safe.
 class CommonStart {
  public:
   CommonStart(int players, base::Stamp log_start, double pace, std::optional<base::Stamp> host_start = std::nullopt);
 
-  /// Called once by each player whose host is there.
+  /// To be called once by each player when its host has connected.
   void ready();
-  /// Empty while others are waited for.
+  /// Empty while some hosts have not connected yet.
   std::optional<PlayClock> clock() const;
   double pace() const { return pace_; }
 

@@ -29,11 +29,10 @@ Fault parseFault(const std::string& text) {
 Fault parseOdometryFault(const std::string& text) {
   const Fault fault = parseFault(text);
   if (fault.kind == Fault::Kind::checksum || fault.kind == Fault::Kind::slow)
-    throw base::Error(
-        base::ExitCode::command_line,
-        "\"" + text +
-            "\" is a fault of lasers alone: a line of odometry has no checksum and is sent at once; write "
-            "garbage, half, silence or hangup");
+    throw base::Error(base::ExitCode::command_line,
+                      "\"" + text +
+                          "\" is only for lasers: a line of odometry has no checksum and is sent at once; write "
+                          "garbage, half, silence or hangup");
   return fault;
 }
 
@@ -45,7 +44,7 @@ std::string damaged(const std::string& message, Fault::Kind kind, std::uint64_t 
     for (char& byte : garbage) byte = static_cast<char>(random());
     return garbage + message;
   }
-  // Echo, status and stamp are a line each; then the first range begins with its highest bits.
+  // Echo, status and stamp are one line each; then follows the first range, highest bits first.
   std::string altered = message;
   std::size_t line = 0;
   for (int i = 0; i < 3 && line != std::string::npos; ++i) {

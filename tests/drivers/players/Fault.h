@@ -6,16 +6,16 @@
 
 namespace omnimapper::players {
 
-/// What goes wrong between a player and its host, once. A laser sends messages, each of a scan; odometry comes as
+/// A fault between a player and its host that occurs once. A laser sends messages, one for each scan; odometry comes as
 /// lines.
 struct Fault {
   enum class Kind {
     garbage,   ///< 300 random bytes come before the message
-    half,      ///< only the first half of the message comes
-    checksum,  ///< the first range of the message is altered on its way; its checksum is not. Lasers alone
-    slow,      ///< the message comes in 8 pieces over so many seconds. Lasers alone
-    silence,   ///< for so many seconds nothing comes, and is lost
-    hangup,    ///< the connection ends; nobody can connect for so many seconds
+    half,      ///< only the first half of the message is sent
+    checksum,  ///< the first range of the message is altered, but its checksum is not. Only for lasers
+    slow,      ///< the message comes in 8 pieces over `seconds`. Only for lasers
+    silence,   ///< for `seconds` nothing is sent, and the data are lost
+    hangup,    ///< the connection ends, and nobody can connect for `seconds`
   };
   Kind kind = Kind::garbage;
   std::size_t at = 0;  ///< number of the scan, or of the line, in the log, from 0
@@ -24,10 +24,10 @@ struct Fault {
 
 /// Reads "KIND@NUMBER" or "KIND@NUMBER:SECONDS", such as "silence@50:2.5". Throws Error(command_line) on anything else.
 Fault parseFault(const std::string& text);
-/// As parseFault(), of a line of odometry. Throws Error(command_line) for the kinds of lasers alone, too.
+/// As parseFault(), for a line of odometry. Throws Error(command_line) also for the kinds that are only for lasers.
 Fault parseOdometryFault(const std::string& text);
 
-/// The message as it arrives with a fault of the kinds garbage, half or checksum. The same seed gives the same bytes.
+/// The message after a fault of the kind garbage, half or checksum. The same seed gives the same bytes.
 std::string damaged(const std::string& message, Fault::Kind kind, std::uint64_t seed);
 
 }  // namespace omnimapper::players

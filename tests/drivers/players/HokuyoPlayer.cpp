@@ -13,7 +13,7 @@ namespace omnimapper::players {
 
 namespace {
 
-constexpr double kLongestWait = 0.02;  // [s] that a stop may take
+constexpr double kLongestWait = 0.02;  // [s] longest time until a stop is noticed
 constexpr double kSettled = 0.2;       // [s]
 constexpr int kPieces = 8;
 
@@ -100,7 +100,7 @@ void HokuyoPlayer::playScan(std::size_t index, const PlayClock& clock, const Sto
   if (now_wrong && now_wrong->kind == Fault::Kind::silence) silent_until_ = played.sent + seconds;
   if (now_wrong && now_wrong->kind == Fault::Kind::hangup) {
     link_->cut();
-    device_.receive("QT\n", 0);  // what was asked for goes with the connection
+    device_.receive("QT\n", 0);  // the request for scans ends with the connection
     cut_until_ = played.sent + seconds;
   }
   played.device_ms = deviceTime(played.host);

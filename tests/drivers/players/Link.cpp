@@ -66,7 +66,7 @@ class TerminalLink : public Link {
     device_ = live::Descriptor(posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
     if (!device_ || grantpt(device_.get()) != 0 || unlockpt(device_.get()) != 0) fail();
     const std::string name = ptsname(device_.get());
-    // Kept open, so that the terminal stays as it is set while no host has it open.
+    // It is kept open, so that the terminal keeps its settings while no host has it open.
     host_side_ = live::Descriptor(::open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     termios raw{};
     if (!host_side_ || tcgetattr(host_side_.get(), &raw) != 0) fail();
@@ -95,7 +95,7 @@ class TerminalLink : public Link {
 std::string Link::receive(double wait) {
   pollfd files[2] = {{connection(), POLLIN, 0}, {listener(), POLLIN, 0}};
   if (!queue_.empty()) files[0].events |= POLLOUT;
-  // Rounded up, so that nobody who waits for less than a millisecond is busy.
+  // The time is rounded up, so that a wait for less than a millisecond does not become a busy loop.
   if (poll(files, 2, static_cast<int>(wait * 1000) + (wait > 0 ? 1 : 0)) <= 0) return "";
   if (files[1].revents & POLLIN) acceptHost();
   flush();
@@ -116,7 +116,7 @@ bool Link::send(std::string_view bytes) {
 
 void Link::flush() {
   while (!queue_.empty() && connection() >= 0) {
-    // Of a socket whose host is gone, a plain write would end the program by a signal.
+    // A plain write to a socket whose host is gone would end the program by a signal.
     auto size = ::send(connection(), queue_.data(), queue_.size(), MSG_NOSIGNAL);
     if (size < 0 && errno == ENOTSOCK) size = write(connection(), queue_.data(), queue_.size());
     if (size > 0) {

@@ -12,12 +12,12 @@ namespace omnimapper::players {
 class Link {
  public:
   virtual ~Link() = default;
-  /// What the host sent; waits at most so long [s] for it. Takes a host that connects.
+  /// The bytes that the host sent; waits at most so long [s] for them. Accepts a host that connects.
   std::string receive(double wait);
   /// Queues bytes for the host and sends what it takes. Returns false, and sends nothing of them, if nobody is
   /// connected, or the host has left 256 KiB unread.
   bool send(std::string_view bytes);
-  /// What a driver of MRPT is told, such as "127.0.0.1:10940" or the path of the terminal.
+  /// The address for a driver of MRPT, such as "127.0.0.1:10940" or the path of the terminal.
   virtual std::string address() const = 0;
   /// Ends the connection; nobody can connect before restore().
   virtual void cut() = 0;
@@ -26,10 +26,10 @@ class Link {
  protected:
   /// The open connection; -1 if there is none.
   virtual int connection() = 0;
-  /// What becomes readable when a host connects; -1 if nothing does.
+  /// The file that becomes readable when a host connects; -1 if none does.
   virtual int listener() = 0;
   virtual void acceptHost() = 0;
-  /// The host hung up.
+  /// To be called when the host has closed the connection.
   virtual void lose() = 0;
   void dropQueue() { queue_.clear(); }
 
@@ -38,10 +38,10 @@ class Link {
   std::string queue_;
 };
 
-/// Listens at that address; the last host that connects is the one. Throws as live::listenTcp().
+/// Listens at that address; a host that connects replaces the one before. Throws as live::listenTcp().
 std::unique_ptr<Link> makeTcpLink(const live::SocketAddress& address);
 
-/// A pseudo-terminal, to which a symbolic link of that path points; it is made, and removed at the end. Throws
+/// A pseudo-terminal with a symbolic link to it at that path, which is made here and removed at the end. Throws
 /// Error(unwritable_output) if it cannot be made.
 std::unique_ptr<Link> makeTerminalLink(const std::string& path);
 

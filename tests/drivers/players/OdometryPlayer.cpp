@@ -82,7 +82,7 @@ const Fault* OdometryPlayer::faultAt(std::size_t number) const {
 bool OdometryPlayer::send(const std::string& line) {
   const auto size = ::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL);
   if (size == static_cast<ssize_t>(line.size())) return true;
-  if (!options_.udp) socket_.close();  // half a line has gone, or nobody is there
+  if (!options_.udp) socket_.close();  // half a line was sent, or nobody is connected
   return false;
 }
 

@@ -15,21 +15,21 @@ namespace omnimapper::players {
 struct OdometryPlayerOptions {
   live::SocketAddress to{"127.0.0.1", 7700};
   bool udp = false;
-  std::vector<Fault> faults;  ///< without checksum and slow, which are of lasers
+  std::vector<Fault> faults;  ///< without checksum and slow, which are only for lasers
 };
 
-/// Sends odometry as the lines that drivers::COdometryLines takes: what a robot's own program would do.
+/// Sends odometry as the lines that drivers::COdometryLines takes, as a robot's own program would do.
 class OdometryPlayer {
  public:
   OdometryPlayer(std::vector<OdometryReading> readings, OdometryPlayerOptions options);
 
-  /// Connects, five times a second until somebody listens. UDP: at once. False if stopped before.
+  /// Tries to connect five times a second until somebody listens. With UDP it returns at once. False if stopped before.
   bool connect(const Stop& stop);
   /// Waits for its host and for the other players, then sends each line when it is due, with that time as its stamp,
-  /// to the end of the log or until it is stopped. Connects again where the connection is lost.
+  /// until the end of the log or a stop. Connects again if the connection is lost.
   void play(CommonStart& start, const Stop& stop);
 
-  /// Lines that were handed to the system.
+  /// Number of lines that were passed to the system.
   std::uint64_t sent() const { return sent_; }
 
  private:

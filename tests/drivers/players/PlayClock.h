@@ -7,10 +7,11 @@
 
 namespace omnimapper::players {
 
-/// Asked often while something waits; true ends it early.
+/// Called often during a wait; true ends it early.
 using Stop = std::function<bool()>;
 
-/// When what a log has at a stamp happens on this machine's clock, UTC: `pace` times as fast as it was recorded.
+/// Converts stamps of a log to times of this machine's clock (UTC) at which they are played, `pace` times as fast as
+/// recorded.
 class PlayClock {
  public:
   /// `pace` > 0.
@@ -24,10 +25,10 @@ class PlayClock {
   double pace_;
 };
 
-/// Waits for that time of this machine's clock. Returns false if it was stopped before, within 20 ms.
+/// Waits for that time of this machine's clock. Returns false within 20 ms if it is stopped before.
 bool waitUntil(base::Stamp host, const Stop& stop);
 
-/// Writes a trajectory file (TUM, or MRPT's ground truth) anew as TUM, its stamps of the log replaced by those of the
+/// Rewrites a trajectory file (TUM, or MRPT's ground truth) as TUM, with the log's stamps replaced by those of the
 /// clock. Throws as eval::readTrajectory() and eval::writeTum().
 void shiftTrajectory(const std::string& from, const std::string& to, const PlayClock& clock);
 

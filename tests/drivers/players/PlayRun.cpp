@@ -9,7 +9,7 @@ namespace omnimapper::players {
 
 namespace {
 
-/// The scans of a laser, and where it is to be.
+/// The scans of a laser, and its address.
 std::pair<PlayedLog::Scans, std::string> laserOf(const PlayedLog& log, const std::string& text) {
   const auto equals = text.find('=');
   if (equals != std::string::npos) {
@@ -21,7 +21,8 @@ std::pair<PlayedLog::Scans, std::string> laserOf(const PlayedLog& log, const std
   std::string labels;
   for (const auto& [label, scans] : log.lasers) labels += (labels.empty() ? "" : ", ") + label;
   throw base::Error(base::ExitCode::command_line,
-                    "\"" + text + "\" names no laser of the log: write LABEL=ADDRESS with one of its lasers: " +
+                    "\"" + text +
+                        "\" names no laser of the log: write LABEL=ADDRESS with the label of one of its lasers: " +
                         (labels.empty() ? "it has none" : labels));
 }
 

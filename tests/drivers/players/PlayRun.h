@@ -22,16 +22,16 @@ struct PlayOptions {
   /// the laser where the log has several.
   std::vector<std::string> hokuyos;
   std::optional<OdometryPlayerOptions> odometry;
-  double pace = 1;                        ///< times as fast as it was recorded
-  std::optional<base::Stamp> host_start;  ///< of the log's first stamp; none: when all hosts are there
-  HokuyoPlayerOptions hokuyo;             ///< of each laser
-  double linger = 0;                      ///< [s] that lasers answer on after their last scan
+  double pace = 1;                        ///< factor on the speed of the recording
+  std::optional<base::Stamp> host_start;  ///< host time of the log's first stamp; none: when all hosts have connected
+  HokuyoPlayerOptions hokuyo;             ///< options of each laser
+  double linger = 0;                      ///< [s] for which lasers answer after their last scan
 };
 
-/// Plays the lasers and the odometry of a log at once, each in a thread of its own, by one clock.
+/// Plays the lasers and the odometry of a log at the same time, each in a separate thread, by one clock.
 class PlayRun {
  public:
-  /// Opens the lasers' sides; their hosts may connect from then on. Throws Error(command_line) where a laser is not in
+  /// Opens the connections of the lasers, so that hosts can connect. Throws Error(command_line) if a laser is not in
   /// the log or its name is missing, and as HokuyoPlayer and the links do.
   PlayRun(PlayedLog log, PlayOptions options);
   /// Stops and waits for the threads.
@@ -39,18 +39,18 @@ class PlayRun {
   PlayRun(const PlayRun&) = delete;
   PlayRun& operator=(const PlayRun&) = delete;
 
-  /// Begins to wait for the hosts, and plays. `stop` is asked by several threads.
+  /// Begins to wait for the hosts, then plays. Several threads call `stop`.
   void start(const Stop& stop = {});
-  /// Waits until hosts are there and the start is known; empty if it was stopped before.
+  /// Waits until the hosts have connected and the start is known; empty if it is stopped before.
   std::optional<PlayClock> waitForStart();
-  /// Waits for the end of the log. Throws what ended a player before, and with it the others: as the links do, where
-  /// a laser that hung up cannot listen at its address again.
+  /// Waits for the end of the log. Throws the error that ended a player, and with it the others, for example if a laser
+  /// that closed its connection cannot listen at its address again.
   void wait();
   void stop() { stopped_ = true; }
 
-  /// Where the lasers are, in the order of PlayOptions::hokuyos.
+  /// The addresses of the lasers, in the order of PlayOptions::hokuyos.
   std::vector<std::string> addresses() const;
-  /// After wait().
+  /// To be called after wait().
   const HokuyoPlayer& hokuyo(std::size_t index) const { return *hokuyos_.at(index); }
   std::uint64_t odometryLinesSent() const { return odometry_ ? odometry_->sent() : 0; }
 
@@ -66,7 +66,7 @@ class PlayRun {
 
   std::vector<std::thread> threads_;
   std::mutex mutex_;
-  std::exception_ptr failure_;  // the first
+  std::exception_ptr failure_;  // the first error
 };
 
 /// "IP:PORT". Throws Error(command_line) for anything else.

@@ -19,19 +19,19 @@ struct OdometryReading {
   std::optional<mrpt::math::TTwist2D> velocity;  ///< of the base in its own frame [m/s, rad/s]
 };
 
-/// What of a log can be played.
+/// The data of a log that can be played.
 struct PlayedLog {
   using Scans = std::vector<mrpt::obs::CObservation2DRangeScan::Ptr>;
 
   std::map<std::string, Scans> lasers;    ///< by label, each by rising stamp
   std::vector<OdometryReading> odometry;  ///< by rising stamp
 
-  /// Scans and odometry of these; motions (CObservationRelativeMotion) are added up where there is no other odometry.
-  /// What has the stamp of the one before, or an earlier one, is left out.
+  /// Takes scans and odometry from these; motions (CObservationRelativeMotion) are added up if there is no other
+  /// odometry. An observation whose stamp is not later than that of the one before is left out.
   static PlayedLog of(const std::vector<mrpt::obs::CObservation::Ptr>& observations);
   /// Throws as source::RawlogSource.
   static PlayedLog read(const std::string& rawlog);
-  /// The earliest stamp of all. Throws Error(unreadable_input) if there is nothing to play.
+  /// The earliest stamp of all scans and odometry. Throws Error(unreadable_input) if there is nothing to play.
   base::Stamp start() const;
 };
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-/// What tests and benchmarks play logs with in place of sensors.
+/// Programs and classes with which tests and benchmarks play logs in place of sensors.
 namespace omnimapper::players {
 
 /// The encoding of SCIP 2.0, "Communication Protocol Specification for SCIP2.0 Standard", Hokuyo C-42-03320B: six bits
-/// a character, the highest first, each plus 0x30.
+/// in a character, the highest first, plus 0x30.
 std::string encodeScip(std::uint32_t value, int characters);
 
 /// The checksum of a line: its bytes added up, the lowest six bits plus 0x30.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kLongestCommand = 128;
 
-/// The command's echo and its status; the message ends here with one line feed more, or goes on with data.
+/// The echo of the command and its status. The message ends here with one more line feed, or continues with data.
 std::string head(const std::string& echo, const std::string& status) {
   return echo + "\n" + withScipSum(status);
 }
@@ -51,7 +51,7 @@ std::string ScipDevice::answer(const std::string& command, std::uint32_t now_ms)
   const auto semicolon = std::min(command.find(';'), command.size());
   const std::string bare = command.substr(0, semicolon), text = command.substr(semicolon);
   const std::string name = bare.substr(0, 2);
-  if (bare == "SCIP2.0") return plain(command, "0E");  // it speaks that already
+  if (bare == "SCIP2.0") return plain(command, "0E");  // it uses that protocol already
   if (bare == "VV") return head(command, "00") + versionInformation() + "\n";
   if (bare == "PP") return head(command, "00") + productInformation() + "\n";
   if (bare == "II") return head(command, "00") + stateInformation(now_ms) + "\n";
@@ -102,7 +102,7 @@ std::string ScipDevice::startMeasuring(const std::string& command, const std::st
   request.interval = *interval;
   request.remaining = *count;
   request_ = request;
-  if (request.is_single) return "";  // the next scan answers
+  if (request.is_single) return "";  // the next scan is the answer
   laser_is_on_ = true;
   return plain(echo, "00");
 }

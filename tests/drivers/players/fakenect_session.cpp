@@ -1,7 +1,7 @@
-// fakenect-session LOG FOLDER [PACE]: what a Kinect would have sent, as a session that libfreenect's fakenect plays.
-// LOG is a rawlog or a folder of depth and colour images. Of its 640 x 480 images with depths each is written in raw
-// values of 11 bits by the default calibration, with its picture; of its inertial observations the accelerations. PACE:
-// times as fast as it was recorded.
+// fakenect-session LOG FOLDER [PACE]: writes the data that a Kinect would have sent as a session that libfreenect's
+// fakenect plays. LOG is a rawlog or a folder of depth and colour images. Its 640 x 480 depth images are written as raw
+// values of 11 bits by the default calibration, with their pictures, and of its inertial observations the
+// accelerations. PACE is a factor on the speed of the recording.
 #include <libfreenect.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -39,7 +39,7 @@ class Session {
     std::string depths;
     for (const std::uint16_t units : std::vector(scan.rangeImage.begin(), scan.rangeImage.end())) {
       const int raw = calibration.rawOf(units * static_cast<double>(scan.rangeUnits));
-      depths += static_cast<char>(raw & 0xff);  // the host's order, which fakenect takes
+      depths += static_cast<char>(raw & 0xff);  // in the host's byte order, as fakenect expects
       depths += static_cast<char>(raw >> 8);
     }
     write('d', ".pgm", scan.timestamp, "P5 640 480 65535\n" + depths);

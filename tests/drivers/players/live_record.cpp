@@ -1,6 +1,6 @@
-// live-record INI FOLDER SECONDS [COUNT [WORDS]]: reads the sensors of an INI for so long, or until so many
-// observations came, or until a sentence with these words was told. Records them in FOLDER/log.rawlog and prints what
-// is told about them, one sentence a line.
+// live-record INI FOLDER SECONDS [COUNT [WORDS]]: reads the sensors of an INI for so long, or until COUNT observations
+// have come, or until a sentence with these words is reported. Records them in FOLDER/log.rawlog and prints the
+// sentences that are reported about them, one a line.
 #include <omnimapper/base/Config.h>
 #include <omnimapper/live/LiveSource.h>
 
@@ -25,12 +25,12 @@ int main(int argc, char** argv) try {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::milliseconds(static_cast<int>(1000 * std::stod(argv[3])));
   const std::uint64_t most = argc > 4 ? std::stoull(argv[4]) : UINT64_MAX;
-  bool is_told = false;
-  while (Clock::now() < end && source.counts().arrived < most && !is_told) {
+  bool is_reported = false;
+  while (Clock::now() < end && source.counts().arrived < most && !is_reported) {
     while (source.next(std::chrono::milliseconds(10))) continue;
     for (const auto& sentence : source.takeNews()) {
       std::cout << sentence << std::endl;
-      is_told = is_told || (argc > 5 && sentence.find(argv[5]) != std::string::npos);
+      is_reported = is_reported || (argc > 5 && sentence.find(argv[5]) != std::string::npos);
     }
   }
   source.close();

@@ -1,4 +1,4 @@
-// Plays the lasers and the odometry of a rawlog as the sensors themselves would: for tests and trials of live mapping.
+// Plays the lasers and the odometry of a rawlog as the sensors themselves would, for tests of live mapping.
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Exceptions.h>
 
@@ -23,21 +23,23 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& its) {
   app.add_option("log", its.log, "Rawlog whose lasers and odometry are played")->required();
-  app.add_option("--hokuyo", its.play.hokuyos,
-                 "Where a laser is: IP:PORT, or the path of a pseudo-terminal; LABEL= before it names one of several");
+  app.add_option(
+      "--hokuyo", its.play.hokuyos,
+      "Address of a laser: IP:PORT, or the path of a pseudo-terminal; LABEL= before it names one of several");
   app.add_option("--odometry", its.odometry, "IP:PORT to which odometry is sent as lines");
   app.add_flag("--udp", its.udp, "Send odometry by UDP, not by TCP");
-  app.add_option("--pace", its.play.pace, "Times as fast as it was recorded")->check(CLI::PositiveNumber);
-  app.add_option("--start", its.start, "Unix time [s] of the log's first stamp; without it: when all hosts are there");
+  app.add_option("--pace", its.play.pace, "Factor on the speed of the recording")->check(CLI::PositiveNumber);
+  app.add_option("--start", its.start,
+                 "Unix time [s] of the log's first stamp; without it, when all hosts have connected");
   app.add_option("--fault", its.faults,
                  "KIND@SCAN:SECONDS, KIND one of garbage, half, checksum, slow, silence and hangup");
   app.add_option("--odometry-fault", its.odometry_faults,
                  "KIND@LINE:SECONDS, KIND one of garbage, half, silence and hangup");
-  app.add_option("--answer-delay", its.play.hokuyo.answer_delay, "Seconds before each answer of a laser");
-  app.add_option("--linger", its.play.linger, "Seconds that lasers answer on after their last scan");
-  app.add_option("--truth", its.truth, "Trajectory file of the log, to be written with the stamps of the host");
-  app.add_option("--shifted-truth", its.shifted_truth, "Where that is written, as TUM file");
-  app.add_option("--record", its.record, "Text file with a line for each scan of the first laser");
+  app.add_option("--answer-delay", its.play.hokuyo.answer_delay, "Delay of each answer of a laser [s]");
+  app.add_option("--linger", its.play.linger, "Time for which lasers answer after their last scan [s]");
+  app.add_option("--truth", its.truth, "Trajectory file of the log, which is written with the stamps of the host");
+  app.add_option("--shifted-truth", its.shifted_truth, "File to which --truth is written, in the TUM format");
+  app.add_option("--record", its.record, "File to which a line is written for each scan of the first laser");
 }
 
 void play(Arguments& its) {

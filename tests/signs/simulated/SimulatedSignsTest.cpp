@@ -1,5 +1,5 @@
-// The whole way on pictures of simulated buildings: the shipped model is tried on others than it was trained on, and
-// one is trained from nothing.
+// Training and detection on pictures of simulated buildings: the shipped model is tested on other pictures than it was
+// trained on, and a new model is trained.
 #include <gtest/gtest.h>
 #include <omnimapper/signs/SalientSignDetector.h>
 #include <omnimapper/signs/TrainingRun.h>
@@ -57,12 +57,12 @@ TEST(SimulatedSigns, theShippedModelFindsThem) {
   EXPECT_LE(false_alarms, 0.3 * pictures);
 }
 
-TEST(SimulatedSigns, theShippedModelTellsRegionsApart) {
+TEST(SimulatedSigns, theShippedModelDistinguishesRegions) {
   base::Progress quiet;
   for (const TrainingSet& set : buildings()) {
     const RegionSet regions = gatherRegions(set, SignTrainingOptions(), quiet);
     const SignRates rates = tryClassifier(SignClassifier::known(), regions, SalientSignOptions().min_score);
-    EXPECT_GE(rates.truePositive(), 0.9) << set.name << ": " << rates.signs_told << " of " << rates.signs;
+    EXPECT_GE(rates.truePositive(), 0.9) << set.name << ": " << rates.signs_right << " of " << rates.signs;
     EXPECT_GE(rates.trueNegative(), 0.98) << set.name << ": of " << rates.others;
   }
 }
@@ -71,7 +71,7 @@ TEST(SimulatedSigns, aModelIsTrainedFromNothingAndTwiceTheSame) {
   base::Progress quiet;
   SignTrainingOptions options;
   options.min_score = 0.6;  // the detector's
-  // One building alone has too few signs for folds within folds.
+  // A single building has too few signs for folds within folds.
   RegionSet both;
   for (const TrainingSet& set : buildings()) {
     const RegionSet regions = gatherRegions(set, options, quiet);

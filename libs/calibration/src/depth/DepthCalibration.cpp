@@ -16,7 +16,8 @@ namespace {
 using perception::DepthDistortion;
 
 constexpr std::size_t kFewestImages = 12, kFewestPatches = 8, kFewestOfPart = 3;
-constexpr double kLooseBound = 0.010, kTightBound = 0.006;  // [1/m] of the growth, without and with a distortion
+constexpr double kLooseBound = 0.010,
+                 kTightBound = 0.006;  // [1/m] of growPatches() without and with a known distortion
 
 [[noreturn]] void refuseCalibration(const std::string& why) {
   throw base::Error(base::ExitCode::nothing_to_map, why + "; nothing was written");
@@ -38,7 +39,7 @@ std::vector<FlatPatch> patchesOf(const std::vector<DepthCells>& images, bool hel
   return all;
 }
 
-// Of a part of the image, how many images show a plane there.
+// Refuses if too few parts of the image show a plane in enough images.
 void refuseWhatIsNotCovered(const std::vector<FlatPatch>& patches) {
   constexpr int kColumns = 8, kRows = 6;
   constexpr double kLeastShare = 0.6;
@@ -54,8 +55,8 @@ void refuseWhatIsNotCovered(const std::vector<FlatPatch>& patches) {
                                      [](const auto& part) { return part.second.size() >= kFewestOfPart; });
   const double share = static_cast<double>(covered) / (kColumns * kRows);
   if (share >= kLeastShare) return;
-  refuseCalibration("planes cover " + base::fixed(100 * share, 0) + " % of the image in three images or more, of " +
-                    base::fixed(100 * kLeastShare, 0) +
+  refuseCalibration("planes cover only " + base::fixed(100 * share, 0) +
+                    " % of the image in three images or more, of " + base::fixed(100 * kLeastShare, 0) +
                     " % that are needed; come so near to walls, floors or tables that they fill the image");
 }
 
@@ -86,7 +87,7 @@ HeldFlatness flatnessOf(const std::vector<FlatPatch>& patches, const DepthDistor
   return flatness;
 }
 
-// Over the image [1/m].
+// Root mean square of the difference over the image [1/m].
 double rmsBetween(const DepthDistortion& a, const DepthDistortion& b) {
   constexpr int kSide = 20;
   double squares = 0;
@@ -122,12 +123,12 @@ void refuseWhatIsNoBetter(const DepthCalibration& found) {
   const auto images = found.before.rms_of_image.size();
   if (gain >= kLeastGain && static_cast<double>(found.flatter_images) >= kLeastImages * static_cast<double>(images))
     return;
-  refuseCalibration("planes of images that were held back get no flatter: " + base::fixed(1000 * found.before.rms, 2) +
-                    " before and " + base::fixed(1000 * found.after.rms, 2) +
-                    " after, in 1/1000 of 1/m, and flatter in " + std::to_string(found.flatter_images) + " of " +
-                    base::counted(images, "image") +
-                    "; the depths hold as they are, or the log shows too few large planes: record walls, floors or "
-                    "tables in every part of the image, from near and far");
+  refuseCalibration(
+      "planes of held-back images get no flatter: " + base::fixed(1000 * found.before.rms, 2) + " before and " +
+      base::fixed(1000 * found.after.rms, 2) + " after, in 1/1000 of 1/m, and flatter in " +
+      std::to_string(found.flatter_images) + " of " + base::counted(images, "image") +
+      "; either the depths need no correction, or the log shows too few large planes: record walls, floors or "
+      "tables in every part of the image, from near and far");
 }
 
 }  // namespace
@@ -137,10 +138,10 @@ DepthCalibration calibrateDepth(const std::vector<DepthCells>& images, int degre
   DepthCalibration result;
   result.images = images.size();
   if (images.size() < kFewestImages)
-    refuseCalibration("the log shows " + base::counted(images.size(), "depth image") + " that differ of " +
+    refuseCalibration("the log shows " + base::counted(images.size(), "different depth image") + " of " +
                       std::to_string(kFewestImages) +
-                      " that are needed; record half a minute in which the camera turns and moves before walls, floors "
-                      "or tables");
+                      " that are needed; record half a minute in which the camera turns and moves in front of walls, "
+                      "floors or tables");
   result.cell_pixels = images.front().width / images.front().columns;
   const auto held = patchesOf(images, true, {});
   result.held_images = (images.size() + 1) / 3;
@@ -149,8 +150,8 @@ DepthCalibration calibrateDepth(const std::vector<DepthCells>& images, int degre
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     if (patches.size() < kFewestPatches || held.empty())
-      refuseCalibration("the depth images show " + base::counted(patches.size() + held.size(), "plane") +
-                        " that are large enough, too few; come so near to walls, floors or tables that they fill "
+      refuseCalibration("the depth images show only " + base::counted(patches.size() + held.size(), "large plane") +
+                        ", too few; come so near to walls, floors or tables that they fill "
                         "the image");
     refuseWhatIsNotCovered(patches);
     progress.report(0.85 + 0.05 * round, "fitting planes");

@@ -11,28 +11,28 @@
 
 namespace omnimapper::calibration {
 
-/// How flat the planes of the images are that were held back.
+/// Flatness of the planes in the held-back images.
 struct HeldFlatness {
   double rms = 0;                    ///< [1/m] of all samples but the worst tenth
-  std::vector<double> rms_of_image;  ///< the same of each image that shows a plane
-  std::vector<FlatSample> misses;    ///< [1/m] by how much each sample is beyond its plane
+  std::vector<double> rms_of_image;  ///< [1/m] the same of each image that shows a plane
+  std::vector<FlatSample> misses;    ///< [1/m] inverse depth of each sample minus that of its plane
 };
 
 struct DepthCalibration {
   DistortionFit fit;
-  /// Root mean square over the image of the distortion, and of the difference between those that the first and the
-  /// second half of the images give alone [1/m].
+  /// Root mean square over the image [1/m] of the distortion, and of the difference between the distortions that are
+  /// estimated from the first and from the second half of the images.
   double rms = 0, halves_differ_rms = 0;
-  std::size_t images = 0, held_images = 0;    ///< held back: of `images`
-  std::size_t patches = 0, held_patches = 0;  ///< planes: those of the estimate, and those held back
-  int cell_pixels = 0;                        ///< a side of a cell
-  double nearest = 0, farthest = 0;           ///< [m] between them are nine tenths of the samples
+  std::size_t images = 0, held_images = 0;    ///< number of all images, and of those held back
+  std::size_t patches = 0, held_patches = 0;  ///< number of planes of the estimate, and of those held back
+  int cell_pixels = 0;                        ///< [px] side of a cell
+  double nearest = 0, farthest = 0;           ///< [m] nine tenths of the samples are between them
   HeldFlatness before, after;
-  std::size_t flatter_images = 0;  ///< of before.rms_of_image
+  std::size_t flatter_images = 0;  ///< number of held-back images that get flatter
 };
 
-/// Throws Error(nothing_to_map), with the reason and the remedy, where the images do not tell it, and
-/// Error(interrupted).
+/// Estimates the distortion from these images. Throws Error(nothing_to_map), with the reason and the remedy, if the
+/// images do not determine it, and Error(interrupted).
 DepthCalibration calibrateDepth(const std::vector<DepthCells>& images, int degree, base::Progress& progress,
                                 const std::function<bool()>& stop);
 

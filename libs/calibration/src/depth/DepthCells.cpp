@@ -20,10 +20,10 @@ double inverseDepthAt(const perception::DepthImage& image, std::size_t pixel) {
   } else if (image.units()[pixel] != kNotMeasured) {
     metres = image.units()[pixel] * image.metresPerUnit();
   }
-  return metres >= kNearest && metres <= kFarthest ? 1 / metres : 0;  // not a number: 0, too
+  return metres >= kNearest && metres <= kFarthest ? 1 / metres : 0;  // 0 for NaN, too
 }
 
-// The plane through the pixels of a square whose upper left corner is in that column and row.
+// Fits the plane through the pixels of a square whose upper left corner is at this column and row.
 DepthCell cellAt(const perception::DepthImage& image, int column, int row, int side) {
   constexpr double kLeastShare = 0.6;  // of the pixels
   constexpr double kNotFlat = 9;       // times the variance of a pixel
@@ -75,7 +75,7 @@ DepthCells cellsOf(const perception::DepthImage& image) {
 }
 
 bool areDifferent(const DepthCells& a, const DepthCells& b) {
-  constexpr double kChange = 0.006;  // [1/m], some times a cell's noise
+  constexpr double kChange = 0.006;  // [1/m] several times the noise of a cell
   std::vector<double> changes;
   std::size_t either = 0;
   for (std::size_t i = 0; i < a.cells.size(); ++i) {

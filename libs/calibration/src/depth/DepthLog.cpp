@@ -20,7 +20,7 @@ void DepthImageChooser::leaveOut(const std::string& why) {
 
 void DepthImageChooser::add(const CObservation3DRangeScan& scan) {
   ++images_;
-  // Planes are sought in the depths alone, so a picture that is missing is none of this one's business.
+  // Planes are sought only in the depths, so a missing picture does not matter.
   CObservation3DRangeScan depths;
   depths.sensorLabel = scan.sensorLabel;
   depths.hasRangeImage = true;
@@ -29,7 +29,7 @@ void DepthImageChooser::add(const CObservation3DRangeScan& scan) {
   depths.range_is_depth = scan.range_is_depth;
   depths.cameraParams = scan.cameraParams;
   if (scan.rangeImage.size() == 0) {
-    leaveOut("it has no pixels, or the file that has them was not read");
+    leaveOut("it has no pixels, or its file could not be read");
     return;
   }
   try {
@@ -61,15 +61,15 @@ std::vector<DepthCells> DepthImageChooser::take() {
 
 namespace {
 
-void readTold(const std::string& ini, const perception::CameraCalibration& known, DepthLog& log) {
+void readIniValues(const std::string& ini, const perception::CameraCalibration& known, DepthLog& log) {
   const auto config = base::Config::fromFile(ini);
   const auto section = config.section("calibration");
   for (const auto& spec : perception::CameraCalibrationOptions::table().specs()) {
     std::string text;
     if (spec.key == "label" || spec.key == "depth_distortion_per_m" || !section.find(spec.key, text)) continue;
-    log.told.emplace_back(spec.key, text);
+    log.ini_values.emplace_back(spec.key, text);
   }
-  log.told_distortion = known.depthDistortion().coefficients();
+  log.ini_distortion = known.depthDistortion().coefficients();
 }
 
 [[noreturn]] void refuseLog(const DepthRequest& request, std::size_t scans, const DepthImageChooser& chooser,
@@ -106,10 +106,10 @@ DepthLog readDepthLog(const DepthRequest& request, base::Progress& progress, con
     if (!scan->hasRangeImage) continue;
     result.label = scan->sensorLabel;
     if (known.isOf(scan->sensorLabel)) {
-      if (result.told.empty() && result.told_distortion.empty()) readTold(request.ini, known, result);
+      if (result.ini_values.empty() && result.ini_distortion.empty()) readIniValues(request.ini, known, result);
       const auto units = static_cast<double>(scan->rangeUnits);
       known.applyTo(*scan);  // the log's own copy is not needed any more
-      result.told_scale = static_cast<double>(scan->rangeUnits) / units;
+      result.ini_scale = static_cast<double>(scan->rangeUnits) / units;
     }
     chooser.add(*scan);
   }

@@ -18,19 +18,19 @@ namespace {
 using base::fixed;
 using perception::DepthDistortion;
 
-constexpr int kPartsAcross = 8, kPartsDown = 6;  // parts of the image of which a standard deviation is told
-constexpr double kSure = 5e-4;                   // [1/m] standard deviation: 2 mm at 2 m
+constexpr int kPartsAcross = 8, kPartsDown = 6;  // parts of the image for which a standard deviation is reported
+constexpr double kSure = 5e-4;                   // [1/m] largest standard deviation that counts as small: 2 mm at 2 m
 
 double middleOf(int part, int parts) {
   return (2.0 * part + 1) / parts - 1;
 }
 
-/// Over the parts of the image.
+/// A summary over the parts of the image.
 struct Overview {
-  double largest = 0;          ///< of the distortion [1/m]
+  double largest = 0;          ///< [1/m] of the distortion
   double worst_sigma = 0;      ///< [1/m]
-  double sure = 0;             ///< share of the parts
-  std::vector<double> sigmas;  ///< row by row [1/m]
+  double sure = 0;             ///< share of the parts with a small standard deviation
+  std::vector<double> sigmas;  ///< [1/m] row by row
 };
 
 Overview overviewOf(const DistortionFit& fit) {
@@ -47,21 +47,21 @@ Overview overviewOf(const DistortionFit& fit) {
   return all;
 }
 
-// Of an error of inverse depth: what it is of depths of 1, 2 and 3 m.
+// Writes an error of inverse depth, and the errors that follow from it at depths of 1, 2 and 3 m.
 void writeRow(std::ostream& out, const std::string& name, double per_metre) {
   out << "  " << std::left << std::setw(10) << name << std::right << std::setw(10) << fixed(1000 * per_metre, 2);
   for (const int metres : {1, 2, 3}) out << std::setw(9) << fixed(1000 * per_metre * metres * metres, 1);
   out << "\n";
 }
 
-// The INI's distortion with the one that was found on top. The INI's was applied to the log's depths, then the INI's
-// scale, and what was found is of the depths after both.
+// The INI's distortion plus the one that was found. The INI's distortion and then its scale were applied to the log's
+// depths; the one that was found is of the depths after both.
 std::vector<double> combined(const DepthCalibration& calibration, const DepthLog& log) {
   auto sum = calibration.fit.distortion.coefficients();
-  for (double& one : sum) one *= log.told_scale;
-  // Those of a lower degree are the first ones of a higher degree.
-  sum.resize(std::max(sum.size(), log.told_distortion.size()), 0);
-  for (std::size_t i = 0; i < log.told_distortion.size(); ++i) sum[i] += log.told_distortion[i];
+  for (double& one : sum) one *= log.ini_scale;
+  // The coefficients of a lower degree are the first ones of a higher degree.
+  sum.resize(std::max(sum.size(), log.ini_distortion.size()), 0);
+  for (std::size_t i = 0; i < log.ini_distortion.size(); ++i) sum[i] += log.ini_distortion[i];
   return sum;
 }
 
@@ -73,7 +73,7 @@ std::string depthIni(const DepthCalibration& calibration, const DepthLog& log, c
       << "; omnimapper-graphslam -i INI -i calibration.ini -r LOG -o FOLDER\n"
       << "[calibration]\n"
       << labelLine(log.label);
-  for (const auto& [key, text] : log.told) out << key << " = " << text << "\n";
+  for (const auto& [key, text] : log.ini_values) out << key << " = " << text << "\n";
   out << distortionLine(combined(calibration, log));
   return out.str();
 }
@@ -83,20 +83,20 @@ std::string depthReport(const DepthCalibration& calibration, const DepthLog& log
   const auto overview = overviewOf(c.fit);
   std::ostringstream out;
   out << "distortion of the depths of '" << log.label << "' from " << title << "\n"
-      << base::counted(log.scans, "depth image") << ", of which " << c.images << " that differ were taken and "
+      << base::counted(log.scans, "depth image") << ", of which " << c.images << " different ones were used and "
       << c.held_images << " of these held back\n"
-      << base::counted(c.patches, "plane") << " of the others, " << c.held_patches << " of those held back, "
+      << base::counted(c.patches, "plane") << " in the others, " << c.held_patches << " in those held back, "
       << fixed(c.nearest, 1) << " to " << fixed(c.farthest, 1) << " m away\n"
       << "inverse depths are off by a polynomial of degree " << c.fit.distortion.degree() << " over the image, "
       << c.fit.distortion.coefficients().size()
-      << " numbers; planes\ntell neither its constant nor its slope, which are left out\n\n"
+      << " coefficients; planes\ndetermine neither its constant nor its slope, which are left out\n\n"
       << "                1/1000     mm at    mm at    mm at\n"
       << "                of 1/m       1 m      2 m      3 m\n";
   writeRow(out, "largest", overview.largest);
   writeRow(out, "rms", c.rms);
   writeRow(out, "halves", c.halves_differ_rms);
-  out << "rms is over the image; \"halves\" is the rms difference between what the two halves of the log give alone\n";
-  out << "planes of images held back, of which each has its own fit; rms over cells of " << c.cell_pixels << " x "
+  out << "rms is over the image; \"halves\" is the rms difference between the estimates of the two halves of the log\n";
+  out << "planes of held-back images, each fitted separately; rms over cells of " << c.cell_pixels << " x "
       << c.cell_pixels << " px\n";
   writeRow(out, "before", c.before.rms);
   writeRow(out, "after", c.after.rms);
@@ -109,7 +109,7 @@ std::string depthReport(const DepthCalibration& calibration, const DepthLog& log
       out << std::setw(7) << fixed(1000 * overview.sigmas[static_cast<std::size_t>(row * kPartsAcross + column)], 2);
     out << "\n";
   }
-  out << "verdict: planes that were held back are " << fixed(100 * (1 - c.after.rms / c.before.rms), 0)
+  out << "verdict: held-back planes are " << fixed(100 * (1 - c.after.rms / c.before.rms), 0)
       << " % flatter: calibration.ini has the distortion\n";
   return out.str();
 }
@@ -150,19 +150,21 @@ std::vector<std::string> depthWarnings(const DepthCalibration& calibration, cons
     all.push_back(base::counted(log.left_out, "depth image") + " left out, the first because " + log.why_left_out);
   constexpr double kOneDepth = 1.5, kUnsure = 2e-3;  // [-] [1/m]
   if (calibration.farthest < kOneDepth * calibration.nearest)
-    all.push_back("all planes are " + fixed(calibration.nearest, 1) + " to " + fixed(calibration.farthest, 1) +
-                  " m away, so it is not tested that the error grows with the square of the depth: record planes from "
-                  "near and far");
-  // Each half knows it by 1/sqrt(2) less well than the whole, so half of their difference is the error of the whole.
+    all.push_back(
+        "all planes are " + fixed(calibration.nearest, 1) + " to " + fixed(calibration.farthest, 1) +
+        " m away, so it is not tested whether the error grows with the square of the depth: record planes from "
+        "near and far");
+  // The standard deviation of each half is sqrt(2) times that of the whole, so half of their difference is about the
+  // error of the whole.
   constexpr double kMuch = 2.0 / 3;
   if (calibration.halves_differ_rms > kMuch * calibration.rms)
     all.push_back("the two halves of the log give distortions that differ by " +
                   fixed(1000 * calibration.halves_differ_rms, 1) + " of " + fixed(1000 * calibration.rms, 1) +
-                  " in 1/1000 of 1/m, so what is corrected may be wrong by a third or more: record longer, and more "
+                  " in 1/1000 of 1/m, so the correction may be wrong by a third or more: record longer, and more "
                   "planes in every part of the image");
   if (overviewOf(calibration.fit).worst_sigma > kUnsure)
     all.push_back(
-        "in a part of the image the distortion is hardly known (report.txt tells where): record planes that "
+        "in a part of the image the distortion is hardly known (report.txt shows where): record planes that "
         "fill the image");
   return all;
 }

@@ -9,14 +9,14 @@
 
 namespace omnimapper::calibration {
 
-/// [calibration] with the distortion, and with what an INI told before.
+/// The INI section [calibration] with the distortion and the values of the request's INI.
 std::string depthIni(const DepthCalibration& calibration, const DepthLog& log, const std::string& title);
-/// How large the distortion is, how well it is known where, and how flat planes are before and after.
+/// The report: size of the distortion, its standard deviation over the image, and flatness of planes before and after.
 std::string depthReport(const DepthCalibration& calibration, const DepthLog& log, const std::string& title);
 std::string depthJson(const DepthCalibration& calibration, const DepthLog& log);
-/// What is to be known of a calibration that was found all the same.
+/// Warnings about a calibration that was found.
 std::vector<std::string> depthWarnings(const DepthCalibration& calibration, const DepthLog& log);
-/// The misses of planes held back over the image, before and after, the distortion and its standard deviation.
+/// Draws over the image the residuals of held-back planes before and after, the distortion, and its standard deviation.
 void drawDistortion(const DepthCalibration& calibration, const DepthLog& log, std::ostream& out);
 
 }  // namespace omnimapper::calibration

@@ -15,10 +15,11 @@ namespace {
 
 using perception::DepthDistortion;
 
-constexpr double kPrior = 0.02;  // [1/m] of each coefficient; the worst known are a third of it
+constexpr double kPrior = 0.02;  // [1/m] of each coefficient; the largest known ones are a third of it
 constexpr double kLoss = 2;      // standard deviations beyond which a sample counts less and less
 
-/// By how much a sample is beyond its plane, in standard deviations. Linear in the plane and in the coefficients.
+/// Inverse depth of a sample minus that of its plane, in standard deviations. Linear in the plane and in the
+/// coefficients.
 class Flatness : public ceres::CostFunction {
  public:
   Flatness(const FlatSample& sample, int degree, double sigma) : sample_(sample), sigma_(sigma) {
@@ -50,7 +51,7 @@ class Flatness : public ceres::CostFunction {
   std::vector<double> products_;
 };
 
-/// Each coefficient is about 0.
+/// Weak prior of each coefficient at 0.
 class WeakPrior : public ceres::CostFunction {
  public:
   explicit WeakPrior(int terms) {
@@ -78,7 +79,8 @@ class StopWhenAsked : public ceres::IterationCallback {
   const std::function<bool()>& stop_;
 };
 
-// Robust: the median of the sizes. Never less than what steps of the sensor leave in the mean of a cell.
+// Robust standard deviation, from the median of the absolute residuals. It is never less than the error that the
+// sensor's quantization leaves in the mean of a cell.
 double scaleOf(const std::vector<FlatPatch>& patches, const DepthDistortion& known, double before) {
   constexpr double kLeast = 1e-4, kOfMedian = 1.4826;  // [1/m] [-]
   std::vector<double> sizes;
@@ -110,7 +112,7 @@ std::vector<double> solve(const std::vector<FlatPatch>& patches, int degree, dou
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.dense_linear_algebra_library_type = ceres::EIGEN;
   options.linear_solver_ordering = ordering;
-  options.num_threads = 1;  // sums have one order: the same input gives the same bits
+  options.num_threads = 1;  // sums have a fixed order, so the same input gives the same bits
   options.max_num_iterations = 50;
   options.function_tolerance = 1e-8;
   options.logging_type = ceres::SILENT;
@@ -123,7 +125,7 @@ std::vector<double> solve(const std::vector<FlatPatch>& patches, int degree, dou
   return coefficients;
 }
 
-/// Of the coefficients, with the parameters of the planes eliminated.
+/// Normal equations of the coefficients, with the parameters of the planes eliminated.
 struct NormalEquations {
   Eigen::MatrixXd information;  // [m^2]
   Eigen::VectorXd gradient;     // [m]
@@ -158,7 +160,7 @@ NormalEquations normalEquationsOf(const FlatPatch& patch, const DepthDistortion&
   return {weighted.transpose() * products, weighted.transpose() * residuals};
 }
 
-// Jackknife over blocks: by how much the coefficients change where a block is left out, in one step of Newton's.
+// Jackknife over blocks, from the change of the coefficients when a block is left out, in one Newton step.
 Eigen::MatrixXd covarianceOf(const std::vector<FlatPatch>& patches, const DepthDistortion& distortion, double scale) {
   constexpr std::size_t kBlocks = 10;
   const auto terms = static_cast<Eigen::Index>(distortion.coefficients().size());

@@ -19,11 +19,11 @@ struct DistortionFit {
   double sigmaAt(double x, double y) const;
 };
 
-/// The distortion that makes the patches flat, each with a plane of its own. A weak prior of 0.02/m on each coefficient
-/// holds what the patches do not show. The covariance is that of a jackknife over ten blocks of images that follow one
-/// another, because such images show the same scene, whose parts that are not quite flat mislead all of them alike.
-/// Source: Kuensch: The jackknife and the bootstrap for general stationary observations, Annals of Statistics 17(3),
-/// 1989. Throws Error(interrupted) if it is stopped.
+/// Fits the distortion that makes the patches flat, with a separate plane for each. A weak prior of 0.02/m on each
+/// coefficient constrains what the patches do not show. The covariance is from a jackknife over ten blocks of
+/// consecutive images, because such images show the same scene, and its parts that are not quite flat bias all of them
+/// alike. Source: Kuensch: The jackknife and the bootstrap for general stationary observations, Annals of Statistics
+/// 17(3), 1989. Throws Error(interrupted) if it is stopped.
 DistortionFit fitDistortion(const std::vector<FlatPatch>& patches, int degree, const std::function<bool()>& stop);
 
 }  // namespace omnimapper::calibration

@@ -12,9 +12,9 @@ namespace {
 
 using perception::DepthDistortion;
 
-constexpr double kSteeper = 0.006;  // [1/m] from one side of a cell to the other, as its slope and the plane's have it
+constexpr double kSteeper = 0.006;  // [1/m] largest difference of the slopes of cell and plane, across a cell
 
-/// Sums of which a plane is made.
+/// Sums from which a plane is fitted.
 struct PlaneSums {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -31,7 +31,7 @@ double valueOf(const Eigen::Vector3d& plane, double x, double y) {
   return plane[0] + plane[1] * x + plane[2] * y;
 }
 
-/// Grows planes over the cells of one image, each cell for one plane at most.
+/// Grows planes over the cells of one image; each cell is in at most one plane.
 class Growth {
  public:
   Growth(const DepthCells& image, const DepthDistortion& known, double bound)
@@ -48,7 +48,7 @@ class Growth {
     for (const auto& [rms, seed] : seeds()) {
       if (is_taken_[seed]) continue;
       auto patch = growFrom(seed);
-      is_taken_[seed] = true;  // also where nothing grows of it
+      is_taken_[seed] = true;  // even if nothing grows from it
       if (patch.size() < std::max<std::size_t>(fewest, 9)) continue;
       for (const auto i : patch) is_taken_[i] = true;
       all.push_back(std::move(patch));
@@ -76,7 +76,8 @@ class Growth {
     return all;
   }
 
-  // Ring by ring; the plane is fitted anew with each, so that it follows what bends slowly, and at the end to all.
+  // Grows ring by ring. The plane is fitted again after each ring, so that it follows a slowly varying distortion, and
+  // at the end it is fitted to all cells.
   std::vector<std::size_t> growFrom(std::size_t seed) const {
     constexpr int kRounds = 200;
     auto patch = surroundingsOf(seed);
@@ -130,7 +131,7 @@ class Growth {
     if (row + 1 < image_.rows) all.push_back(indexOf(column, row + 1));
     return all;
   }
-  // With itself; what is flat and free.
+  // The cell itself and its eight neighbours, as far as they are flat and in no plane yet.
   std::vector<std::size_t> surroundingsOf(std::size_t i) const {
     const int column = static_cast<int>(i) % image_.columns, row = static_cast<int>(i) / image_.columns;
     std::vector<std::size_t> all;

@@ -12,12 +12,12 @@ namespace omnimapper::calibration {
 
 namespace {
 
-constexpr int kAcross = 32, kDown = 24;  // parts that are drawn
+constexpr int kAcross = 32, kDown = 24;  // parts of the image that are drawn
 
-/// What is drawn at a part of the image [1/m]; none: nothing is known.
+/// Value of a part of the image [1/m]; none if it is not known.
 using ValueAt = std::function<std::optional<double>(int column, int row)>;
 
-// Zero is in the middle of the scale; red and dark blue are `most`.
+// Zero is in the middle of the colour scale; red is `most` and dark blue -`most`.
 void drawMap(draw::Svg& svg, const Eigen::Vector2d& corner, const Eigen::Vector2d& size, double most,
              const std::string& name, const ValueAt& value_at) {
   svg.box(corner, size, "#f4f4f4");
@@ -33,7 +33,7 @@ void drawMap(draw::Svg& svg, const Eigen::Vector2d& corner, const Eigen::Vector2
   }
 }
 
-// The median of the misses in each part.
+// The median of the residuals in each part.
 ValueAt mediansOf(const HeldFlatness& flatness) {
   std::vector<std::vector<double>> all(kAcross * kDown);
   for (const auto& miss : flatness.misses) {
@@ -66,15 +66,15 @@ void drawDistortion(const DepthCalibration& calibration, const DepthLog& log, st
   draw::Svg svg(out, 2 * width + 3 * rim, 2 * height + top + gap + rim);
   svg.text({rim, 24},
            "Errors of inverse depths over the image: dark blue -5/1000 of 1/m, green 0, red 5/1000 (20 mm at 2 m), "
-           "grey not seen.",
+           "grey: no data.",
            draw::Svg::Anchor::start, 14);
   const Eigen::Vector2d size(width, height), right(width + rim, 0), down(0, height + gap), first(rim, top);
   const auto rms = [](const HeldFlatness& held) { return ": " + base::fixed(1000 * held.rms, 2) + "/1000 rms"; };
   drawMap(svg, first, size, kMost,
-          "planes held back, median distance from their planes, before" + rms(calibration.before),
+          "held-back planes, median distance from the fitted planes, before" + rms(calibration.before),
           mediansOf(calibration.before));
   drawMap(svg, first + right, size, kMost, "the same, after" + rms(calibration.after), mediansOf(calibration.after));
-  drawMap(svg, first + down, size, kMost, "the distortion: what is added to inverse depths",
+  drawMap(svg, first + down, size, kMost, "the distortion, which is added to inverse depths",
           overImage([&](double x, double y) { return fit.distortion.at(x, y); }));
   drawMap(svg, first + right + down, size, kMost, "its standard deviation, 5 times enlarged",
           overImage([&](double x, double y) { return 5 * fit.sigmaAt(x, y); }));

@@ -17,7 +17,7 @@ IMPLEMENTS_GENERIC_SENSOR(CCheckedHokuyo, omnimapper::drivers)
 
 namespace omnimapper::drivers {
 
-/// What MRPT's driver reads: valid answers to the command that it wrote last.
+/// The stream that MRPT's driver reads: valid answers to the command that it wrote last.
 class CCheckedHokuyo::Stream : public mrpt::io::CStream {
  public:
   Stream(LaserConnection connection, int patience) : connection_(std::move(connection)), patience_(patience) {}
@@ -45,7 +45,7 @@ class CCheckedHokuyo::Stream : public mrpt::io::CStream {
   std::uint64_t getTotalBytesCount() const override { return 0; }
   std::uint64_t getPosition() const override { return 0; }
 
-  // Sends a command, and leaves out what comes for a moment.
+  // Sends a command and discards the data that comes in the next tenths of a second.
   void sendAndForget(std::string_view command) {
     connection_.send(command);
     for (int i = 0; i < 20 && !connection_.receive(20).empty(); ++i) {
@@ -65,13 +65,13 @@ class CCheckedHokuyo::Stream : public mrpt::io::CStream {
 CCheckedHokuyo::CCheckedHokuyo() = default;
 
 CCheckedHokuyo::~CCheckedHokuyo() {
-  // MRPT's would write to it once more, and complain.
+  // MRPT's destructor would write to the closed connection once more, and print an error.
   if (stream_ && !stream_->connection().isOpen()) bindIO(nullptr);
 }
 
 void CCheckedHokuyo::initialize() {
   m_state = ssError;
-  logging_enable_console_output = false;  // what is wrong is thrown
+  logging_enable_console_output = false;  // errors are thrown instead
   damaged_before_ = leftOut();
   const int patience = std::max(m_comms_timeout_ms, 100);
   stream_ = std::make_shared<Stream>(m_ip_dir.empty()
@@ -85,16 +85,16 @@ void CCheckedHokuyo::initialize() {
   try {
     answers = turnOn();
   } catch (const std::exception&) {
-    if (stream_->connection().isOpen()) throw;  // else MRPT's words tell of its code
+    if (stream_->connection().isOpen()) throw;  // if closed, MRPT's message is only about its code
   }
   if (!answers)
     throw std::runtime_error(
-        "what is there does not answer in SCIP 2.0: is it a Hokuyo, is its address or port right?");
+        "the device does not answer in SCIP 2.0: is it a Hokuyo, and is its address or port right?");
   requirePossibleProperties();
   m_state = ssWorking;
 }
 
-// It may measure since a program that is gone, and a serial one may have either of two rates.
+// A laser may still be measuring for a program that has ended, and a serial one may use either of two rates.
 void CCheckedHokuyo::stopMeasuring() {
   auto& connection = stream_->connection();
   if (connection.isSerial()) {
@@ -110,7 +110,7 @@ void CCheckedHokuyo::stopMeasuring() {
 
 void CCheckedHokuyo::requirePossibleProperties() const {
   const auto& its = m_sensor_info;
-  constexpr int kMostSteps = 10'000;  // of four digits
+  constexpr int kMostSteps = 10'000;  // steps have four digits
   if (its.scans_per_360deg < 1 || its.scans_per_360deg > 10 * kMostSteps || its.scan_first < 0 ||
       its.scan_last <= its.scan_first || its.scan_last >= kMostSteps || !(its.d_max > 0))
     throw std::runtime_error("the laser reports impossible properties (PP)");

@@ -10,11 +10,11 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::uint32_t kLastDeviceTime = (1U << 24) - 1;
-constexpr int kFirstMessages = 10;  // whose latencies vary
+constexpr int kFirstMessages = 10;  // latencies vary among these
 constexpr auto kWindow = std::chrono::seconds(10);
-constexpr auto kLargestStep = milliseconds(2);  // in a window; 200 ppm, twice the worst quartz
-// Farther off than these is no drift: the laser was restarted. No latency makes a stamp too early, so 20 ms, ten times
-// the largest step, are enough; a busy machine may read a whole window late, so 100 ms are needed the other way.
+constexpr auto kLargestStep = milliseconds(2);  // of a window: 200 ppm, twice the drift of the worst quartz
+// A larger error than these is no drift but a restart of the laser. No latency makes a stamp too early, so 20 ms, ten
+// times the largest step, are enough; a busy machine may read a whole window late, so the other direction needs 100 ms.
 constexpr auto kRestartedLate = milliseconds(100), kRestartedEarly = milliseconds(20);
 constexpr auto kNewer = milliseconds(1);
 

@@ -6,11 +6,11 @@
 
 namespace omnimapper::drivers {
 
-/// Host time of the messages of a laser that stamps them by a clock of its own, of 24 bits of milliseconds, which
-/// begins anew after 4.7 hours and runs a little fast or slow. The shortest latency is taken for none.
+/// Converts the stamps of a laser's messages to host time. The laser's clock counts milliseconds in 24 bits, so it
+/// wraps after 4.7 hours, and it is a little fast or slow. The shortest latency is assumed to be zero.
 class LaserClock {
  public:
-  /// Of the next message. Later than that of the message before.
+  /// The stamp of the next message, which is later than that of the message before.
   base::Stamp stampOf(std::uint32_t device_ms, base::Stamp arrival);
 
  private:
@@ -18,9 +18,9 @@ class LaserClock {
 
   int messages_ = 0;
   std::uint32_t device_ms_ = 0;
-  base::Stamp expected_;  // of the last message, by the laser's clock alone
+  base::Stamp expected_;  // host time of the last message, by the laser's clock alone
   base::Stamp last_;
-  base::Duration shortest_lag_{};  // of those since then
+  base::Duration shortest_lag_{};  // of the messages since `since_`
   base::Stamp since_;
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kToConnect = 3000, kToSend = 500;  // [ms]
 
-// A signal does not end the waiting.
+// Waits for these events; a signal does not end the wait.
 bool isReady(const live::Descriptor& file, short events, int patience) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::milliseconds(patience);
@@ -33,7 +33,7 @@ bool isReady(const live::Descriptor& file, short events, int patience) {
   }
 }
 
-// What made it fail; 0 if it did not.
+// The error number if the connection fails, else 0.
 int failureToConnect(const live::Descriptor& socket, const addrinfo& address) {
   if (connect(socket.get(), address.ai_addr, address.ai_addrlen) == 0) return 0;
   if (errno != EINPROGRESS) return errno;
@@ -51,7 +51,7 @@ speed_t speedOf(int rate) {
     case 115200:
       return B115200;
     default:
-      throw std::runtime_error("no serial port has " + std::to_string(rate) + " baud here");
+      throw std::runtime_error("serial ports do not support " + std::to_string(rate) + " baud here");
   }
 }
 
@@ -90,7 +90,7 @@ void LaserConnection::setBaudRate(int rate) {
   if (!is_serial_ || !isOpen() || tcgetattr(file_.get(), &settings) != 0) return;
   cfsetspeed(&settings, speedOf(rate));
   if (tcsetattr(file_.get(), TCSADRAIN, &settings) != 0)
-    throw std::runtime_error("the serial port does not take " + std::to_string(rate) + " baud");
+    throw std::runtime_error("the serial port does not support " + std::to_string(rate) + " baud");
 }
 
 std::string LaserConnection::receive(int patience) {

@@ -8,7 +8,7 @@
 namespace omnimapper::drivers {
 
 /// The open connection to a laser: TCP or a serial port. Unlike MRPT's, it neither ends the program by a signal nor
-/// waits for ever where the laser has closed the connection.
+/// waits for ever if the laser has closed the connection.
 class LaserConnection {
  public:
   /// Both throw std::runtime_error with a sentence that names the laser and the system's reason.
@@ -17,12 +17,12 @@ class LaserConnection {
   /// A path, or a name in /dev. 8 bits, no parity, raw.
   static LaserConnection toSerialPort(const std::string& path);
 
-  /// What has come; waits at most so long [ms] for the first byte. Empty, too, where the laser has closed the
-  /// connection.
+  /// Returns the bytes that have arrived; waits at most `patience` [ms] for the first one. Empty also if the laser has
+  /// closed the connection.
   std::string receive(int patience);
   /// Sends all of it, or closes the connection and returns false.
   bool send(std::string_view bytes);
-  /// Of a serial port; throws std::runtime_error if it has no such rate. Nothing of TCP.
+  /// Sets the rate of a serial port; throws std::runtime_error if the port does not support it. Does nothing with TCP.
   void setBaudRate(int rate);
 
   bool isOpen() const { return static_cast<bool>(file_); }

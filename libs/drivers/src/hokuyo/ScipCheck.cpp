@@ -17,7 +17,8 @@ bool hasChecksum(std::string_view line, char checksum) {
   return checksum == static_cast<char>(0x30 + (total & 0x3f));
 }
 
-/// The last character is the checksum of those before it; of those before a semicolon in a line of information.
+/// Whether the last character is the checksum of those before it; in a line of information, of those before the
+/// semicolon.
 bool isValidLine(std::string_view line) {
   if (line.size() < 2) return false;
   const auto text = line.substr(0, line.size() - 1);
@@ -25,14 +26,14 @@ bool isValidLine(std::string_view line) {
          (text.back() == ';' && hasChecksum(text.substr(0, text.size() - 1), line.back()));
 }
 
-/// Numbers of six bits a character, and their checksum.
+/// Whether the line has characters of six bits, and at most as many as a data line with its checksum.
 bool isValidData(std::string_view line) {
   return line.size() <= kDataLine + 1 &&
          std::all_of(line.begin(), line.end(), [](char byte) { return byte >= 0x30 && byte < 0x70; });
 }
 
-/// Echo, status; then lines of information, or those of a scan: its stamp, and data in lines of 64 characters. An older
-/// laser answers its first command by a status of one character and no checksum.
+/// A message has an echo and a status, then lines of information, or the stamp of a scan and its data in lines of 64
+/// characters. An older laser answers its first command with a status of one character and no checksum.
 bool isValidMessage(std::string_view message) {
   auto end = message.find('\n');
   if (end == std::string_view::npos || end == 0) return false;
@@ -58,7 +59,7 @@ void ScipCheck::setCommand(std::string_view command) {
 }
 
 void ScipCheck::add(std::string_view bytes) {
-  // An end may lie across what came before and now.
+  // The end of a message may be split between the earlier bytes and these.
   auto from = unfinished_.empty() ? 0 : unfinished_.size() - 1;
   unfinished_ += bytes;
   std::size_t begin = 0;
@@ -74,10 +75,10 @@ void ScipCheck::add(std::string_view bytes) {
 }
 
 void ScipCheck::judge(std::string_view message) {
-  // What was cut off, or is none, may come before it.
+  // A message that was cut off, or other data, may come before it.
   const auto begin = echo_.empty() ? std::string_view::npos : message.rfind(echo_ + "\n");
   if (begin == std::string_view::npos) {
-    if (!message.empty() && !isValidMessage(message)) ++damaged_;  // else: the answer to an earlier command
+    if (!message.empty() && !isValidMessage(message)) ++damaged_;  // a valid one is the answer to an earlier command
     return;
   }
   if (begin > 0) ++damaged_;

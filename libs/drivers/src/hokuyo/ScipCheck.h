@@ -6,20 +6,20 @@
 
 namespace omnimapper::drivers {
 
-/// Passes on the valid messages of a Hokuyo (SCIP 2.0), those whose checksums and form are right, and nothing else. A
-/// message begins with the echo of the command that it answers and ends with two line feeds; each line but the echo
-/// ends with a checksum of six bits: it detects every single altered byte, and 63 of 64 alterations of several bytes of
-/// a line. MRPT's driver ignores the checksums.
+/// Passes on the messages of a Hokuyo (SCIP 2.0) whose checksums and format are right, and nothing else. A message
+/// begins with the echo of the command that it answers and ends with two line feeds; each line but the echo ends with a
+/// checksum of six bits, which detects every single altered byte, and 63 of 64 alterations of several bytes of a line.
+/// MRPT's driver ignores the checksums.
 class ScipCheck {
  public:
-  /// The command that was sent last, with its line feed or without: only its answers are passed on.
+  /// Sets the command that was sent last, with or without its line feed; only its answers are passed on.
   void setCommand(std::string_view command);
-  /// Bytes as they come. At most 64 KiB are kept of a message that does not end.
+  /// Adds bytes as they arrive. At most 64 KiB are kept of a message that does not end.
   void add(std::string_view bytes);
-  /// Valid messages since the last call, whole, one after the other.
+  /// The valid messages since the last call, whole, one after the other.
   std::string take();
 
-  /// Messages with a wrong checksum, pieces of messages, and whatever else came between valid ones.
+  /// Number of messages with a wrong checksum, pieces of messages, and other data between valid messages.
   std::uint64_t damaged() const { return damaged_; }
 
  private:

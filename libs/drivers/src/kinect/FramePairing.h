@@ -9,15 +9,15 @@
 
 namespace omnimapper::drivers {
 
-/// A depth image of a Kinect as it is handed out, with its picture.
+/// A depth image of a Kinect, with its picture.
 struct KinectFrame {
-  double seconds = 0;  ///< of the device, when the depths were taken
-  base::Stamp stamp;   ///< the same, of the host
+  double seconds = 0;  ///< time of the depths, by the device's clock
+  base::Stamp stamp;   ///< the same, by the host's clock
   std::vector<std::uint16_t> depths;
-  std::vector<std::uint8_t> picture;  ///< empty: there is none of that time
+  std::vector<std::uint8_t> picture;  ///< empty if there is none of that time
 };
 
-/// Finds the picture of a depth image: the nearest in time. A Kinect's two cameras take turns of their own.
+/// Finds for a depth image the picture that is nearest in time. A Kinect's two cameras are not synchronized.
 class FramePairing {
  public:
   /// `largest_difference` [s] between a depth image and its picture.
@@ -26,7 +26,7 @@ class FramePairing {
   void add(KinectFrame depths) { depths_.push_back(std::move(depths)); }
   void addPicture(double seconds, std::vector<std::uint8_t> picture);
 
-  /// The oldest depth image for which no better picture can come any more; with `at_once` it is not waited for.
+  /// The oldest depth image, if no better picture for it can come any more; with `at_once`, without this condition.
   std::optional<KinectFrame> take(bool at_once);
   bool isWaiting() const { return !depths_.empty(); }
 

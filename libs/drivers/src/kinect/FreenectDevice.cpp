@@ -115,7 +115,7 @@ void FreenectDevice::run() {
   auto read = Clock::now() - std::chrono::hours(1);
   while (!stopping_) {
     timeval patience{0, 50'000};
-    if (freenect_process_events_timeout(context_, &patience) < 0) return fail("USB says that the Kinect is gone");
+    if (freenect_process_events_timeout(context_, &patience) < 0) return fail("USB reports that the Kinect is gone");
     if (!options_.grab_imu || Clock::now() - read < period) continue;
     read = Clock::now();
     readAcceleration();
@@ -124,7 +124,7 @@ void FreenectDevice::run() {
 }
 
 void FreenectDevice::readAcceleration() {
-  constexpr int kMostFailures = 10;  // one may get lost where cameras fill the bus
+  constexpr int kMostFailures = 10;  // some readings may get lost while the cameras fill the bus
   auto* state = freenect_update_tilt_state(device_) < 0 ? nullptr : freenect_get_tilt_state(device_);
   if (!state) {
     if (++failed_readings_ == kMostFailures) fail("the Kinect's accelerometer does not answer");
@@ -157,8 +157,8 @@ void FreenectDevice::onPicture(freenect_device* device, void* picture, std::uint
 }
 
 void FreenectDevice::add(FreenectMessage message) {
-  // A fifth of a second: a reader that is slower than the cameras loses the oldest, and what it gets is never so old
-  // that the cameras' clock would seem to be another.
+  // These are messages of a fifth of a second. A reader that is slower than the cameras loses the oldest ones, but
+  // those that it gets are never so old that their clock would seem to be another than the host's.
   constexpr std::size_t kMost = 12;
   message.arrival = live::hostNow();
   {

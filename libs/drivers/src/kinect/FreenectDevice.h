@@ -19,28 +19,28 @@
 
 namespace omnimapper::drivers {
 
-/// What a Kinect sent, and when it arrived.
+/// A message from a Kinect.
 struct FreenectMessage {
   enum class Kind { depths, picture, acceleration };
   Kind kind = Kind::depths;
-  std::uint32_t ticks = 0;               ///< of the device's 60 MHz; not of accelerations
-  base::Stamp arrival;                   ///< by the host's clock
+  std::uint32_t ticks = 0;               ///< of the device's clock of 60 MHz; not set for accelerations
+  base::Stamp arrival;                   ///< time of arrival by the host's clock
   std::vector<std::uint16_t> depths;     ///< 640 x 480, row by row
   std::vector<std::uint8_t> picture;     ///< the same, three bytes a pixel: red, green, blue
   std::array<double, 3> acceleration{};  ///< [m/s^2] along the device's axes: left, up, forward; at rest up is positive
 };
 
-/// An open Kinect, by libfreenect. A thread takes what USB brings while the reader works, and keeps a fifth of a
-/// second of it.
+/// An open Kinect, through libfreenect. A thread receives the data from USB while the reader works, and buffers a fifth
+/// of a second.
 class FreenectDevice {
  public:
-  /// Opens it and starts its cameras. Throws Error(unreadable_input) if that cannot be.
+  /// Opens it and starts its cameras. Throws Error(unreadable_input) if that fails.
   explicit FreenectDevice(const KinectOptions& options);
   ~FreenectDevice();
   FreenectDevice(const FreenectDevice&) = delete;
   FreenectDevice& operator=(const FreenectDevice&) = delete;
 
-  /// The oldest message; none if none comes within that time. Throws Error(unreadable_input) once the device is lost.
+  /// The oldest message; none if none comes within `patience`. Throws Error(unreadable_input) once the device is lost.
   std::optional<FreenectMessage> next(std::chrono::milliseconds patience);
 
  private:

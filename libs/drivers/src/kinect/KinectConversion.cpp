@@ -8,11 +8,11 @@ namespace omnimapper::drivers {
 
 namespace {
 
-constexpr double kUnit = 0.0002;  // [m] so that 13 m fit into 16 bits, and half of one is a tenth of the device's steps
+constexpr double kUnit = 0.0002;  // [m] 13 m fit into 16 bits, and half of it is a tenth of the device's steps
 constexpr double kMillimetre = 0.001;
 constexpr std::size_t kPixels = static_cast<std::size_t>(kKinectWidth) * kKinectHeight;
 
-// From the optical frame (x right, y down, z forward) to MRPT's of a sensor (x forward, y left, z up).
+// From the optical frame (x right, y down, z forward) to MRPT's sensor frame (x forward, y left, z up).
 const mrpt::poses::CPose3D& sensorFromOpticalAxes() {
   static const mrpt::poses::CPose3D pose(0, 0, 0, -M_PI / 2, 0, -M_PI / 2);
   return pose;
@@ -25,7 +25,7 @@ std::uint16_t unitsOf(double metres) {
 mrpt::img::CImage imageOf(const std::uint8_t* red_green_blue) {
   mrpt::img::CImage image(kKinectWidth, kKinectHeight, mrpt::img::CH_RGB);
   for (unsigned row = 0; row < kKinectHeight; ++row) {
-    auto* to = image.ptrLine<std::uint8_t>(row);  // blue first
+    auto* to = image.ptrLine<std::uint8_t>(row);  // MRPT's images have blue first
     for (int column = 0; column < kKinectWidth; ++column, to += 3, red_green_blue += 3) {
       to[0] = red_green_blue[2];
       to[1] = red_green_blue[1];
@@ -46,7 +46,7 @@ KinectConversion::KinectConversion(const KinectOptions& options)
     metres_.push_back(depth <= options.max_range ? depth : 0);
     units_.push_back(unitsOf(metres_.back()));
   }
-  // The colour camera's frame is optical, the depth camera's in the INI is not.
+  // In the INI the colour camera's frame is optical, but the depth camera's is not.
   const auto picture_from_depth = (mrpt::poses::CPose3D() - options.depthFromPicture()) + sensorFromOpticalAxes();
   const auto& rotation = picture_from_depth.getRotationMatrix();
   for (int row = 0; row < 3; ++row) {
@@ -60,7 +60,7 @@ KinectConversion::KinectConversion(const KinectOptions& options)
   }
 }
 
-// Of a pixel of the depth camera, in the colour camera's frame; 0 where the lens shows nothing.
+// The ray of a pixel of the depth camera, in the colour camera's frame; 0 if the lens images nothing there.
 KinectConversion::Ray KinectConversion::rayOf(int column, int row) const {
   const auto& camera = depth_camera_;
   const auto in_depth = undistort(camera, {(column - camera.cx()) / camera.fx(), (row - camera.cy()) / camera.fy()});
@@ -72,7 +72,7 @@ KinectConversion::Ray KinectConversion::rayOf(int column, int row) const {
   return {along(0), along(1), along(2)};
 }
 
-// Whether it is ours to move the depths into the picture. Without pictures they stay where they are.
+// Whether this class registers the depths to the picture. Without pictures they stay unregistered.
 bool KinectConversion::isMoved() const {
   return options_.registration == KinectOptions::Registration::ours && options_.grab_image;
 }
@@ -92,7 +92,7 @@ std::optional<KinectConversion::Place> KinectConversion::placeOf(Ray ray, double
   return Place{static_cast<int>(std::lround(u)), static_cast<int>(std::lround(v)), z};
 }
 
-// Of what several pixels of the depth camera show in one of the picture, the nearest counts.
+// If several pixels of the depth camera fall on one pixel of the picture, the nearest depth is taken.
 void KinectConversion::moveIntoPicture(const std::uint16_t* depths, mrpt::math::CMatrix_u16& image) const {
   image.fill(0);
   for (const Ray& ray : rays_) {

@@ -12,7 +12,7 @@ NormalizedPoint distort(const mrpt::img::TCamera& camera, NormalizedPoint direct
   return {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
 }
 
-// By a fixed point, which the weak lenses of these cameras have everywhere but beyond their rims.
+// Iterates to a fixed point, which exists for the weak lenses of these cameras except beyond their rims.
 std::optional<NormalizedPoint> undistort(const mrpt::img::TCamera& camera, NormalizedPoint image) {
   constexpr int kSteps = 100;
   constexpr double kEnough = 1e-7, kFarthest = 4;

@@ -11,11 +11,11 @@ struct NormalizedPoint {
   double x, y;
 };
 
-/// Where the lens images a direction: OpenCV's model (plumb_bob), as in its page "Camera Calibration and 3D
-/// Reconstruction".
+/// The point at which the lens images a direction: OpenCV's model (plumb_bob), as in its page "Camera Calibration and
+/// 3D Reconstruction".
 NormalizedPoint distort(const mrpt::img::TCamera& camera, NormalizedPoint direction);
 
-/// The direction that the lens images there: the inverse of distort(). None where it images none.
+/// The direction that the lens images at a point, the inverse of distort(). None if there is none.
 std::optional<NormalizedPoint> undistort(const mrpt::img::TCamera& camera, NormalizedPoint image);
 
 }  // namespace omnimapper::drivers

@@ -11,8 +11,8 @@ namespace {
 
 using Numbers = std::vector<double KinectOptions::*>;
 
-// Of one camera: whether the section tells its focal lengths and centre, all of them or none.
-bool tellsCamera(const mrpt::config::CConfigFileBase& ini, const std::string& section, const std::string& camera) {
+// Whether the section has the focal lengths and the centre of a camera. Throws if it has only some of the four numbers.
+bool hasCamera(const mrpt::config::CConfigFileBase& ini, const std::string& section, const std::string& camera) {
   const std::vector<std::string> keys{camera + "_fx_px", camera + "_fy_px", camera + "_cx_px", camera + "_cy_px"};
   const auto is_there = [&](const std::string& key) { return ini.keyExists(section, key); };
   const auto count = std::count_if(keys.begin(), keys.end(), is_there);
@@ -20,7 +20,7 @@ bool tellsCamera(const mrpt::config::CConfigFileBase& ini, const std::string& se
   const auto missing = std::find_if_not(keys.begin(), keys.end(), is_there);
   if (missing == keys.end()) return true;
   throw base::Error(base::ExitCode::out_of_range,
-                    "[" + section + "] has no " + *missing + " beside what it has of the " + camera +
+                    "[" + section + "] has no " + *missing + " beside the other numbers of the " + camera +
                         " camera; name all four of " + keys[0] + ", " + keys[1] + ", " + keys[2] + " and " + keys[3] +
                         ", or none of them for the defaults");
 }
@@ -36,10 +36,10 @@ KinectOptions KinectOptions::read(const mrpt::config::CConfigFileBase& ini, cons
     }
   };
   using Options = KinectOptions;
-  if (tellsCamera(ini, section, "depth"))
+  if (hasCamera(ini, section, "depth"))
     forgetLens("depth",
                {&Options::depth_k1, &Options::depth_k2, &Options::depth_p1, &Options::depth_p2, &Options::depth_k3});
-  if (tellsCamera(ini, section, "picture"))
+  if (hasCamera(ini, section, "picture"))
     forgetLens("picture", {&Options::picture_k1, &Options::picture_k2, &Options::picture_p1, &Options::picture_p2,
                            &Options::picture_k3});
   return options;

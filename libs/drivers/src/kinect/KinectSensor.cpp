@@ -37,7 +37,7 @@ struct KinectSensor::Open {
   FramePairing pairing;
   TickClock clock;
   bool has_depths = false;
-  HostClock::time_point last_depths = HostClock::now();  // or the opening
+  HostClock::time_point last_depths = HostClock::now();  // or of the opening
   FreenectDevice device;
 };
 
@@ -59,7 +59,7 @@ void KinectSensor::initialize() {
 }
 
 void KinectSensor::doProcess() {
-  if (!open_) throw base::Error(base::ExitCode::internal, "a KinectSensor works after initialize() alone");
+  if (!open_) throw base::Error(base::ExitCode::internal, "a KinectSensor works only after initialize()");
   constexpr std::chrono::milliseconds kPatience(100);
   const auto end = HostClock::now() + kPatience;
   bool has_frame = false;
@@ -83,7 +83,7 @@ void KinectSensor::doProcess() {
 
 void KinectSensor::add(FreenectMessage& message) {
   if (message.kind == FreenectMessage::Kind::acceleration) {
-    if (!open_->has_depths) return;  // what has no depths is not back yet
+    if (!open_->has_depths) return;  // without depths the sensor does not count as back yet
     auto imu = mrpt::obs::CObservationIMU::Create();
     imu->timestamp = message.arrival;
     imu->sensorLabel = m_sensorLabel + "_IMU";
@@ -105,7 +105,7 @@ void KinectSensor::add(FreenectMessage& message) {
   }
 }
 
-// Whether there was a depth image to hand out. Its picture is waited for no longer than the pairing allows.
+// Appends the next depth image; false if there is none yet. It waits for the picture no longer than the pairing allows.
 bool KinectSensor::handOut() {
   const bool is_late = !options_.grab_image || secondsFrom(open_->last_depths) > 2 * options_.pairing;
   const auto frame = open_->pairing.take(is_late);

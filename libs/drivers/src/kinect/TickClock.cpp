@@ -5,13 +5,13 @@
 namespace omnimapper::drivers {
 
 live::SensorClock TickClock::ofHost() {
-  constexpr double kLargestLatency = 0.5;  // [s] more than twice what FreenectDevice buffers
+  constexpr double kLargestLatency = 0.5;  // [s] more than twice the time that FreenectDevice buffers
   return live::SensorClock(live::SensorOptions(), kLargestLatency);
 }
 
 TickClock::Time TickClock::at(std::uint32_t ticks, base::Stamp arrival) {
   constexpr double kTick = 1 / 60e6, kRound = 4294967296 * kTick;  // [s]
-  constexpr double kBack = 0.2, kAhead = 5;                        // [s] what no order of images and no host explains
+  constexpr double kBack = 0.2, kAhead = 5;  // [s] more than the order of images or a busy host explains
   double seconds = 0;
   if (last_) {
     const double elapsed = base::secondsBetween(last_->arrival, arrival);
@@ -24,7 +24,7 @@ TickClock::Time TickClock::at(std::uint32_t ticks, base::Stamp arrival) {
     seconds = last_->seconds + step;
   }
   last_ = Last{ticks, arrival, seconds};
-  constexpr double kAnyTime = 1e6;  // [s] since 1970, so that what comes before the first has a stamp, too
+  constexpr double kAnyTime = 1e6;  // [s] since 1970, so that images from before the first one have a stamp, too
   return {seconds, host_.corrected(base::stampFromUnix(kAnyTime + seconds), arrival)};
 }
 

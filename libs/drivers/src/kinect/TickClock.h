@@ -8,16 +8,16 @@
 
 namespace omnimapper::drivers {
 
-/// The time that a Kinect writes beside its images: ticks of 60 MHz in 32 bits, which begin anew every 71.6 s. In the
-/// host's time it has the shortest latency seen so far, instead of that of each image.
+/// Converts the stamps of a Kinect's images to host time. They are ticks of 60 MHz in 32 bits, which wrap every 71.6 s.
+/// The host time is later by the shortest latency so far, instead of by that of each image.
 class TickClock {
  public:
   struct Time {
-    double seconds = 0;  ///< since the first; of all images of the device by one clock
+    double seconds = 0;  ///< since the first image; one clock for all images of the device
     base::Stamp stamp;   ///< of the host's clock
   };
-  /// Of an image that arrived then, in the order of arrival. A device whose ticks begin anew without having come to
-  /// their end is taken up from there.
+  /// The time of an image that arrived at `arrival`; to be called in the order of arrival. If the ticks restart without
+  /// having wrapped, time goes on from there.
   Time at(std::uint32_t ticks, base::Stamp arrival);
 
  private:

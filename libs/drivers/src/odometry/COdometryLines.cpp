@@ -69,7 +69,7 @@ void COdometryLines::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBa
 
 void COdometryLines::initialize() {
   const std::lock_guard lock(mutex_);
-  receiver_.reset();  // frees the port that it had
+  receiver_.reset();  // frees its port
   m_state = ssError;
   receiver_ = std::make_unique<Receiver>(options_);
   m_state = ssWorking;
@@ -86,7 +86,7 @@ void COdometryLines::doProcess() {
   });
 }
 
-// The list of MRPT's base class grows without bound where nobody fetches it.
+// Bounds the list of MRPT's base class, which grows without limit if nobody fetches the observations.
 void COdometryLines::boundUnfetched() {
   const auto waiting = getObservations();
   unfetched_ = 0;
@@ -94,7 +94,7 @@ void COdometryLines::boundUnfetched() {
     counts_.never_fetched += waiting.size();
     return;
   }
-  const auto decimation = std::exchange(m_grab_decimation, 1);  // they have passed it
+  const auto decimation = std::exchange(m_grab_decimation, 1);  // these observations have passed it
   for (const auto& [stamp, observation] : waiting) appendObservation(observation);
   m_grab_decimation = decimation;
   unfetched_ = waiting.size();

@@ -30,7 +30,7 @@ class LineBuffer {
     }
   }
 
-  /// Whether something came after the last end of a line.
+  /// Whether there are bytes after the last end of a line.
   bool isInLine() const { return skips_ || !line_.empty(); }
   void clear() {
     line_.clear();
@@ -45,7 +45,7 @@ class LineBuffer {
   }
 
   std::string line_;
-  bool skips_ = false;  // the rest of a line that is too long
+  bool skips_ = false;  // skips the rest of a line that is too long
 };
 
 }  // namespace omnimapper::drivers

@@ -20,7 +20,7 @@ OdometryLine faulty(LineFault fault) {
   return line;
 }
 
-/// The words of the line; one more than 7 at most.
+/// The words of the line; at most 8, one more than are valid.
 std::vector<std::string_view> wordsOf(std::string_view line) {
   std::vector<std::string_view> words;
   const std::string_view blanks = " \t";
@@ -38,7 +38,7 @@ bool isWhole(std::string_view word, Number& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// Unix time in decimal, exact to the tick of 100 ns: a double would round present-day stamps.
+/// Reads a decimal Unix time, exact to the tick of 100 ns; a double would round present-day stamps.
 std::optional<base::Stamp> stampOf(std::string_view word) {
   const auto point = std::min(word.find('.'), word.size());
   std::int64_t seconds = 0, billionths = 0;

@@ -13,9 +13,9 @@ namespace omnimapper::drivers {
 
 namespace {
 
-// Bounds of one call of receive(), which a sender without end would never let return otherwise.
+// Limits of one call of receive(), which would not return otherwise if a sender never paused.
 constexpr std::size_t kMostBytes = 256 * 1024;  // the longest lines of a second at the default rate
-constexpr int kMostDatagrams = 4096;            // empty datagrams have no bytes that could be counted
+constexpr int kMostDatagrams = 4096;            // a limit of bytes does not count empty datagrams
 constexpr int kMostAccepted = 16;               // twice the queue of connections that live::listenTcp() asks for
 constexpr std::size_t kMostQuoted = 80;         // bytes of a line
 constexpr auto kSilence = std::chrono::seconds(1);
@@ -40,7 +40,7 @@ void COdometryLines::Receiver::receive(OdometryLineCounts& counts, const Take& t
   if (options_.protocol == OdometryLinesOptions::Protocol::udp) {
     readDatagrams(counts, take);
   } else {
-    readClient(counts, take);  // what the client before sent counts, too
+    readClient(counts, take);  // lines of the client before are taken, too
     takeUnstamped(counts, take);
     acceptClients(counts);
     readClient(counts, take);

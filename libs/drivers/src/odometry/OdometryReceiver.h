@@ -13,7 +13,7 @@
 
 namespace omnimapper::drivers {
 
-/// The connections of COdometryLines: bytes become lines, and valid lines are passed on.
+/// The connections of COdometryLines: splits the bytes into lines and passes on valid lines.
 class COdometryLines::Receiver {
  public:
   using Take = std::function<void(mrpt::obs::CObservationOdometry::Ptr)>;
@@ -22,8 +22,8 @@ class COdometryLines::Receiver {
   explicit Receiver(const OdometryLinesOptions& options);
 
   std::uint16_t port() const { return boundPort(socket_); }
-  /// Reads what has arrived and calls take(odometry), with its stamp, for each valid line; of lines without stamps
-  /// that arrived together for the last one alone.
+  /// Reads what has arrived and calls take(odometry), with its stamp, for each valid line; of lines without stamps that
+  /// arrived together, only for the last one.
   void receive(OdometryLineCounts& counts, const Take& take);
 
  private:

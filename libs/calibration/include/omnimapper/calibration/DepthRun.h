@@ -13,17 +13,17 @@ struct DepthRequest {
   std::vector<std::string> logs;
   std::string label;          ///< of the camera; empty: the first with depths
   std::string output;         ///< folder
-  std::string ini;            ///< with a [calibration] that is applied to the images first; empty: none
-  double start = 0, end = 0;  ///< [s] after the log's begin; end 0: to its end
-  int images = 90;            ///< at most, of which every third is held back
-  int degree = 4;             ///< of the polynomial, perception::DepthDistortion's
+  std::string ini;            ///< INI whose [calibration] is applied to the images first; empty: none
+  double start = 0, end = 0;  ///< [s] after the start of the log; end 0: to its end
+  int images = 90;            ///< largest number of images, of which every third is held back
+  int degree = 4;             ///< of the polynomial of perception::DepthDistortion
 };
 
-/// Estimates by how much a depth camera bends planes (perception::DepthDistortion) from the planes of a log's depth
-/// images, whatever they are and wherever they lie, and leaves calibration.ini, report.txt, summary.json and
-/// distortion.svg in a folder. Throws Error(nothing_to_map), with the remedy, if the log cannot tell it: without depth
-/// images, with too few of them that differ, with too few planes, with planes that leave much of the image out; or if
-/// planes of the images that were held back get no flatter. Nothing is written then, nor if it is stopped.
+/// Estimates the systematic distortion of a depth camera (perception::DepthDistortion) from planes in a log's depth
+/// images, which may be any planes at any pose, and writes calibration.ini, report.txt, summary.json and distortion.svg
+/// to a folder. Throws Error(nothing_to_map), with the remedy, if the log does not determine it: it has no depth
+/// images, too few different ones, too few planes, or planes that leave much of the image uncovered; or if the planes
+/// of held-back images get no flatter. Nothing is written then, nor if it is stopped.
 CalibrationResult runDepthCalibration(const DepthRequest& request, base::Progress& progress,
                                       const std::function<bool()>& stop);
 

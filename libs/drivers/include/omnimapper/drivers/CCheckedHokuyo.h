@@ -9,21 +9,21 @@ namespace omnimapper::drivers {
 
 class LaserClock;
 
-/// MRPT's driver of Hokuyo lasers, over a connection that checks what comes: what an INI gets that says
-/// `driver = CHokuyoURG`. All keys are MRPT's. It differs in these points:
+/// MRPT's driver of Hokuyo lasers, over a connection that checks the data. An INI with `driver = CHokuyoURG` gets this
+/// driver; all keys are MRPT's. It differs from MRPT's in these points:
 /// - Messages with a wrong checksum, and pieces of messages, are rejected and counted.
 /// - A laser that closes the connection ends neither the program nor this thread; the next doProcess() throws.
 /// - The aperture of a scan is the angle between its first and last beam. MRPT's is one step wider.
-/// - Stamps stay right when the laser's clock begins anew after 4.7 hours, and where it is fast or slow.
+/// - Stamps stay right when the laser's clock wraps after 4.7 hours, and if it is fast or slow.
 class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor {
   DEFINE_GENERIC_SENSOR(CCheckedHokuyo)
  public:
   CCheckedHokuyo();
   ~CCheckedHokuyo() override;
 
-  /// Connects and starts the laser. Throws std::runtime_error with the reason if it does not answer as it should.
+  /// Connects and starts the laser. Throws std::runtime_error with the reason if the laser does not answer correctly.
   void initialize() override;
-  /// Throws std::runtime_error if the laser has closed the connection, or does not measure any more.
+  /// Throws std::runtime_error if the laser has closed the connection or has stopped measuring.
   void doProcessSimple(bool& is_there, mrpt::obs::CObservation2DRangeScan& scan, bool& has_failed) override;
 
   std::uint64_t leftOut() const override;
@@ -37,7 +37,7 @@ class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor 
 
   std::shared_ptr<Stream> stream_;
   std::unique_ptr<LaserClock> clock_;
-  std::uint64_t damaged_before_ = 0;  // before initialize() was called the last time
+  std::uint64_t damaged_before_ = 0;  // damaged messages before the last initialize()
 };
 
 }  // namespace omnimapper::drivers

@@ -12,7 +12,7 @@
 
 namespace omnimapper::drivers {
 
-/// The keys of a section with `driver = COdometryLines`, beside those of every driver of MRPT (sensorLabel, ...).
+/// The keys of a section with `driver = COdometryLines`, in addition to those of every MRPT driver (sensorLabel, ...).
 struct OdometryLinesOptions {
   enum class Protocol { tcp, udp };
   std::string bind = "127.0.0.1";
@@ -24,7 +24,7 @@ struct OdometryLinesOptions {
   static const base::OptionTable<OdometryLinesOptions>& table();
 };
 
-/// What became of the lines since initialize() was first called, and of those who sent them.
+/// Counts of the lines, and of the clients that sent them, since initialize() was first called.
 struct OdometryLineCounts {
   std::uint64_t taken = 0;          ///< became observations
   std::uint64_t malformed = 0;      ///< LineFault::malformed
@@ -32,44 +32,46 @@ struct OdometryLineCounts {
   std::uint64_t too_large = 0;      ///< LineFault::too_large
   std::uint64_t too_long = 0;       ///< longer than 256 bytes
   std::uint64_t too_many = 0;       ///< beyond max_rate_hz
-  std::uint64_t wrong_clock = 0;    ///< stamps further than max_clock_offset_s from this machine's clock
-  std::uint64_t not_newer = 0;      ///< stamps not later than those before them of the same client
-  std::uint64_t cut_off = 0;        ///< the client hung up, or was replaced, before their end
-  std::uint64_t other_sender = 0;   ///< UDP datagrams of a second sender beside one who is not silent
-  std::uint64_t never_fetched = 0;  ///< taken, and discarded when 10,000 waited for getObservations()
-  std::uint64_t superseded =
-      0;                      ///< lines without stamps that arrived together with a later one, which are not rejected
-  std::uint64_t clients = 0;  ///< who connected (TCP) or began to send (UDP)
+  std::uint64_t wrong_clock = 0;    ///< with a stamp further than max_clock_offset_s from this machine's clock
+  std::uint64_t not_newer = 0;      ///< with a stamp not later than that of the client's line before
+  std::uint64_t cut_off = 0;        ///< the client closed the connection, or was replaced, before their end
+  std::uint64_t other_sender = 0;   ///< UDP datagrams of a second sender while the first one is not silent
+  std::uint64_t never_fetched = 0;  ///< taken, but discarded because 10,000 waited for getObservations()
+  /// Lines without stamps that arrived together with a later one; they do not count as rejected.
+  std::uint64_t superseded = 0;
+  std::uint64_t clients = 0;  ///< that connected (TCP) or began to send (UDP)
   std::string first_invalid;  ///< the first line that is malformed, not finite or too large, printable
 
   /// All lines and datagrams that were rejected.
   std::uint64_t leftOut() const;
-  /// Those of each kind that is not 0: "2 malformed, 1 of more than 256 bytes (the first invalid line: 17.3 0.5 x)".
+  /// The counts that are not 0, such as "2 malformed, 1 of more than 256 bytes (the first invalid line: 17.3 0.5 x)".
   std::string leftOutByReason() const;
 };
 
-/// Odometry of a robot's own program, as lines of text over TCP or UDP: parseOdometryLine() has their form,
-/// doc/live.md an example. Each becomes a CObservationOdometry with the label of the sensor. An invalid line is
-/// rejected and counted; at most 256 bytes of a line are buffered.
+/// Receives odometry from a robot's own program as lines of text over TCP or UDP; parseOdometryLine() describes their
+/// format, and doc/live.md has an example. Each line becomes a CObservationOdometry with the label of the sensor. An
+/// invalid line is rejected and counted; at most 256 bytes of a line are buffered.
 ///
-/// A line without a stamp ("-") gets that of its arrival. Of several that are read at one time, because the sender or
-/// this machine was held up, it is unknown when each was measured, and stamps some microseconds apart would make leaps
-/// of them. So the last one alone becomes an observation: odometry is cumulative, and the others are contained in it.
+/// A line without a stamp ("-") is stamped with the time of its arrival. If several of them are read at once, because
+/// the sender or this machine was held up, the times of their measurement are unknown, and with stamps some
+/// microseconds apart the robot would seem to leap. So only the last one becomes an observation; odometry is
+/// cumulative, so it contains the motion of the others.
 ///
-/// One client counts at a time. TCP: whoever connects last; the connection before is closed, for a robot may connect
-/// anew before its lost connection is known to be lost. UDP: the first sender, until it is silent for a second. A
-/// datagram holds one or more whole lines; the end of the last one may be missing.
+/// Lines are taken from one client at a time. With TCP it is the one that connected last; the connection before is
+/// closed, because a robot may reconnect before its old connection is known to be lost. With UDP it is the first
+/// sender, until it is silent for a second. A datagram holds one or more whole lines; the last line feed may be
+/// missing.
 ///
-/// It has no thread of its own: doProcess() takes what has arrived, at most 256 KiB, and never waits. counts() and
-/// port() may be called from any thread.
+/// It starts no thread: doProcess() takes what has arrived, at most 256 KiB, and never waits. counts() and port() may
+/// be called from any thread.
 class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSensor {
   DEFINE_GENERIC_SENSOR(COdometryLines)
  public:
   COdometryLines();
   ~COdometryLines() override;
 
-  /// Listens from now on, anew if it did before. Throws Error(unreadable_input) if the port is in use, and
-  /// Error(out_of_range) if `bind` is no address.
+  /// Begins to listen; if it listened already, it begins again. Throws Error(unreadable_input) if the port is in use,
+  /// and Error(out_of_range) if `bind` is no address.
   void initialize() override;
   /// Does nothing before initialize().
   void doProcess() override;
@@ -78,11 +80,11 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSen
   std::uint64_t leftOut() const override { return counts().leftOut(); }
   std::string leftOutByReason() const override { return counts().leftOutByReason(); }
   bool waitsForOthers() const override { return true; }
-  /// Where it listens, 0 before initialize(); tells which port the system chose for `port = 0`.
+  /// The port on which it listens, also if the system chose it (`port = 0`); 0 before initialize().
   std::uint16_t port() const;
 
  protected:
-  /// Throws Error unknown_key, wrong_type or out_of_range, naming section, key and what fits.
+  /// Throws Error unknown_key, wrong_type or out_of_range, naming section, key and the valid values.
   void loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& config, const std::string& section) override;
 
  private:
@@ -93,7 +95,7 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSen
   mutable std::mutex mutex_;
   std::unique_ptr<Receiver> receiver_;
   OdometryLineCounts counts_;
-  std::size_t unfetched_ = 0;  // upper bound of what waits for getObservations()
+  std::size_t unfetched_ = 0;  // upper bound of the number that wait for getObservations()
 };
 
 }  // namespace omnimapper::drivers

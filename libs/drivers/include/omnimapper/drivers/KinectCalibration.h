@@ -5,18 +5,18 @@
 
 namespace omnimapper::drivers {
 
-/// The two cameras of a Kinect of the first generation (Xbox 360), and what its raw depth means. Focal lengths,
-/// centres, lenses and the raw depth are by default those of one device, which N. Burrus published ("Kinect
+/// Calibration of the two cameras of a Kinect of the first generation (Xbox 360), and of its raw depths. The default
+/// focal lengths, centres, lenses and raw depths are those of one device, which N. Burrus published ("Kinect
 /// calibration", nicolas.burrus.name, 2010; also openkinect.org, "Imaging Information"); another device differs by some
-/// percent of the depth and some pixels. The colour camera stands by default 2.5 cm to the right of the depth camera,
-/// without a turn, as the frames of ROS's openni_launch have it. omnimapper-calibrate measures all of these.
+/// percent of the depth and some pixels. By default the colour camera is 2.5 cm to the right of the depth camera,
+/// without rotation, as in the frames of ROS's openni_launch. omnimapper-calibrate estimates all of these.
 struct KinectCalibration {
   /// 1 / depth [1/m] = inverse_depth_at_zero + inverse_depth_step * raw, for raw from 0 to 2046.
   double inverse_depth_at_zero = 3.3309495161, inverse_depth_step = -0.0030711016;
 
   double depth_fx = 594.21434211923247, depth_fy = 591.04053696870778;  ///< [px]
   double depth_cx = 339.30780975300314, depth_cy = 242.73913761751615;  ///< [px]
-  /// Lens of the depth camera, as OpenCV and MRPT's plumb_bob have it.
+  /// Lens of the depth camera, in the model of OpenCV and of MRPT's plumb_bob.
   double depth_k1 = -0.26386489753128833, depth_k2 = 0.99966832163729757, depth_p1 = -0.00076275862143610667,
          depth_p2 = 0.0050350940090814270, depth_k3 = -1.3053628089976321;
 
@@ -26,18 +26,19 @@ struct KinectCalibration {
   double picture_k1 = 0.26451622333009589, picture_k2 = -0.83990749424620825, picture_p1 = -0.0019922302173693159,
          picture_p2 = 0.0014371995932897616, picture_k3 = 0.91192465078713847;
 
-  /// depth_from_picture as MRPT has it in relativePoseIntensityWRTDepth: the depth camera's frame is x forward, y left,
-  /// z up, the picture's is optical (x right, y down, z forward). [m]; [rad] about z, then y, then x.
+  /// depth_from_picture as in MRPT's relativePoseIntensityWRTDepth: the depth camera's frame is x forward, y left, z
+  /// up, the picture's is optical (x right, y down, z forward). [m]; [rad] about z, then y, then x.
   double picture_x = 0, picture_y = -0.025, picture_z = 0;
   double picture_yaw = -1.5707963267948966, picture_pitch = 0, picture_roll = -1.5707963267948966;
 
-  /// Depth along the optical axis [m] of a raw value of 11 bits; 0 where the raw value means no depth: 2047, and what
-  /// the calibration puts at infinity or behind the camera.
+  /// Depth along the optical axis [m] of a raw value of 11 bits; 0 if the raw value means no depth: 2047, and values
+  /// that the calibration maps to infinity or behind the camera.
   double depthOf(int raw) const;
-  /// The raw value nearest to a depth [m] in its inverse; 2047 for what no raw value from 0 to 2046 means.
+  /// The raw value whose inverse depth is nearest to that of a depth [m]; 2047 if none from 0 to 2046 corresponds to
+  /// it.
   int rawOf(double depth) const;
 
-  /// 640 x 480.
+  /// Both cameras have 640 x 480 pixels.
   mrpt::img::TCamera depthCamera() const;
   mrpt::img::TCamera pictureCamera() const;
   mrpt::poses::CPose3D depthFromPicture() const;

@@ -9,11 +9,11 @@ namespace omnimapper::drivers {
 
 struct FreenectMessage;
 
-/// A Kinect of the first generation as a driver of MRPT, by libfreenect, for which Debian's MRPT has none. It hands out
-/// CObservation3DRangeScan under its sensorLabel (KINECT by default), and CObservationIMU with accelerations alone
-/// under that with _IMU: [m/s^2], x forward, y left, z up as the depth camera stands, 9.8 upwards at rest, none before
-/// the first depth image. Stamps are of the host's clock, their differences of the device's. Keys of its section:
-/// KinectOptions.
+/// A driver in MRPT's sense of a Kinect of the first generation, through libfreenect, which Debian's MRPT is built
+/// without. It gives CObservation3DRangeScan with its sensorLabel (KINECT by default), and CObservationIMU that have
+/// only accelerations, with this label and the suffix _IMU: [m/s^2], x forward, y left, z up in the orientation of the
+/// depth camera, 9.8 upwards at rest, none before the first depth image. Stamps are of the host's clock, but their
+/// differences are those of the device's clock. The keys of its section are KinectOptions.
 class KinectSensor : public mrpt::hwdrivers::CGenericSensor {
   DEFINE_GENERIC_SENSOR(KinectSensor)
  public:

@@ -12,21 +12,21 @@ namespace omnimapper::drivers {
 enum class LineFault {
   malformed,   ///< a word that is no number, or neither 4 nor 7 words
   not_finite,  ///< "nan" or "inf"
-  too_large,   ///< further than a million metres from the start, more than a thousand turns, or faster than 100 m/s
+  too_large,   ///< beyond a million metres from the start, a thousand turns, 100 m/s or 100 rad/s
 };
 
 /// One line that was read.
 struct OdometryLine {
-  std::optional<base::Stamp> stamp;  ///< none: "-", which is the time of arrival
-  /// odom_from_base [m, rad], cumulative; velocityLocal in the base [m/s, rad/s] where the line has it. Without stamp
-  /// and label.
+  std::optional<base::Stamp> stamp;  ///< none: "-", which means the time of arrival
+  /// odom_from_base [m, rad], cumulative; velocityLocal in the base [m/s, rad/s] if the line has it. Without stamp and
+  /// label.
   mrpt::obs::CObservationOdometry odometry;
-  std::optional<LineFault> fault;  ///< if it is there, nothing else counts
+  std::optional<LineFault> fault;  ///< if set, the other members are invalid
 };
 
 /// Reads `stamp x y yaw` or `stamp x y yaw vx vy omega`: seconds since 1970, UTC, with at most 9 decimals, or "-";
-/// odom_from_base in m and rad; the velocity of the base in its own frame in m/s and rad/s. Blanks or tabs part the
-/// words. The line is given without its end. Never throws.
+/// odom_from_base in m and rad; the velocity of the base in its own frame in m/s and rad/s. Words are separated by
+/// blanks or tabs. `line` has no line feed. Never throws.
 OdometryLine parseOdometryLine(std::string_view line);
 
 }  // namespace omnimapper::drivers

@@ -4,8 +4,8 @@
 
 namespace omnimapper::live {
 
-/// The time of this machine, UTC. The only place of the libraries where its clock is read: what a sensor hands out
-/// without a stamp gets the time of its arrival, and all behind the sensors goes by stamps.
+/// The time of this machine, UTC. Only here do the libraries read its clock: an observation that a sensor gives no
+/// stamp gets the time of its arrival, and everything after the sensors uses stamps.
 base::Stamp hostNow();
 
 }  // namespace omnimapper::live

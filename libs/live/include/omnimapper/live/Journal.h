@@ -8,11 +8,11 @@
 
 namespace omnimapper::live {
 
-/// What a live run did with what was recorded, in order: a replay that does the same makes the same map.
+/// One action of a live run on its recording. A replay that does the same actions in the same order makes the same map.
 struct JournalEvent {
   enum class Kind {
     add,     ///< an observation was given to the mapper
-    drop,    ///< an observation was left out, for a newer one of its camera
+    drop,    ///< an observation was left out because of a newer one of its camera
     bundle,  ///< the mapper began to work on the oldest bundle whose perception was done
     job      ///< the mapper took the oldest job
   };
@@ -22,38 +22,39 @@ struct JournalEvent {
   bool operator==(const JournalEvent& other) const { return kind == other.kind && number == other.number; }
 };
 
-/// Writes a journal, NAME.journal beside the rawlogs NAME.rawlog, NAME_001.rawlog and so on. Not for several threads.
+/// Writes a journal, NAME.journal beside the rawlogs NAME.rawlog, NAME_001.rawlog and so on. Not thread-safe.
 class JournalWriter {
  public:
   /// Throws Error(unwritable_output) if the file cannot be made.
   explicit JournalWriter(const std::string& path);
   void add(const JournalEvent& event);
-  /// To the system, so that it outlives this process. False if it cannot be written any more.
+  /// Passes all events to the operating system, so that they survive if this process is killed. False if the file
+  /// cannot be written any more.
   bool flush();
 
  private:
   std::ofstream file_;
 };
 
-/// A journal and the rawlogs that it is about.
+/// A journal and the rawlogs of its recording.
 struct Journal {
   std::vector<JournalEvent> events;
   std::vector<std::string> rawlogs;  ///< paths, in their order
 
-  /// What can be read of one whose writer was killed: up to the last whole line. Throws Error(unreadable_input) for a
-  /// file that is no journal, or whose first rawlog is not beside it, naming file and line.
+  /// Reads a journal up to its last whole line; its writer may have been killed. Throws Error(unreadable_input), naming
+  /// file and line, for a file that is no journal, or whose first rawlog is not beside it.
   static Journal read(const std::string& path);
 };
 
-/// The journal that a path names: that file, or the only journal in that folder or in the folder recording in it.
-/// Throws Error(unreadable_input) for a folder with none, or with several, naming them.
+/// The journal that a path names: that file, or the only journal in that folder or in its folder `recording`. Throws
+/// Error(unreadable_input) for a folder with none, or with several, which it names.
 std::string findJournal(const std::string& path);
 
-/// Where the INI of the live run stands that wrote this journal, TIME.ini beside TIME.journal.
+/// The path of the INI of the live run that wrote this journal, TIME.ini beside TIME.journal.
 std::string iniOf(const std::string& journal);
 
-/// That INI, if it is there. A recording may come from anybody: throws Error(unreadable_input) for one that does not
-/// begin with base::kWrittenFromALog, which would be trusted with plugin libraries.
+/// That INI, if it exists. Throws Error(unreadable_input) if it does not begin with base::kWrittenFromALog: it would be
+/// trusted with plugin libraries, and a recording may come from anybody.
 std::optional<std::string> findIni(const std::string& journal);
 
 }  // namespace omnimapper::live

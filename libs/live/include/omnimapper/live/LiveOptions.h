@@ -8,21 +8,21 @@
 
 namespace omnimapper::live {
 
-/// Section [live] of an INI file: which drivers a run reads, and what it keeps of what they say.
+/// Section [live] of an INI file: which drivers a run reads, and how it records their data.
 struct LiveOptions {
-  std::vector<std::string> sensors;    ///< sections, each of one driver
-  std::string grabber;                 ///< an INI of rawlog-grabber whose sensors are read beside those
-  std::vector<std::string> libraries;  ///< shared libraries that register drivers of their own
+  std::vector<std::string> sensors;    ///< sections of the drivers
+  std::string grabber;                 ///< an INI of rawlog-grabber whose sensors are read, too
+  std::vector<std::string> libraries;  ///< shared libraries that register drivers
   bool record = true;
   source::ColourImages images = source::ColourImages::lossless;
   int compression = 1;         ///< of zlib
-  double split_mb = 2000;      ///< [MB] size of a rawlog from which on the next one is begun; 0: never
+  double split_mb = 2000;      ///< [MB] size of a rawlog at which the next one is begun; 0: never
   double queue_mb = 256;       ///< [MB] of images and clouds that wait to be written
-  int camera_queue = 3;        ///< frames of one camera that wait for the mapper
-  double silent_after = 0.8;   ///< [s]
-  double reopen_after = 3;     ///< [s] of silence
-  double max_clock_off = 0.5;  ///< [s] between a stamp and its arrival
-  double checkpoint = 60;      ///< [s] between two; 0: none
+  int camera_queue = 3;        ///< largest number of frames of one camera that wait for the mapper
+  double silent_after = 0.8;   ///< [s] without data
+  double reopen_after = 3;     ///< [s] without data
+  double max_clock_off = 0.5;  ///< [s] largest difference of a stamp and its arrival by the same clock
+  double checkpoint = 60;      ///< [s] between two checkpoints; 0: none
   double check = 10;           ///< [s] that --check --live records
 
   static const base::OptionTable<LiveOptions>& table();

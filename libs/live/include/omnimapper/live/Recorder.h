@@ -15,17 +15,17 @@
 
 namespace omnimapper::live {
 
-/// An observation as it stands in a rawlog.
+/// An observation, serialized as in a rawlog.
 using Encoded = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 Encoded encode(const mrpt::obs::CObservation& observation);
-/// What a reader of the rawlog gets. Throws std::exception if it is none.
+/// The observation that a reader of the rawlog gets. Throws std::exception if the bytes are none.
 mrpt::obs::CObservation::Ptr decode(const Encoded& encoded);
 
 struct RecorderOptions {
   int compression = 1;                  ///< of zlib, 0 to 9
-  std::uint64_t split_bytes = 0;        ///< on the disk, from which on another file is begun; 0: never
-  std::size_t queue_bytes = 256 << 20;  ///< that may wait to be written
+  std::uint64_t split_bytes = 0;        ///< size on the disk at which the next file is begun; 0: never
+  std::size_t queue_bytes = 256 << 20;  ///< largest size of the data that wait to be written
 };
 
 RecorderOptions recorderOptions(const LiveOptions& options);
@@ -33,37 +33,38 @@ RecorderOptions recorderOptions(const LiveOptions& options);
 /// A name for the files of a recording that begins now, such as 2026-11-27_07-15-37.
 std::string nameByTime();
 
-/// Writes observations into rawlogs as they come, in a thread of its own: in blocks of a second, each a whole member of
-/// gzip, so that all but the last second can be read of a file whose writer was killed.
+/// Writes observations to rawlogs as they come, in a separate thread. A block of about a second is a whole member of
+/// gzip, so that all but the last second of a file can be read if its writer was killed.
 class Recorder {
  public:
   /// Files are named NAME.rawlog, NAME_001.rawlog and so on, in `folder`, which is made if it is missing. Throws
-  /// Error(unwritable_output) if the first cannot be made, or is there already.
+  /// Error(unwritable_output) if the first cannot be made or exists already.
   Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options);
   /// As close().
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Whether there is room for so many bytes among those that wait.
+  /// Whether the queue of data to be written has room for so many bytes.
   bool hasRoomFor(std::size_t bytes) const;
-  /// In the order of the file; from any thread. After a failure it does nothing.
+  /// Adds an observation to the queue; from any thread. They are written in the order of the calls. After a failure it
+  /// does nothing.
   void add(const Encoded& observation);
-  /// Writes what waits and ends.
+  /// Writes the queue and ends.
   void close();
-  /// Ends, and removes its files, and its folder if it made that and nothing else is in it.
+  /// Ends and removes its files, and the folder if the recorder made it and it is empty.
   void discard();
 
   struct Statistics {
     std::uint64_t observations = 0;
     std::uint64_t bytes = 0;  ///< written, before compression
     std::uint64_t bytes_on_disk = 0;
-    double seconds = 0;  ///< that the thread worked
+    double seconds = 0;  ///< working time of the thread
   };
   Statistics statistics() const;
-  /// Why recording ended early; empty if it did not. What was written until then can be read.
+  /// Why recording ended early; empty if it did not. The files can be read up to that point.
   std::string failure() const;
-  /// Their names in the folder, as far as they have been begun.
+  /// Names of the files that have been begun, without the folder.
   std::vector<std::string> files() const;
 
  private:
@@ -76,7 +77,7 @@ class Recorder {
   bool has_made_folder_ = false;
   const RecorderOptions options_;
   int file_ = -1;
-  std::uint64_t file_bytes_ = 0;  // of whole blocks in it
+  std::uint64_t file_bytes_ = 0;  // size of the whole blocks in it
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

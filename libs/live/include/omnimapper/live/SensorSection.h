@@ -11,9 +11,10 @@
 
 namespace omnimapper::live {
 
-/// What --live itself reads in a sensor's section, beside the keys of its driver.
+/// The keys of a sensor's section that --live itself reads, in addition to those of its driver.
 struct SensorOptions {
-  /// Whose clock the stamps are by. automatic: the driver's, unless it is far from the host's.
+  /// Source of the stamps. automatic: the driver; if its clock is far from the host's, corrected by the estimated
+  /// offset.
   enum class Clock { automatic, driver, arrival };
 
   Clock clock = Clock::automatic;
@@ -26,17 +27,17 @@ struct SensorOptions {
 struct SensorSection {
   std::string name;    ///< of the section
   std::string driver;  ///< class of mrpt::hwdrivers::CGenericSensor
-  std::string label;   ///< sensorLabel of the section; empty: the driver's own
-  std::string file;    ///< that the section is in, for messages
+  std::string label;   ///< sensorLabel of the section; empty: the driver's default
+  std::string file;    ///< INI file of the section, for messages
   SensorOptions options;
-  std::shared_ptr<const mrpt::config::CConfigFileMemory> ini;  ///< that holds the section
+  std::shared_ptr<const mrpt::config::CConfigFileMemory> ini;  ///< the INI that holds the section
 };
 
 /// The sensors that [live] names, in the order in which they are to be opened: those of its list, then those of its
-/// grabber INI, in the order of that file. Loads its libraries first, and makes each driver once to see
-/// that its keys suit it. Throws Error as makeDriver(); command_line if there is none,
-/// unknown_key for a section that is not there or has no driver, out_of_range for a label that two sensors have,
-/// unreadable_input for a grabber INI that cannot be read, plugin_library for a library that cannot be loaded.
+/// grabber INI, in the order of that file. Loads its libraries first, and makes each driver once to check its keys.
+/// Throws Error as makeDriver(); command_line if there is none, unknown_key for a section that is not there or has no
+/// driver, out_of_range for a label that two sensors have, unreadable_input for a grabber INI that cannot be read,
+/// plugin_library for a library that cannot be loaded.
 std::vector<SensorSection> readSensors(const LiveOptions& options, const base::Config& config);
 
 /// The sensors of an INI of MRPT's rawlog-grabber: every section but [global] that is not marked

@@ -5,7 +5,7 @@
 
 namespace omnimapper::live {
 
-/// Owns an open file of the system, such as a socket.
+/// Owns a file descriptor, such as that of a socket.
 class Descriptor {
  public:
   explicit Descriptor(int file = -1) : file_(file) {}
@@ -32,13 +32,13 @@ struct SocketAddress {
 /// "127.0.0.1:7000".
 std::string toString(const SocketAddress& address);
 
-/// A socket that takes TCP connections, or UDP datagrams. Neither ever blocks, nor is handed to child processes. Throw
-/// Error(out_of_range) for an address that is not numeric, Error(unreadable_input) where it cannot be bound, such as a
-/// port in use; the message names address, reason and remedy.
+/// A socket that takes TCP connections, or UDP datagrams. Neither ever blocks, and child processes do not inherit them.
+/// Both throw Error(out_of_range) for an address that is not numeric, and Error(unreadable_input) if it cannot be
+/// bound, for example because the port is in use; the message names address, reason and remedy.
 Descriptor listenTcp(const SocketAddress& address);
 Descriptor bindUdp(const SocketAddress& address);
 
-/// The port to which the socket is bound, for those that the system chose.
+/// The port to which the socket is bound, also if the system chose it.
 std::uint16_t boundPort(const Descriptor& socket);
 
 }  // namespace omnimapper::live

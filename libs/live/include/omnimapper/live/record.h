@@ -11,24 +11,24 @@
 
 namespace omnimapper::live {
 
-/// How a recording went.
+/// The result of a recording.
 struct Recorded {
   std::vector<std::string> files;  ///< rawlogs, with the folder
   std::vector<SensorMetrics> sensors;
   LiveCounts counts;
   Recorder::Statistics statistics;
-  double seconds = 0;   ///< that sensors were open
+  double seconds = 0;   ///< for which the sensors were open
   std::string failure;  ///< why it ended early; empty if it did not
 
   base::ExitCode code() const;
 };
 
-/// Records the sensors of an INI into `folder`, made if missing, until `stop`, the recording fails, or for `seconds`
-/// if that is not 0. Throws Error as readSensors(), LiveSource::open() and Recorder.
+/// Records the sensors of an INI into `folder`, made if missing, until `stop` returns true, the recording fails, or
+/// `seconds` have passed (0: no limit). Throws Error as readSensors(), LiveSource::open() and Recorder.
 Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
                 base::Progress& progress, const std::function<bool()>& stop);
 
-/// A sentence for each sensor that sent nothing that can be used, or was silent or lost at the end.
+/// A sentence for each sensor that sent no usable data, or was silent or lost at the end.
 std::vector<std::string> troublesOf(const Recorded& recorded);
 
 /// The summary for a screen.

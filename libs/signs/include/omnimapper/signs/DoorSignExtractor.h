@@ -15,36 +15,36 @@ struct DoorSignOptions {
   enum class Backend { opencv, onnx_runtime };
   enum class Reader { network, tesseract };
   Detector detector = Detector::text;
-  std::string model;                  ///< of the classifier; empty: the one that is shipped
-  double min_score = 0.6;             ///< of a region, by the classifier
+  std::string model;                  ///< file of the classifier; empty: the shipped one
+  double min_score = 0.6;             ///< smallest probability of a region that the classifier accepts
   std::string models;                 ///< folder of the networks; empty: where scripts/models puts them
-  Backend backend = Backend::opencv;  ///< what computes them
-  Reader reader = Reader::network;    ///< of lines
-  std::string letters;                ///< what texts consist of; empty: Alphabet::common()
-  double min_confidence = 0.3;        ///< of a line; others are left out
-  double min_height = 8;              ///< [px] of a line; lower ones are left out
-  double least_change = 16;           ///< [grey levels] of some part of an image; else it shows nothing new
+  Backend backend = Backend::opencv;  ///< library that runs the networks
+  Reader reader = Reader::network;    ///< what reads the lines of text
+  std::string letters;                ///< characters that texts consist of; empty: Alphabet::common()
+  double min_confidence = 0.3;        ///< lines with a lower confidence are left out
+  double min_height = 8;              ///< [px] lines of text that are lower are left out
+  double least_change = 16;           ///< [grey levels] smallest change in some part of an image that makes it new
 
   static const base::OptionTable<DoorSignOptions>& table();
 };
 
-/// What the label of an image's signs has behind the image's own.
+/// The label of an image's signs is the image's label with this suffix.
 inline constexpr char kSignsSuffix[] = ".signs";
 
-/// The door signs that an image shows, with what is written on them (thesis 3.5.1.1 and 3.5.3): lines of text are found
-/// by a network (TextDetector) and read by another or by Tesseract, and the plate that they are on is found about them
-/// (findPlates).
+/// Finds the door signs in an image and reads what is written on them (thesis 3.5.1.1 and 3.5.3). A network finds lines
+/// of text (TextDetector), another one or Tesseract reads them, and findPlates() finds the plate around them.
 ///
-/// Each image makes one observation: stamp of the image, label "<label>.signs", sensorPose the camera's, z forward;
-/// signs from the left to the right of the image. A ray goes to where the diagonals of the sign cross; the range is
-/// left to who knows more. The score of a sign is that of its lines as text, or the classifier's. The confidence of a
-/// text is the probability that it was read right (doc/results/signs.md); the patch is the plate alone, upright.
-/// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them.
+/// Each image gives one observation with the image's stamp, the label "<label>.signs" and the camera's pose as
+/// sensorPose (z forward); its signs are sorted from left to right. The ray of a sign points to where its diagonals
+/// cross; the range is set if the same observation has depths of the plate (PlateRanges). The score of a sign is the
+/// best score of its lines as text, or the classifier's. The confidence of a text is the probability that it was read
+/// correctly (doc/results/signs.md); the patch shows the plate alone, upright. Images must have 8 bits and 1 or 3
+/// channels; others give no signs. Lens models are those of MRPT's TCamera.
 ///
 /// The constructor throws Error(unreadable_input) if a network is missing or broken, and Error(plugin_library) if ONNX
-/// Runtime or Tesseract is; signsIn() Error(missing_images) for an image that is in a file and was not loaded, and
-/// Error(unreadable_input) for a camera without a calibration that can be used, or with one of images of another shape
-/// (of images of the same shape it is scaled). Thread-safe; the same image gives the same bits on one kind of
+/// Runtime or Tesseract is; signsIn() throws Error(missing_images) for an image in a file that was not loaded, and
+/// Error(unreadable_input) for a camera without a usable calibration or with one for images of another aspect ratio (a
+/// calibration for the same aspect ratio is scaled). Thread-safe; the same image gives the same bits on one kind of
 /// processor.
 class DoorSignExtractor : public perception::Extractor {
  public:
@@ -54,13 +54,13 @@ class DoorSignExtractor : public perception::Extractor {
   explicit DoorSignExtractor(const DoorSignOptions& options);
   ~DoorSignExtractor() override;
 
-  /// Of the picture that it brings (perception::pictureOf()); without one there are no signs.
+  /// The signs in the image of `raw` (perception::pictureOf()); none if it has no image.
   obs::CObservationDoorSigns::Ptr signsIn(const mrpt::obs::CObservation& raw) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
   std::vector<perception::DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
-  /// Images that differ from the one before by less than `least_change` show nothing new.
+  /// An image that differs from the camera's last new one by less than `least_change` is not new.
   std::unique_ptr<perception::Novelty> novelty() const override;
 
  private:

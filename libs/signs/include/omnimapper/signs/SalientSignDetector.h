@@ -6,13 +6,13 @@
 namespace omnimapper::signs {
 
 struct SalientSignOptions {
-  double min_score = 0.6;  ///< of a region that is reported
-  std::string model;       ///< file of SignClassifier; empty: the one that is shipped
+  double min_score = 0.6;  ///< smallest score of a region that is reported
+  std::string model;       ///< file of the SignClassifier; empty: the shipped one
   SaliencyOptions saliency;
 };
 
-/// The thesis's way to find door signs: what is salient (3.5.1.1), told by a support vector machine (3.5.3). Of regions
-/// that lie on one another the one with the best score is kept.
+/// Finds door signs as the thesis does: a support vector machine (3.5.3) classifies salient regions (3.5.1.1). Of
+/// regions that overlap, the one with the best score is kept.
 class SalientSignDetector : public SignDetector {
  public:
   /// Throws as SignClassifier::read().

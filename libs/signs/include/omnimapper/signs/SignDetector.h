@@ -9,8 +9,8 @@
 
 namespace omnimapper::signs {
 
-/// Upper left, upper right, lower right, lower left, as the text is read [px]: x to the right, y down, (0, 0) the
-/// middle of the upper left pixel.
+/// The upper left, upper right, lower right and lower left corner [px], as the text is read: x to the right, y down,
+/// (0, 0) is the middle of the upper left pixel.
 using Corners = std::array<Eigen::Vector2f, 4>;
 
 /// A region of a picture that may be a door sign.
@@ -23,13 +23,14 @@ struct SignRegion {
 class SignDetector {
  public:
   virtual ~SignDetector() = default;
-  /// Best first. None in a picture without pixels. Throws Error(unreadable_input) for a picture that is described
-  /// wrongly: a size below 0, rows longer than their stride, no memory.
+  /// The signs, best score first; none in a picture without pixels. Throws Error(unreadable_input) if the description
+  /// of the picture is invalid: a size below 0, rows longer than their stride, or no memory.
   virtual std::vector<SignRegion> detect(const perception::ColourImage& picture) const = 0;
 };
 
-/// The pixels of a picture, which must outlive them. Throws Error(unreadable_input) if they are not of 8 bits with one
-/// or three channels, and Error(missing_images) if they are in a file that was not loaded and is not there.
+/// A view of the pixels of a picture, which must outlive it. Throws Error(unreadable_input) if the picture does not
+/// have 8 bits and one or three channels, and Error(missing_images) if it is in a file that was not loaded and is
+/// missing.
 perception::ColourImage pixelsOf(const mrpt::img::CImage& picture);
 
 }  // namespace omnimapper::signs

@@ -14,11 +14,11 @@
 namespace omnimapper::signs {
 
 struct SignTrainingOptions {
-  double cost = 10;        ///< C of the support vector machine: what a region on the wrong side costs
-  double gamma = 1;        ///< of the kernel, as SignModel's
-  int folds = 3;           ///< of cross-validation
-  int others = 30;         ///< regions that are no signs, of a picture at most, chosen by chance
-  double min_score = 0.3;  ///< above this a probability counts as a sign in the tables
+  double cost = 10;        ///< C of the support vector machine, the cost of a region on the wrong side
+  double gamma = 1;        ///< of the kernel, as in SignModel
+  int folds = 3;           ///< number of folds of the cross-validation
+  int others = 30;         ///< largest number of regions without a sign of each picture, drawn at random
+  double min_score = 0.3;  ///< probability above which a region counts as a sign in the tables
   int seed = 1;
   HogOptions hog;
   SaliencyOptions saliency;
@@ -26,56 +26,58 @@ struct SignTrainingOptions {
   static const base::OptionTable<SignTrainingOptions>& table();
 };
 
-/// A region of a training picture that is a sign, or nothing of one.
+/// A region of a training picture, which is a sign or shows nothing of one.
 struct LabelledRegion {
   SignFeatures features;
   bool is_sign = false;
-  std::string group;  ///< regions of one group are never both learnt and tried: the sign, else the picture
+  std::string group;  ///< the sign, else the picture; regions of one group are never in both training and test
 };
 
-/// What the proposer found in the pictures of a building.
+/// The regions that the proposer found in the pictures of a building.
 struct RegionSet {
   std::string name;
   int pictures = 0;
-  int signs = 0;  ///< in the pictures, that count (see counts())
-  int found = 0;  ///< of them, with a region that overlaps by half
+  int signs = 0;  ///< number of signs in the pictures that count (see counts())
+  int found = 0;  ///< number of these signs with a region that overlaps by at least half
   std::vector<LabelledRegion> regions;
 };
 
-/// A region is a sign if its upright box and that of a true sign share at least half of what they cover together. It is
-/// none if they share less than 0.3; what is between, or on a sign that is hidden, cut off or too small, is left out.
-/// Throws as SignDetector::detect(), and Error(interrupted) when `stop` says so.
+/// Proposes regions in all pictures and labels them. A region is a sign if its upright box and that of a true sign have
+/// an intersection over union of at least 0.5, and it is none below 0.3. Regions in between, and regions on a sign that
+/// is hidden, cut off or too small, are left out. Throws as SignDetector::detect(), and Error(interrupted) when `stop`
+/// returns true.
 RegionSet gatherRegions(const TrainingSet& set, const SignTrainingOptions& options, base::Progress& progress,
                         const std::function<bool()>& stop = {});
 
-/// A support vector machine (OpenCV's, C-SVC) on all regions; its probability is fitted to what machines trained on the
-/// other folds say of each fold (Platt: Probabilistic outputs for support vector machines, 1999; by Lin, Lin, Weng: A
-/// note on Platt's probabilistic outputs, 2007), both classes weighing the same. The same regions and options give the
-/// same bits. Throws Error(unreadable_input) unless there are two groups of signs and two of others.
+/// Trains a support vector machine (C-SVC of OpenCV) on all regions. Its probability is fitted to the decision values
+/// of each fold, which come from machines trained on the other folds, with equal weight for both classes (Platt:
+/// Probabilistic outputs for support vector machines, 1999; by Lin, Lin, Weng: A note on Platt's probabilistic outputs,
+/// 2007). The same regions and options give the same bits. Throws Error(unreadable_input) unless there are two groups
+/// of signs and two of others.
 SignClassifier trainClassifier(const std::vector<const RegionSet*>& sets, const SignTrainingOptions& options);
 
 /// How often a classifier is right.
 struct SignRates {
-  int signs = 0, others = 0;            ///< regions
-  int signs_told = 0, others_told = 0;  ///< of them, rightly
+  int signs = 0, others = 0;              ///< number of regions with a sign, and of others
+  int signs_right = 0, others_right = 0;  ///< number of these that were classified correctly
 
-  double truePositive() const { return signs > 0 ? static_cast<double>(signs_told) / signs : 0; }
-  double trueNegative() const { return others > 0 ? static_cast<double>(others_told) / others : 0; }
+  double truePositive() const { return signs > 0 ? static_cast<double>(signs_right) / signs : 0; }
+  double trueNegative() const { return others > 0 ? static_cast<double>(others_right) / others : 0; }
 };
 SignRates tryClassifier(const SignClassifier& classifier, const RegionSet& set, double min_score);
 
-/// One row of the thesis's Tables 6 and 7: who was trained on, and how it does.
+/// One row of the thesis's Tables 6 and 7: the sets that a classifier was trained on, and its rates.
 struct SignTrial {
   std::string name;               ///< of the set, or of all sets together
-  SignRates cross_validated;      ///< over the folds of what it was trained on (Table 6)
-  int vectors = 0;                ///< support vectors of the classifier of all
-  std::vector<SignRates> across;  ///< on each set in turn (Table 7); on sets that it was trained on, over the folds
+  SignRates cross_validated;      ///< over the folds of the sets that it was trained on (Table 6)
+  int vectors = 0;                ///< number of support vectors of the classifier that was trained on all folds
+  std::vector<SignRates> across;  ///< on each set (Table 7); on sets that it was trained on, over the folds
 };
 /// A row for each set, and one for all of them if there are several. Throws as trainClassifier().
 std::vector<SignTrial> crossValidate(const std::vector<RegionSet>& sets, const SignTrainingOptions& options,
                                      base::Progress& progress, const std::function<bool()>& stop = {});
 
-/// Both tables, and what was found, as text.
+/// Both tables, and the counts of the regions, as text.
 std::string toText(const std::vector<RegionSet>& sets, const std::vector<SignTrial>& trials);
 
 }  // namespace omnimapper::signs

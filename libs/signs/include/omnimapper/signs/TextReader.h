@@ -7,11 +7,12 @@
 
 namespace omnimapper::signs {
 
-/// A line of text as a reader reads it.
+/// The result of reading a line of text.
 struct Reading {
   std::string text;                   ///< UTF-8
-  std::vector<double> probabilities;  ///< of each letter by the reader's own word, 0 to 1
-  /// Least probability of what was taken where the reader saw a letter that the alphabet has not; 1 if it saw none.
+  std::vector<double> probabilities;  ///< of each letter, as the reader reports it, 0 to 1
+  /// Where the reader's likeliest letter is not in the alphabet, another one is taken: the smallest probability of
+  /// these; 1 if there are none.
   double of_left_out = 1;
 };
 
@@ -19,28 +20,28 @@ struct Reading {
 class TextReader {
  public:
   virtual ~TextReader() = default;
-  /// `patch` is BGR, upright, and holds the line alone. Thread-safe.
+  /// `patch` is BGR, upright, and shows only the line. Thread-safe.
   virtual Reading read(const perception::ColourImage& patch) const = 0;
 };
 
-/// What a text may consist of: letters, of which some stand for others.
+/// The letters that a text may consist of. Some other letters are replaced by one of them.
 class Alphabet {
  public:
-  /// `letters` in UTF-8. A middle dot is read as a hyphen where the alphabet has one.
+  /// `letters` in UTF-8. Middle dots and dashes are read as hyphens if the alphabet has the hyphen.
   explicit Alphabet(const std::string& letters);
-  /// The letter that counts for this one, empty if the alphabet has none.
+  /// The letter of the alphabet that this one is read as; empty if there is none.
   std::string letterFor(const std::string& letter) const;
   /// All letters and the blank.
   const std::vector<std::string>& letters() const { return letters_; }
 
-  /// Letters of the English alphabet, digits, and what signs have besides.
+  /// Letters of the English alphabet, digits, and the punctuation of signs.
   static const char* common();
 
  private:
   std::vector<std::string> letters_;
 };
 
-/// The letters of a text in UTF-8, one by one; bytes that are no UTF-8 are left out.
+/// The letters of a text in UTF-8, one by one; bytes that are not valid UTF-8 are left out.
 std::vector<std::string> lettersOf(const std::string& text);
 
 }  // namespace omnimapper::signs

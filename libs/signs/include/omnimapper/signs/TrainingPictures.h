@@ -9,17 +9,17 @@
 
 namespace omnimapper::signs {
 
-/// A door sign that a training picture truly shows.
+/// A door sign that a training picture shows (ground truth).
 struct TrueSign {
-  std::string sign;  ///< which one: the same name in every picture of it; empty: not known
+  std::string sign;  ///< its name, the same in every picture of it; empty if it is not known
   Corners corners_px;
-  double visible = 1;  ///< part of it that is in the picture and not hidden
+  double visible = 1;  ///< share of it that is in the picture and not hidden
 };
 
-/// Whether it can be asked of a detector: at least 0.9 of it is visible, and 24 px high.
+/// Whether a detector is expected to find the sign: at least 0.9 of it is visible, and it is at least 24 px high.
 bool counts(const TrueSign& sign);
 
-/// A picture with all signs that it shows something of.
+/// A picture with all signs that it shows at least in part.
 struct TrainingPicture {
   std::string name;
   std::function<mrpt::img::CImage()> load;  ///< called when its pixels are needed; from one thread at a time
@@ -32,16 +32,16 @@ struct TrainingSet {
   std::vector<TrainingPicture> pictures;
 };
 
-/// The pictures (.jpg, .jpeg, .png) of a folder, sorted by name, with their signs from either of
+/// Reads the pictures (.jpg, .jpeg, .png) of a folder, sorted by name, with their signs from either of
 ///
 /// - signs.csv, whose first line names its columns, in any order: `image` (a file of the folder), `x1`, `y1` to `x4`,
 ///   `y4` (the corners: upper left, upper right, lower right, lower left as the sign is read [px]), and, if known,
-///   `sign` (which one it is, so that no sign is both learnt and tried) and `visible` (part of it that the picture
-///   shows, 0 to 1). A line for each sign; a picture without a line shows none. Other columns are skipped.
+///   `sign` (its name, so that no sign is in both training and test) and `visible` (share of it that the picture shows,
+///   0 to 1). Each sign has a line; a picture without a line shows no sign. Other columns are skipped.
 /// - NAME.mask.png beside each picture NAME, of its size: signs are white. Pictures without a mask are left out.
 ///
 /// The set is named after the folder. Throws Error(unreadable_input), naming file and line, for a folder that is
-/// missing or has neither, a picture that is not there, or a line that is not of this form.
+/// missing or has neither, a picture that is missing, or a line that is not of this form.
 TrainingSet readTrainingFolder(const std::string& folder);
 
 }  // namespace omnimapper::signs

@@ -12,8 +12,8 @@ class TessBaseAPI;
 
 namespace omnimapper::tesseract_reader {
 
-/// Reads by Tesseract 5 (Smith: An overview of the Tesseract OCR engine, 2007; since version 4 a recurrent network),
-/// with its English letters. Of threads that read at once each has an engine of its own.
+/// Reads with Tesseract 5 (Smith: An overview of the Tesseract OCR engine, 2007; since version 4 a recurrent network)
+/// and its English letters. Threads that read at the same time use separate engines.
 class TesseractReader : public signs::TextReader {
  public:
   /// Throws Error(plugin_library) if Tesseract has no English letters.
