@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/graph/Consistency.h>
-#include <omnimapper/graph/Initialisation.h>
+#include <omnimapper/graph/Initialization.h>
 #include <omnimapper/graph/PointFactor.h>
 #include <omnimapper/graph/Prior.h>
 
@@ -294,7 +294,7 @@ TEST_P(ConsistencyMethodTest, ManyAtOnceAreJudgedAsIfOneAfterAnother) {
       truth.push_back(false);
     }
   }
-  initialiseByChaining(world.graph);
+  initializeByChaining(world.graph);
   ConsistencyOptions options;
   options.method = GetParam();
   const std::vector<Verdict> verdicts = testConsistency(world.graph, fresh, options);

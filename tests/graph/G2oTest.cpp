@@ -148,7 +148,7 @@ TEST(G2o, WrittenAndReadAgainIsTheSameGraph) {
   ASSERT_EQ(back.variables().size(), graph.variables().size());
   ASSERT_EQ(back.factors().size(), graph.factors().size());
   for (const auto& [id, record] : graph.variables()) {
-    EXPECT_LT((back.value(id) - record.value).norm(), 1e-15);  // quaternions are normalised again
+    EXPECT_LT((back.value(id) - record.value).norm(), 1e-15);  // quaternions are normalized again
     EXPECT_EQ(back.variable(id).fixed, record.fixed);
   }
   EXPECT_NEAR(g2oChi2(back), g2oChi2(graph), 1e-9 * g2oChi2(graph));

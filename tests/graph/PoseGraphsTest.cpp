@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <omnimapper/graph/G2o.h>
-#include <omnimapper/graph/Initialisation.h>
+#include <omnimapper/graph/Initialization.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/testing/Fixtures.h>
 
 namespace omnimapper::graph::pose_graphs_test {
 namespace {
 
-/// A public benchmark graph and the chi-square of its optimum in g2o's convention. InitialisationTest.cpp has the same
+/// A public benchmark graph and the chi-square of its optimum in g2o's convention. InitializationTest.cpp has the same
 /// tests with simulated graphs.
 struct PoseGraph {
   const char* file;
@@ -39,7 +39,7 @@ TEST_P(PoseGraphsTest, ReachesTheOptimumFromChainedOdometry) {
   const auto path = testing::sharedData(std::string("posegraphs/") + GetParam().file);
   OMNIMAPPER_NEEDS(path);
   Graph graph = readG2o(*path).graph;
-  initialiseByChaining(graph);
+  initializeByChaining(graph);
   expectOptimum(graph);
 }
 
@@ -47,7 +47,7 @@ TEST_P(PoseGraphsTest, ReachesTheOptimumFromRotationsFirst) {
   const auto path = testing::sharedData(std::string("posegraphs/") + GetParam().file);
   OMNIMAPPER_NEEDS(path);
   Graph graph = readG2o(*path).graph;
-  initialiseRotationsFirst(graph);
+  initializeRotationsFirst(graph);
   expectOptimum(graph);
 }
 

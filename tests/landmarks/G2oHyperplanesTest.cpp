@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/G2o.h>
-#include <omnimapper/graph/Linearised.h>
+#include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/landmarks/PlaneVariable.h>
@@ -49,7 +49,7 @@ std::string written(const graph::Graph& graph) {
   return out.str();
 }
 
-/// The cost that g2o minimises for one edge, written from its sources: edge_se2_line2d.h, edge_se3_plane_calib.h,
+/// The cost that g2o minimizes for one edge, written from its sources: edge_se2_line2d.h, edge_se3_plane_calib.h,
 /// plane3d.h.
 using Cost = std::function<double(const VectorXd& pose, const VectorXd& hyperplane)>;
 
@@ -106,7 +106,7 @@ VectorXd gradient(const graph::Graph& graph, const std::vector<base::VariableId>
 
 void expectTheSameGradient(const graph::Graph& graph, const std::vector<base::VariableId>& variables,
                            const Cost& cost) {
-  const graph::Linearised ours(graph, (*graph.factors().begin()).first);
+  const graph::Linearized ours(graph, (*graph.factors().begin()).first);
   for (const std::size_t by : {0U, 1U}) {
     const VectorXd expected = ours.jacobians[by].transpose() * ours.residual;
     ASSERT_GT(expected.norm(), 1) << "nothing is asked";
@@ -161,7 +161,7 @@ TEST(G2oHyperplanes, AnUprightPlaneOfAPlanarMapIsALine) {
     const std::string text = written(graph);
     const auto edge = numbersOf(text, "EDGE_SE2_LINE2D");
     ASSERT_EQ(edge.size(), 7U) << text;
-    const graph::Linearised ours(graph, (*graph.factors().begin()).first);
+    const graph::Linearized ours(graph, (*graph.factors().begin()).first);
     const VectorXd by_pose = ours.jacobians[0].transpose() * ours.residual;
     EXPECT_LT((gradient(graph, {pose, plane}, 0, lineCost(edge)) - by_pose).norm(), 2e-3 * by_pose.norm());
   }

@@ -75,7 +75,7 @@ TEST(NewestPose, isThatOfTheLastFrameBehindTheLastKeyFrame) {
 }
 
 TEST(DenseTrajectory, aDriftKeepsItsDirectionInTheMapWhileTheRobotTurns) {
-  // The robot turns a half circle on the spot while the optimised end lies 0.2 m along the map's x.
+  // The robot turns a half circle on the spot while the optimized end lies 0.2 m along the map's x.
   map::KeyFrame first = keyFrame(0, 0, {});
   first.dependents = {{at(0.5), CPose3D(0, 0, 0, M_PI / 2, 0, 0)}};
   first.keyframe_from_next = CPose3D(0, 0, 0, M_PI, 0, 0);

@@ -105,7 +105,7 @@ TEST(CloudMatcher, OneWallLeavesThreeDirectionsOpenAndTwoLeaveOneAndThereItIsAsG
 
 TEST(CloudMatcher, ItsCovarianceIsOfTheErrorsSize) {
   const Se3 target_from_source = motion(0.02, -0.01, 0.015, 1);
-  double normalised = 0;
+  double normalized = 0;
   constexpr int kSeeds = 40;
   for (int seed = 0; seed < kSeeds; ++seed) {
     const MatchCloud target(corner(3, 100 + seed, 0.002)),
@@ -114,10 +114,10 @@ TEST(CloudMatcher, ItsCovarianceIsOfTheErrorsSize) {
     options.alike = 1;  // each point has an error of its own
     const auto match = IteratedClosestPoints(options).match(target, source, {});
     const auto off = minus(match.target_from_source, target_from_source);
-    normalised += off.dot(match.covariance.ldlt().solve(off)) / 6 / kSeeds;
+    normalized += off.dot(match.covariance.ldlt().solve(off)) / 6 / kSeeds;
   }
-  EXPECT_GT(normalised, 0.5);
-  EXPECT_LT(normalised, 3) << "a target's point counts for several of the source";
+  EXPECT_GT(normalized, 0.5);
+  EXPECT_LT(normalized, 3) << "a target's point counts for several of the source";
 }
 
 TEST(CloudMatcher, WhatDoesNotOverlapFailsAndStaysAtTheGuess) {

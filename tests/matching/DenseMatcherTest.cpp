@@ -141,7 +141,7 @@ TEST(DenseMatcher, ItsCovarianceIsOfTheErrorsSize) {
     const Vector6d off = minus(match.reference_from_image, kMotion);
     sum += off.dot(match.covariance.ldlt().solve(off)) / runs;
   }
-  RecordProperty("normalised_error", std::to_string(sum / 6));
+  RecordProperty("normalized_error", std::to_string(sum / 6));
   EXPECT_GT(sum / 6, 0.2);
   EXPECT_LT(sum / 6, 5);
 }

@@ -1,4 +1,4 @@
-// What broken sensors, drivers and logs give, to each extractor that it concerns: a clear error or nothing found.
+// Gives each extractor what broken sensors, drivers and logs produce. It must find nothing or throw a clear error.
 #include <gtest/gtest.h>
 #include <mrpt/maps/CPointsMap.h>
 #include <omnimapper/base/Error.h>
@@ -24,7 +24,7 @@ using mrpt::obs::CObservation3DRangeScan;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr Pinhole kCamera{kFocal, kFocal, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1)};
 
-/// How much of each kind was found.
+/// Number of results of each kind.
 struct Found {
   std::size_t planes = 0, objects = 0, ground = 0, edges = 0, rgb_edges = 0;
 };
@@ -39,7 +39,7 @@ bool operator==(const Found& a, const Found& b) {
          a.rgb_edges == b.rgb_edges;
 }
 
-// By every extractor of depth images.
+// Runs every extractor of depth images.
 Found extractAll(const CObservation3DRangeScan& scan) {
   Found found;
   found.planes = PlaneExtractor({}, {}).extract(scan)->planes.size();
@@ -54,7 +54,7 @@ Found extractAll(const CObservation3DRangeScan& scan) {
   return found;
 }
 
-// By everything that takes a depth image.
+// Runs everything that takes a depth image.
 Found findAll(const std::vector<float>& metres) {
   const DepthImage image(metres.data(), kWidth, kHeight, kCamera);
   Found found;
@@ -96,11 +96,11 @@ TEST(BadInput, AScanWithoutAnythingGivesNothing) {
   CObservation3DRangeScan scan;
   EXPECT_EQ(extractAll(scan), Found());
   scan.hasRangeImage = scan.hasIntensityImage = true;
-  EXPECT_EQ(extractAll(scan), Found()) << "it says that there are images, and there are none";
+  EXPECT_EQ(extractAll(scan), Found()) << "the scan declares images but has none";
 }
 
 TEST(BadInput, SaturatedPixelsAreHoles) {
-  // The right half is beyond 6.5 m, which 16 bits cannot tell in this unit.
+  // The right half is beyond 6.5 m, the largest depth that 16 bits hold in this unit.
   const auto scan = rangeScan([](int x, int) { return x < kWidth / 2 ? 2. : 7.; });
   const auto planes = PlaneExtractor({}, {}).extract(scan)->planes;
   ASSERT_EQ(planes.size(), 1U);
@@ -128,7 +128,7 @@ TEST(BadInput, PointsWithoutOrderAreNoImage) {
   scan.hasPoints3D = true;
   scan.resizePoints3DVectors(1000);
   for (std::size_t i = 0; i < 1000; ++i) scan.points3D_x[i] = 2;
-  EXPECT_EQ(extractAll(scan), Found()) << "no extractor of depth images takes them for one";
+  EXPECT_EQ(extractAll(scan), Found()) << "no extractor takes them for a depth image";
 }
 
 TEST(BadInput, PlanesOfAnotherImageAreRefused) {
@@ -166,7 +166,7 @@ TEST(BadInput, AScanWithOneValidBeamHasNoLineAndOnePoint) {
   EXPECT_EQ(cloud.pointcloud->size(), 1U);
 }
 
-TEST(BadInput, AScanWhoseBeamsGoNobodyKnowsWhereHasNeitherLinesNorPoints) {
+TEST(BadInput, AScanWhoseBeamsHaveNoKnownDirectionHasNeitherLinesNorPoints) {
   mrpt::obs::CObservation2DRangeScan scan;
   scan.maxRange = 30;
   scan.resizeScan(181);

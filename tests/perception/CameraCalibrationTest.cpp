@@ -29,7 +29,7 @@ mrpt::obs::CObservation3DRangeScan changed(const std::string& keys) {
   return scan;
 }
 
-TEST(CameraCalibration, ANumberThatIsNotToldStaysAsTheLogHasIt) {
+TEST(CameraCalibration, AParameterThatIsNotGivenStaysAsTheLogHasIt) {
   const auto scan = changed("picture_fx_px = 517.3\npicture_k2 = -0.9\n");
   EXPECT_EQ(scan.cameraParamsIntensity.fx(), 517.3);
   EXPECT_EQ(scan.cameraParamsIntensity.fy(), 526);
@@ -80,7 +80,7 @@ TEST(CameraCalibration, OnlyTheCameraOfThatLabelIsMeant) {
   EXPECT_FALSE(labelled.isOf("other"));
 }
 
-TEST(CameraCalibration, OfAFisheyeLensNothingIsKeptWhereAnotherLensIsTold) {
+TEST(CameraCalibration, OfAFisheyeLensNothingIsKeptWhereAnotherLensIsGiven) {
   auto scan = camera();
   scan.cameraParams.distortion = mrpt::img::DistortionModel::kannala_brandt;
   scan.cameraParams.dist[5] = 1;

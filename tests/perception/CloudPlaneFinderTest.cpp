@@ -2,7 +2,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/perception/CloudPlaneFinder.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using Cloud = std::vector<Eigen::Vector3f>;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// Points every 2 cm of a rectangle from (x, y), at height z; the sensor is at the origin.
+// Adds a point every 2 cm on a rectangle from (x, y), at height z; the sensor is at the origin.
 void addTable(double x, double y, double length, double width, double z, Cloud& cloud) {
   for (int i = 0; i <= std::lround(length / 0.02); ++i) {
     for (int k = 0; k <= std::lround(width / 0.02); ++k)
@@ -128,7 +128,7 @@ TEST(CloudPlaneFinder, CloudsWithoutSurfacesHaveNone) {
 }
 
 TEST(CloudPlaneFinder, APlaneThroughTheSensorIsNoneThatItSees) {
-  Cloud turn;  // of a laser, in a round room whose wall is not smooth
+  Cloud turn;  // one turn of a laser, in a round room whose wall is not smooth
   for (int i = 0; i < 2000; ++i) {
     const double angle = 2 * M_PI * i / 2000, range = i % 2 == 0 ? 3 : 3.05;
     turn.push_back(Eigen::Vector3d(range * std::cos(angle), range * std::sin(angle), 0.02).cast<float>());
@@ -203,8 +203,8 @@ TEST(CloudPlaneFinder, NoisyRoomsHaveTheirWallsAndTheSameSeedGivesTheSameBits) {
 const geometry::Plane3 kTilted = geometry::Plane3::through({2, 0, -0.5}, Eigen::Vector3d(-0.3, 0.1, 1).normalized());
 constexpr int kClouds = 200;
 
-/// Chi-square of the one plane in each of 200 noisy clouds, with points every `spacing` [m], all of them off by one
-/// draw of `bias` [m] along their rays.
+/// Chi-square of the one plane in each of 200 noisy clouds, with points every `spacing` [m]. One random error with the
+/// standard deviation `bias` [m] moves all points of a cloud along their rays.
 std::vector<double> chi2OfClouds(const CloudPlaneOptions& options, double spacing, double bias) {
   std::vector<double> chi2;
   testing::Dice dice(11);
@@ -233,7 +233,7 @@ double sumOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.);
 }
 
-// Chi-square of 600 degrees of freedom: 95 % within 534 and 670.
+// The sum has 600 degrees of freedom: 95 % lie within 534 and 670.
 TEST(CloudPlaneFinder, TheCovarianceIsThatOfTwoHundredNoisyClouds) {
   auto options = everyPoint();
   options.bias_sigma = 0;
@@ -244,7 +244,7 @@ TEST(CloudPlaneFinder, TheCovarianceIsThatOfTwoHundredNoisyClouds) {
 }
 
 TEST(CloudPlaneFinder, TheCovarianceCountsThePointsThatWereAveraged) {
-  CloudPlaneOptions options;  // a voxel of some twenty points, the gate that is the default
+  CloudPlaneOptions options;  // a voxel has some twenty points; the gate is the default
   options.bias_sigma = 0;
   const double sum = sumOf(chi2OfClouds(options, 0.006, 0));
   EXPECT_GT(sum, 534);
@@ -254,7 +254,7 @@ TEST(CloudPlaneFinder, TheCovarianceCountsThePointsThatWereAveraged) {
 TEST(CloudPlaneFinder, TheCovarianceCountsWhatAllPointsAreOffAlike) {
   CloudPlaneOptions options;
   const auto chi2 = chi2OfClouds(options, 0.01, options.bias_sigma);
-  // That the error may also change over the view is to spare here.
+  // The covariance also includes a change of the error over the view, which there is none of here.
   EXPECT_LT(sumOf(chi2), 670);
   EXPECT_GT(sumOf(chi2), 200);
   const auto beyond = std::count_if(chi2.begin(), chi2.end(), [](double value) { return value > 7.815; });

@@ -9,7 +9,7 @@
 
 namespace omnimapper::perception::rooms {
 
-/// A room of randomRoom() with sheets on its walls and floor, half a millimetre thick, and what colour each face has.
+/// A room of randomRoom() with sheets on its walls and floor, half a millimetre thick, and the colour of each face.
 struct ColouredRoom {
   Scene scene;
   std::vector<std::array<double, 3>> colours;  ///< red, green, blue of each face, up to 255
@@ -19,7 +19,7 @@ inline std::array<double, 3> randomColour(testing::Dice& dice) {
   return {dice.uniform(40, 230), dice.uniform(40, 230), dice.uniform(40, 230)};
 }
 
-/// The colours of sheets are 80 or more from that of what they lie on.
+/// The colour of each sheet differs by at least 80 from that of the face it lies on.
 inline ColouredRoom colouredRoom(testing::Dice& dice, int sheets = 8) {
   ColouredRoom room{randomRoom(dice), {}};
   for (std::size_t i = 0; i < room.scene.faces.size(); ++i) room.colours.push_back(randomColour(dice));
@@ -41,8 +41,8 @@ inline ColouredRoom colouredRoom(testing::Dice& dice, int sheets = 8) {
   return room;
 }
 
-/// The picture of the depth image's view: light that falls off by 40 % from one corner to the opposite one, edges three
-/// pixels wide, and noise of 4 steps of 256.
+/// A picture in the view of the depth image: light falls off by 40 % from one corner to the opposite one, edges are
+/// three pixels wide, and the noise is 4 of 256 steps.
 inline std::vector<obs::Rgb> picture(const ColouredRoom& room, const View& view, testing::Dice& dice) {
   const int width = room.scene.width, height = room.scene.height;
   const auto lit = [&](int x, int y, std::size_t channel) {

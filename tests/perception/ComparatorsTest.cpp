@@ -22,7 +22,7 @@ std::vector<float> cornerOfARoom() {
   return depth;
 }
 
-// Sizes of components from the largest to the smallest that counts.
+// Sizes of the components with at least `fewest` pixels, the largest first.
 std::vector<int> sizes(const Components& components, int fewest) {
   std::vector<int> kept;
   for (const int pixels : components.pixels) {
@@ -43,7 +43,7 @@ TEST(SmoothComparator, PartsTheWallsOfACorner) {
   for (const int pixels : large) EXPECT_NEAR(pixels, kWidth * kHeight / 2, kHeight * 6);
 }
 
-/// A picture of greys, all of it on plane 1.
+/// A grey picture, all of it on plane 1.
 struct Greys {
   explicit Greys(int columns, const std::vector<std::uint8_t>& values) : width(columns), planes(values.size(), 1) {
     for (const std::uint8_t v : values) colours.push_back({v, v, v});
@@ -71,7 +71,7 @@ TEST(ColouredPlaneComparator, AnEdgeThatIsFourPixelsWideIsOne) {
 }
 
 TEST(ColouredPlaneComparator, LightThatChangesSlowlyPartsNothing) {
-  // By 4 a pixel in each channel: 16 sqrt(3) = 27.7 from two before to two behind, 140 from one end to the other.
+  // Each channel changes by 4 a pixel: 16 sqrt(3) = 27.7 from two pixels before to two behind, 140 from end to end.
   std::vector<std::uint8_t> ramp;
   for (std::uint8_t i = 0; i < 36; ++i) ramp.push_back(static_cast<std::uint8_t>(50 + 4 * i));
   EXPECT_EQ(labelsOf(Greys(36, ramp)), std::vector<int>(36, 1));
@@ -93,7 +93,7 @@ TEST(ColouredPlaneComparator, LooksAtNoOtherPlaneAndNotRoundTheImagesEdge) {
 }
 
 TEST(ConnectPieces, BordersSpecksAndThinPrintJoinWhatIsBesideThem) {
-  // Two sheets, side by side; a line of print and a speck on the left one.
+  // Two sheets side by side, with a line of print and a speck on the left one.
   const int width = 16, height = 12;
   std::vector<std::uint8_t> values;
   for (int i = 0; i < width * height; ++i) values.push_back(i % width < 8 ? 50 : 150);
@@ -124,7 +124,7 @@ TEST(GrowLabels, RingByRingAsWorkedByHand) {
   EXPECT_EQ(labels, (std::vector<int>{5, 5, 5, 5, 5, 5, 0, 7, 7}));
 }
 
-TEST(ClusterComparator, PartsThingsOnceTheirTableIsMasked) {
+TEST(ClusterComparator, SeparatesObjectsOnceTheirTableIsMasked) {
   // Two blocks stand before a wall, and touch it in the image.
   std::vector<float> depth(kWidth * kHeight, 1.F);
   std::vector<std::uint16_t> labels(depth.size(), 1);
@@ -141,7 +141,7 @@ TEST(ClusterComparator, PartsThingsOnceTheirTableIsMasked) {
             (std::vector<int>{40, 20}));
 }
 
-TEST(ClusterComparator, AGapInDepthPartsThings) {
+TEST(ClusterComparator, AGapInDepthSeparatesObjects) {
   std::vector<float> depth(kWidth * kHeight, 1.F);
   for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = i % kWidth < 30 ? 1.F : 1.1F;
   const auto points = backProject(DepthImage(depth.data(), kWidth, kHeight, kCamera));

@@ -8,7 +8,7 @@
 namespace omnimapper::perception::connected_components_test {
 namespace {
 
-/// Letters that are equal belong together; blanks to nothing.
+/// Equal letters belong together; blanks belong to no component.
 struct SameLetter {
   const std::string& image;
   bool valid(int pixel) const { return image[static_cast<std::size_t>(pixel)] != ' '; }

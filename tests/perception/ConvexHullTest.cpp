@@ -32,13 +32,13 @@ TEST(ConvexHull, IsNearByTheMargin) {
   EXPECT_FALSE(HullNeighbourhood(std::vector<Vector2d>{{0, 0}, {1, 1}}).holds({0, 0}, 1)) << "no area";
 }
 
-// Corners on a circle, in between them the middles of edges and many points inside.
+// The corners are on a circle; between them are the middles of edges and many points inside.
 TEST(ConvexHull, OfManyPointsHasTheCornersAndNothingElse) {
   testing::Dice dice(7);
   const int corners = 40;
   std::vector<Vector2d> expected, points;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * M_PI * i / corners - M_PI;  // the least x first
+    const double angle = 2 * M_PI * i / corners - M_PI;  // the smallest x first
     expected.emplace_back(3 * std::cos(angle), 3 * std::sin(angle));
   }
   for (int i = 0; i < 5000; ++i) {

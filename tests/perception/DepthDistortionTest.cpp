@@ -11,7 +11,7 @@
 namespace omnimapper::perception::depth_distortion_test {
 namespace {
 
-// Of 4 x 2 pixels in mm, whose columns lie at x = -3/4, -1/4, 1/4, 3/4 and whose rows at y = -1/2, 1/2.
+// A scan of 4 x 2 pixels in mm. Its columns are at x = -3/4, -1/4, 1/4, 3/4, its rows at y = -1/2, 1/2.
 mrpt::obs::CObservation3DRangeScan smallScan(std::uint16_t units) {
   auto scan = scans::rangeScan([](int, int) { return 1.0; }, 4, 2);
   scan.rangeUnits = 0.001F;
@@ -19,7 +19,7 @@ mrpt::obs::CObservation3DRangeScan smallScan(std::uint16_t units) {
   return scan;
 }
 
-TEST(DepthDistortion, HasAsManyNumbersAsItsDegreeTells) {
+TEST(DepthDistortion, HasTheNumberOfCoefficientsOfItsDegree) {
   EXPECT_EQ(DepthDistortion::termsOf(2), 3U);
   EXPECT_EQ(DepthDistortion::termsOf(3), 7U);
   EXPECT_EQ(DepthDistortion::termsOf(4), 12U);
@@ -44,7 +44,7 @@ TEST(DepthDistortion, IsASumOfProductsOfLegendrePolynomials) {
 }
 
 // s = 0.02 P2(x): P2(3/4) = 11/32 and P2(1/4) = -13/32, so that 1/2 m becomes 0.506875/m and 0.491875/m.
-TEST(DepthDistortion, CorrectsDepthsAsReckonedByHand) {
+TEST(DepthDistortion, CorrectsDepthsAsComputedByHand) {
   auto scan = smallScan(2000);
   DepthDistortion({0.02, 0, 0}).applyTo(scan);
   for (int row = 0; row < 2; ++row) {
@@ -65,20 +65,20 @@ TEST(DepthDistortion, CorrectsDepthsAsReckonedByHand) {
 TEST(DepthDistortion, WhatWasNotMeasuredStaysSoAndInfinityIsNotMeasured) {
   auto scan = smallScan(0);
   scan.rangeImage(0, 1) = 65535;
-  scan.rangeImage(1, 1) = 60000;  // 1/60 m, less 0.0203/m: beyond infinity
-  scan.rangeImage(1, 2) = 1;      // a thousand in a metre hardly move
+  scan.rangeImage(1, 1) = 60000;  // 1/(60 m) less 0.0203/m is negative: beyond infinity
+  scan.rangeImage(1, 2) = 1;      // 1000/m is hardly changed
   DepthDistortion({0.05, 0, 0}).applyTo(scan);
   EXPECT_EQ(scan.rangeImage(0, 0), 0);
   EXPECT_EQ(scan.rangeImage(0, 1), 65535);
   EXPECT_EQ(scan.rangeImage(1, 1), 0);
   EXPECT_EQ(scan.rangeImage(1, 2), 1);
-  scan = smallScan(64000);  // 1/64 m less 0.00203/m is 73.6 m, more than 16 bits hold
+  scan = smallScan(64000);  // 1/(64 m) less 0.00203/m is 1/(73.6 m), more than 16 bits hold
   DepthDistortion({0.005, 0, 0}).applyTo(scan);
   EXPECT_EQ(scan.rangeImage(0, 1), 0);
   EXPECT_EQ(scan.rangeImage(0, 0), 57658);
 }
 
-// Along a ray that is k times as long as the depth, the inverse of the range is 1/k of that of the depth.
+// Along a ray whose range is k times the depth, the inverse range and its error are 1/k of those of the depth.
 TEST(DepthDistortion, OfRangesItIsAlongTheRay) {
   auto scan = smallScan(0);
   scan.range_is_depth = false;

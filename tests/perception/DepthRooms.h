@@ -12,26 +12,26 @@
 
 namespace omnimapper::perception::rooms {
 
-/// A flat rectangle: middle, and two orthogonal half sides [m].
+/// A flat rectangle, by its middle and two orthogonal half sides [m].
 struct Face {
   Eigen::Vector3d middle, half_a, half_b;
 };
 
-/// With a distance of 0 or more.
+/// The plane of the face, with a distance of 0 or more.
 inline geometry::Plane3 planeOf(const Face& face) {
   const Eigen::Vector3d normal = face.half_a.cross(face.half_b).normalized();
   const auto plane = geometry::Plane3::through(face.middle, normal);
   return plane.distance < 0 ? geometry::Plane3{-plane.normal, -plane.distance} : plane;
 }
 
-/// Faces in the optical frame of the camera that looks at them.
+/// Faces in the optical frame of a camera, and the camera itself.
 struct Scene {
   std::vector<Face> faces;
   Pinhole camera;
   int width = 640, height = 480;
 };
 
-/// What the camera truly sees: depth [m] (0: nothing) and the face + 1 (0: none) of each pixel.
+/// True image of the camera: depth [m] (0: nothing) and index of the face + 1 (0: none) of each pixel.
 struct View {
   std::vector<float> depth;
   std::vector<std::uint16_t> face;
@@ -62,8 +62,8 @@ inline View render(const Scene& scene) {
   return view;
 }
 
-/// The depth with the noise of a triangulating sensor: white noise under a square window as large as the noise is
-/// correlated, then rounded to the sensor's steps in inverse depth.
+/// Adds the noise of a triangulating sensor to the depth: white noise averaged over a square window of the correlation
+/// area, then rounded to the sensor's steps in inverse depth.
 inline std::vector<float> withNoise(const View& view, int width, int height, const DepthNoise& noise,
                                     testing::Dice& dice) {
   const int side = static_cast<int>(std::lround(std::sqrt(noise.correlation)));
@@ -105,7 +105,7 @@ inline void addBox(const Eigen::Isometry3d& camera_from_room, const Eigen::Vecto
 inline Scene randomRoom(testing::Dice& dice, int boxes = 3) {
   Scene scene;
   const double length = dice.uniform(3, 5), width = dice.uniform(3, 4.5), height = dice.uniform(2.3, 2.8);
-  // One number after the other: compilers do not agree on the order in which arguments are worked out.
+  // Random numbers are drawn in separate statements, since compilers evaluate arguments in different orders.
   const double z = dice.uniform(0.9, 1.5), y = dice.uniform(0.3, width - 0.3), x = dice.uniform(0.3, 0.8);
   const Eigen::Vector3d camera(x, y, z);
   const double yaw = std::atan2(0.5 * width - camera.y(), 0.6 * length - camera.x()) + dice.uniform(-0.25, 0.25);

@@ -47,10 +47,10 @@ Shot shoot(const Depth& depth, const EdgeOptions& options = {}, int width = kWid
   return shot;
 }
 
-constexpr unsigned kJumps = kOccluding | kOccluded | kBoundary;
+constexpr unsigned kDiscontinuities = kOccluding | kOccluded | kBoundary;
 using Columns = std::set<int>;
 
-TEST(EdgeDetector, AJumpHasAnOccludingAndAnOccludedSide) {
+TEST(EdgeDetector, ADepthDiscontinuityHasAnOccludingAndAnOccludedSide) {
   const auto shot = shoot([](int x, int) { return x < 40 ? 1 : 1.5; });
   for (int y = 0; y < kHeight; ++y) {
     EXPECT_EQ(shot.columns(y, kOccluding), Columns{39});
@@ -68,7 +68,7 @@ TEST(EdgeDetector, NeighboursAreThoseAtCornersToo) {
   }
 }
 
-TEST(EdgeDetector, AJumpOverAHoleIsFoundAlongRowsAndColumns) {
+TEST(EdgeDetector, ADepthDiscontinuityOverAHoleIsFoundAlongRowsAndColumns) {
   for (const double nothing : {0.0, static_cast<double>(kNan), -1.0, 65535.0}) {
     const auto row = shoot([&](int x, int) { return x < 30 ? 1 : x < 40 ? nothing : 2; });
     EXPECT_EQ(row.columns(10, kOccluding), Columns{29});
@@ -77,7 +77,7 @@ TEST(EdgeDetector, AJumpOverAHoleIsFoundAlongRowsAndColumns) {
     const auto column = shoot([&](int, int y) { return y < 20 ? 2 : y < 25 ? nothing : 1; });
     EXPECT_EQ(column.at(5, 19), kOccluded);
     EXPECT_EQ(column.at(5, 25), kOccluding);
-    EXPECT_EQ(column.count(kJumps), 2 * kWidth);
+    EXPECT_EQ(column.count(kDiscontinuities), 2 * kWidth);
   }
 }
 
@@ -99,15 +99,15 @@ TEST(EdgeDetector, AHoleThatReachesTheBorderIsABoundaryAndTheBorderIsNone) {
   EXPECT_EQ(shot.count(~0U), 70 + kHeight - 4);
 }
 
-TEST(EdgeDetector, WhatIsAslantDoesNotJump) {
+TEST(EdgeDetector, ObliqueSurfacesHaveNoDepthDiscontinuity) {
   // 1/z falls by 0.02 a pixel, more than the noise explains, and has a hole.
   EdgeOptions options;
   options.relative_jump = 0;
   const auto whole =
       shoot([](int x, int y) { return y > 20 && y < 50 && x > 30 && x < 36 ? 0 : 1 / (2 - 0.02 * x); }, options);
-  // In the very corners nobody can tell.
-  for (int y = 3; y < kHeight - 3; ++y) EXPECT_EQ(whole.columns(y, kJumps), Columns{}) << y;
-  // The same with a step, up and down.
+  // In the very corners edges are undetermined.
+  for (int y = 3; y < kHeight - 3; ++y) EXPECT_EQ(whole.columns(y, kDiscontinuities), Columns{}) << y;
+  // The same surface with a step up and a step down.
   for (const double step : {0.1, -0.1}) {
     const auto shot = shoot([&](int x, int) { return 1 / (2 - 0.02 * x + (x < 40 ? 0 : step)); });
     EXPECT_EQ(shot.columns(10, step < 0 ? kOccluding : kOccluded), Columns{39});
@@ -115,10 +115,10 @@ TEST(EdgeDetector, WhatIsAslantDoesNotJump) {
   }
 }
 
-TEST(EdgeDetector, TheLeastJumpGrowsWithTheNoiseAndWithTheDepth) {
+TEST(EdgeDetector, TheSmallestDepthDiscontinuityGrowsWithTheNoiseAndWithTheDepth) {
   EdgeOptions options;
   options.relative_jump = 0;
-  // Three deviations of the difference of two pixels, in 1/z.
+  // Three standard deviations of the difference of two pixels, in 1/z.
   const double least = 3 * std::sqrt(2 * options.noise().pixelVariance());
   for (const double z : {1.0, 3.0}) {
     for (const double part : {0.9, 1.1}) {
@@ -132,18 +132,18 @@ TEST(EdgeDetector, TheLeastJumpGrowsWithTheNoiseAndWithTheDepth) {
 }
 
 TEST(EdgeDetector, TheCornerOfARoomIsOfHighCurvature) {
-  // Two walls at 45 degrees to the view, edge ahead and edge away, between columns 39 and 40.
+  // Two walls at 45 degrees to the view, with the edge between columns 39 and 40 nearest or farthest.
   for (const double sign : {1.0, -1.0}) {
     const auto shot = shoot([&](int x, int) { return 1 / (0.6 + sign * 0.6 * std::abs(x - 39.5) / 100); });
     EXPECT_GE(shot.count(kHighCurvature), kHeight);
-    EXPECT_EQ(shot.count(kJumps), 0);
+    EXPECT_EQ(shot.count(kDiscontinuities), 0);
     for (int y = 0; y < kHeight; ++y) {
       for (const int x : shot.columns(y, kHighCurvature)) EXPECT_NEAR(x, 39.5, 1.6) << y;
     }
   }
 }
 
-TEST(EdgeDetector, AJumpIsOfNoHighCurvature) {
+TEST(EdgeDetector, ADepthDiscontinuityIsOfNoHighCurvature) {
   const auto shot = shoot([](int x, int) { return x < 40 ? 1 : 1 / (0.5 + 0.5 * (x - 39.5) / 100); });
   EXPECT_EQ(shot.count(kHighCurvature), 0);
   EXPECT_EQ(shot.count(kOccluding), kHeight);
@@ -170,7 +170,7 @@ TEST(EdgeDetector, ImagesOfNothingOrNextToNothingHaveNoEdges) {
   }
 }
 
-TEST(EdgeDetector, SmallImagesHaveTheirJumps) {
+TEST(EdgeDetector, SmallImagesHaveTheirDepthDiscontinuities) {
   for (int width = 2; width < 20; ++width) {
     const auto shot = shoot([&](int x, int) { return x + 1 < width ? 2 : 1; }, {}, width, 3);
     EXPECT_EQ(shot.columns(1, kOccluding), Columns{width - 1});
@@ -196,9 +196,9 @@ TEST(EdgeDetector, PointsAreThoseOfTheirPixels) {
   ASSERT_EQ(far.size(), static_cast<std::size_t>(kHeight));
   EXPECT_LT((near[0] - Eigen::Vector3f(-0.005F, -0.315F, 1)).norm(), 1e-6F);
   EXPECT_LT((far[1] - Eigen::Vector3f(0.01F, -0.61F, 2)).norm(), 1e-6F);
-  EXPECT_EQ(edgePoints(shot.edges, image, kJumps).size(), 2U * kHeight);
+  EXPECT_EQ(edgePoints(shot.edges, image, kDiscontinuities).size(), 2U * kHeight);
   const DepthImage other(shot.depth.data(), kWidth, kHeight - 1, kCamera);
-  EXPECT_THROW(edgePoints(shot.edges, other, kJumps), base::Error);
+  EXPECT_THROW(edgePoints(shot.edges, other, kDiscontinuities), base::Error);
 }
 
 TEST(EdgeDetector, KindsHaveNames) {
@@ -207,7 +207,7 @@ TEST(EdgeDetector, KindsHaveNames) {
   EXPECT_EQ(names, (std::set<std::string>{"boundary", "occluding", "occluded", "high_curvature", "rgb"}));
 }
 
-// Of pixels with a label, the part near one with the other label.
+// Share of the pixels of a kind in `labels` that have a pixel of that kind in `others` within `reach`.
 double partNear(const std::vector<std::uint8_t>& labels, unsigned kind, const std::vector<std::uint8_t>& others,
                 int width, int height, int reach) {
   double near = 0, all = 0;
@@ -237,8 +237,8 @@ double inverseDepth(const rooms::Scene& scene, std::uint16_t face, std::size_t p
   return normal.dot(ray) / normal.dot(f.middle);
 }
 
-// The nearer of neighbours on other faces, where either face, continued to the other pixel, is so far off in 1/z [1/m]:
-// noise is the same everywhere there.
+// Labels the nearer of two neighbours on different faces where each face, continued to the other pixel, is off by at
+// least `least` in 1/z [1/m], in which the noise is the same everywhere.
 std::vector<std::uint8_t> occlusionsOf(const rooms::Scene& scene, const rooms::View& view, double least) {
   std::vector<std::uint8_t> labels(view.depth.size(), 0);
   const auto width = static_cast<std::size_t>(scene.width);

@@ -15,7 +15,7 @@ namespace {
 using namespace scans;
 using Points = std::vector<Eigen::Vector3f>;
 
-// The middle column's left is 1 m ahead, its right 2 m.
+// Depth [m]: 1 m left of the middle column, 2 m right of it.
 const auto kStep = [](int x, int) { return x < kWidth / 2 ? 1. : 2.; };
 
 std::map<std::string, Points> cloudsOf(const mrpt::obs::CObservation3DRangeScan& scan,
@@ -41,7 +41,7 @@ TEST(EdgeExtractor, GivesACloudForEachKindInTheSensorsFrame) {
   ASSERT_EQ(clouds["kinect.edges.occluded"].size(), kHeight);
   EXPECT_EQ(clouds["kinect.edges.boundary"].size(), 0U);
   EXPECT_EQ(clouds["kinect.edges.high_curvature"].size(), 0U);
-  // x ahead, y to the left, z up: column 79 is half a pixel left of the middle, row 0 is 59.5 above it.
+  // x is ahead, y left, z up: column 79 is half a pixel left of the middle, row 0 is 59.5 pixels above it.
   EXPECT_LT((clouds["kinect.edges.occluding"][0] - Eigen::Vector3f(1, 0.005F, 0.595F)).norm(), 1e-4F);
   EXPECT_LT((clouds["kinect.edges.occluded"][0] - Eigen::Vector3f(2, -0.01F, 1.19F)).norm(), 1e-4F);
 }
@@ -69,7 +69,7 @@ TEST(EdgeExtractor, EdgesOfAPictureOfAnotherViewAreWhereTheDepthImageSeesThem) {
     EXPECT_GE(points.size(), static_cast<std::size_t>(kHeight)) << scale;
     for (const auto& p : points) EXPECT_LT(std::abs(p.y()), 2 * 3 / kFocal) << scale;
   }
-  // The colour camera 0.2 m to the right sees its middle, where red meets green, 0.2 m to the right.
+  // The colour camera is 0.2 m to the right, and so is the middle of its picture, where red meets green.
   auto scan = rangeScan(wall);
   addColours(scan);
   scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.2, 0, -M_PI / 2, 0, -M_PI / 2);

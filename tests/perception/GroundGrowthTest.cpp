@@ -14,7 +14,7 @@ constexpr double kTolerance = 12 * kSlope;
 constexpr double kNoSteps = 1e6;  // [sigma]
 constexpr Pinhole kCamera{500, 500, 47.5, 10};
 
-// Ground that a wall stands on. Seeds are so far below its foot as windows of normals reach.
+// Ground with a wall on it. Seeds are below the wall's foot by the reach of the windows of normals.
 planes::PixelLabels grown(const std::vector<std::uint8_t>& barred) {
   std::vector<float> depths;
   std::vector<std::uint8_t> seeds;

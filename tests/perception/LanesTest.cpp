@@ -7,7 +7,8 @@
 namespace omnimapper::perception::planes::lanes_test {
 namespace {
 
-// Asked once in the life of a process: in one of its own. tests/system/perceive/SameBitsTest.cpp compares the kernels.
+// The variable is read once per process, so the test runs in a separate process. The kernels themselves are compared in
+// tests/system/perceive/SameBitsTest.cpp.
 TEST(LanesDeathTest, TheEnvironmentSwitchesTheKernelsForAvx2Off) {
   ::testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto ask = [](const char* value) {

@@ -19,7 +19,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Method kMethods[] = {Method::split_and_merge, Method::ransac};
 
-/// Range [m] at an angle [rad]; what is no number is an invalid beam.
+/// A scan from a function of the angle [rad] that gives the range [m]; beams whose range is not finite are invalid.
 CObservation2DRangeScan scanOf(int beams, double aperture, const std::function<double(double)>& range) {
   CObservation2DRangeScan scan;
   scan.sensorLabel = "front";
@@ -61,9 +61,9 @@ std::vector<geometry::Segment2> segmentsOf(const CObservation2DRangeScan& scan, 
 }
 
 TEST(LaserLineExtractor, ThreePointsOnAWallGiveTheCovarianceWorkedByHand) {
-  // Beams at -45, 0 and 45 deg meet x = 1 at y = -1, 0, 1. With deviation s of the range and nothing else, across the
-  // wall they deviate by s cos: variances s^2 (1/2, 1, 1/2), weights (2, 1, 2) / s^2. Information of the angle:
-  // sum w y^2 = 4 / s^2, of the distance: sum w = 5 / s^2, mixed: 0.
+  // Beams at -45, 0 and 45 deg meet x = 1 at y = -1, 0, 1. If the range has the deviation s and there is no other
+  // noise, points deviate by s cos across the wall: variances s^2 (1/2, 1, 1/2), weights (2, 1, 2) / s^2. Information
+  // of the angle: sum w y^2 = 4 / s^2, of the distance: sum w = 5 / s^2, mixed: 0.
   LaserLineOptions options;
   options.range_sigma = 0.01;
   options.beam_width = 0;
@@ -151,7 +151,7 @@ TEST(LaserLineExtractor, WallsThatMeetEndInTheirCorner) {
 }
 
 TEST(LaserLineExtractor, AGapMakesTwoLinesAndItsEndsAreTheWallsOwn) {
-  // A doorway of 0.9 m in x = 3, through which nothing or what lies far behind is seen.
+  // A doorway of 0.9 m in the wall x = 3. Beams through it meet nothing, or a wall far behind.
   for (const double behind : {kNan, 9.0}) {
     const auto scan = scanOf(361, kPi / 2, [&](double a) {
       const double y = 3 * std::tan(a);
@@ -233,7 +233,7 @@ TEST(LaserLineExtractor, ScansThatShowNoLineGiveNone) {
     for (const double value : {kNan, 0.0, -3.0, 1e9, std::numeric_limits<double>::infinity()})
       EXPECT_TRUE(linesOf(scanOf(181, kPi, at(value)), options).empty()) << value;
     EXPECT_TRUE(linesOf(scanOf(181, kPi, [](double a) { return std::abs(a) < 0.001 ? 2 : kNan; }), options).empty());
-    // Beams that are called valid and are no numbers.
+    // Beams that are flagged valid although their range is NaN.
     auto scan = scanOf(181, kPi, at(2));
     for (std::size_t i = 0; i < 181; ++i) scan.setScanRange(i, std::numeric_limits<float>::quiet_NaN());
     EXPECT_TRUE(linesOf(scan, options).empty());

@@ -79,7 +79,7 @@ TEST(LaserPointsExtractor, TheCloudHasStampPoseAndLabelOfItsScan) {
 TEST(LaserPointsExtractor, BeamsThatMeasuredNothingGiveNoPoint) {
   auto scan = scanOf({kNan, kInf, -kInf, 0, -1, 0.05F, 5, 31, 30, 29.9F, 5}, 1);
   scan.setScanRangeValidity(10, false);
-  // Not a number, not finite, too near (three), beyond the sensor's range, at its limit: no return.
+  // The dropped beams are NaN, infinite, too near (three), beyond the sensor's range, and at its limit: no return.
   const auto points = pointsOf(scan, everything());
   ASSERT_EQ(points.size(), 2U);
   EXPECT_NEAR(points[0].norm(), 5, 1e-5);
@@ -107,7 +107,7 @@ TEST(LaserPointsExtractor, APointFarFromBothNeighboursIsAMixedPixel) {
   ranges[10] = 4;
   EXPECT_EQ(pointsOf(scanOf(ranges, 1), options).size(), 20U);
   EXPECT_EQ(pointsOf(scanOf(ranges, 1), everything()).size(), 21U);
-  // A far wall at coarse steps: every point is far from its neighbours, and none is a mixed pixel.
+  // On a far wall at coarse steps every point is far from its neighbours, but none is a mixed pixel.
   EXPECT_EQ(pointsOf(scanOf(std::vector<float>(10, 25.0F)), options).size(), 10U);
 }
 

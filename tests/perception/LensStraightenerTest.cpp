@@ -14,7 +14,7 @@ using mrpt::obs::CObservation3DRangeScan;
 constexpr int kWidth = 160, kHeight = 120;
 constexpr double kFocal = 130, kCx = 79.5, kCy = 59.5;
 
-/// What is seen along the ray (u, v, 1): a slanted wall [m], and a brightness that changes slowly.
+/// Scene along the ray (u, v, 1): the depth [m] of a slanted wall, and a brightness that changes slowly.
 double depthAlong(double u, double v) {
   return 2 / (1 + 0.3 * u - 0.2 * v);
 }
@@ -22,11 +22,11 @@ double brightnessAlong(double u, double v) {
   return 128 + 60 * std::sin(5 * u) * std::cos(4 * v);
 }
 
-/// Freiburg1's lens as the TUM RGB-D benchmark calibrated it, radial alone.
+/// Radial distortion of Freiburg1's lens as the TUM RGB-D benchmark calibrated it.
 constexpr double kK1 = 0.2624, kK2 = -0.9531, kK3 = 1.1633;
 
-/// Images that a lens bends, if asked: of each pixel the ray is sought that it shows.
-CObservation3DRangeScan::Ptr wall(bool is_bent) {
+/// Images with or without the distortion of the lens. For each pixel, the ray that it shows is searched.
+CObservation3DRangeScan::Ptr wall(bool is_distorted) {
   auto scan = CObservation3DRangeScan::Create();
   scan->sensorLabel = "camera";
   scan->hasRangeImage = scan->hasIntensityImage = scan->range_is_depth = true;
@@ -35,12 +35,12 @@ CObservation3DRangeScan::Ptr wall(bool is_bent) {
   scan->intensityImage.resize(kWidth, kHeight, mrpt::img::CH_GRAY);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const double bent_u = (x - kCx) / kFocal, bent_v = (y - kCy) / kFocal;
-      double u = bent_u, v = bent_v;
-      for (int i = 0; i < 50 && is_bent; ++i) {
+      const double distorted_u = (x - kCx) / kFocal, distorted_v = (y - kCy) / kFocal;
+      double u = distorted_u, v = distorted_v;
+      for (int i = 0; i < 50 && is_distorted; ++i) {
         const double r2 = u * u + v * v, stretch = 1 + r2 * (kK1 + r2 * (kK2 + r2 * kK3));
-        u = bent_u / stretch;
-        v = bent_v / stretch;
+        u = distorted_u / stretch;
+        v = distorted_v / stretch;
       }
       scan->rangeImage(y, x) = static_cast<std::uint16_t>(std::lround(1e4 * depthAlong(u, v)));
       *scan->intensityImage.ptr<std::uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y)) =
@@ -51,7 +51,7 @@ CObservation3DRangeScan::Ptr wall(bool is_bent) {
     camera->ncols = kWidth;
     camera->nrows = kHeight;
     camera->setIntrinsicParamsFromValues(kFocal, kFocal, kCx, kCy);
-    if (!is_bent) continue;
+    if (!is_distorted) continue;
     camera->distortion = mrpt::img::DistortionModel::plumb_bob;
     camera->dist[0] = kK1;
     camera->dist[1] = kK2;
@@ -62,8 +62,8 @@ CObservation3DRangeScan::Ptr wall(bool is_bent) {
 
 TEST(LensStraightener, WhatItTakesOutIsWhatAPinholeSees) {
   LensStraightener lens;
-  const auto bent = wall(true), straight = wall(false);
-  const auto made = lens.straightened(bent);
+  const auto distorted = wall(true), straight = wall(false);
+  const auto made = lens.straightened(distorted);
   EXPECT_EQ(made->sensorLabel, "camera");
   EXPECT_EQ(made->cameraParams.dist[0], 0);
   double was_off = 0;
@@ -74,7 +74,7 @@ TEST(LensStraightener, WhatItTakesOutIsWhatAPinholeSees) {
         ++unseen;
         continue;
       }
-      was_off = std::max(was_off, std::abs(1e-4 * bent->rangeImage(y, x) - 1e-4 * straight->rangeImage(y, x)));
+      was_off = std::max(was_off, std::abs(1e-4 * distorted->rangeImage(y, x) - 1e-4 * straight->rangeImage(y, x)));
       ASSERT_NEAR(1e-4 * made->rangeImage(y, x), 1e-4 * straight->rangeImage(y, x), 3e-4) << x << " " << y;
       const auto column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
       ASSERT_NEAR(*made->intensityImage.ptr<std::uint8_t>(column, row),
@@ -82,16 +82,17 @@ TEST(LensStraightener, WhatItTakesOutIsWhatAPinholeSees) {
           << x << " " << y;
     }
   }
-  EXPECT_LT(unseen, kWidth * kHeight / 10) << "what the bent image does not show, at the border";
-  EXPECT_GT(was_off, 0.01) << "else there was nothing to take out";
+  EXPECT_LT(unseen, kWidth * kHeight / 10) << "pixels at the border that the distorted image does not show";
+  EXPECT_GT(was_off, 0.01) << "without the correction the images must differ";
 }
 
 TEST(LensStraightener, AnEdgeStaysAnEdgeAndWhatIsNoDepthStaysNone) {
   LensStraightener lens;
-  auto bent = wall(true);
+  auto distorted = wall(true);
   for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) bent->rangeImage(y, x) = x < 60 ? 10000 : x < 80 ? 0 : x < 100 ? 65535 : 20000;
-  const auto made = lens.straightened(bent);
+    for (int x = 0; x < kWidth; ++x)
+      distorted->rangeImage(y, x) = x < 60 ? 10000 : x < 80 ? 0 : x < 100 ? 65535 : 20000;
+  const auto made = lens.straightened(distorted);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const int depth = made->rangeImage(y, x);
@@ -115,10 +116,10 @@ TEST(LensStraightener, WithoutALensOrACalibrationTheImageIsTheOneThatCame) {
 TEST(LensStraightener, APictureInAFileIsStraightenedAsOneInTheLogIsOrSaidToBeMissing) {
   const testing::ScratchFolder folder;
   LensStraightener lens;
-  const auto bent = wall(true), stored = wall(true);
+  const auto distorted = wall(true), stored = wall(true);
   stored->intensityImage.saveToFile(folder / "picture.png");
   stored->intensityImage.setExternalStorage(folder / "picture.png");
-  const auto expected = lens.straightened(bent), made = lens.straightened(stored);
+  const auto expected = lens.straightened(distorted), made = lens.straightened(stored);
   ASSERT_FALSE(made->intensityImage.isExternallyStored());
   for (unsigned x = 0; x < kWidth; ++x)
     ASSERT_EQ(*made->intensityImage.ptr<std::uint8_t>(x, 20), *expected->intensityImage.ptr<std::uint8_t>(x, 20)) << x;

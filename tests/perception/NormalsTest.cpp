@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/Normals.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ TEST(Normals, OfATiltedPlaneAreThatOfThePlaneWhateverTheRadius) {
 }
 
 TEST(Normals, StopAtEdges) {
-  // A wall at 1 m before one at 2 m that is tilted.
+  // A wall at 1 m in front of a tilted one at 2 m.
   const auto depth = [](int x, int) { return x < 40 ? 1. : 2 / (1 + (x - 39.5) / 200.); };
   const auto normals = normalsOf(depth);
   for (int y = 0; y < kHeight; ++y) {
@@ -106,7 +106,7 @@ TEST(Normals, OfNoisyRoomsAreRightToAFewDegrees) {
   EXPECT_LT(degrees[degrees.size() * 9 / 10], 11);
 }
 
-TEST(OrganisedPoints, AreOnTheRaysOfTheirPixels) {
+TEST(OrganizedPoints, AreOnTheRaysOfTheirPixels) {
   const std::vector<std::uint16_t> units{1000, 0, 65535, 2000};
   const auto points = backProject(DepthImage(units.data(), 1e-3, 2, 2, Pinhole{100, 50, 0.5, 0.5}));
   EXPECT_FLOAT_EQ(points.x[0], -0.005F);
@@ -134,7 +134,7 @@ TEST(NormalEstimator, OptionsThatMakeNoSenseAreRefused) {
   }
   NormalOptions options;
   options.min_depth = 0;
-  EXPECT_TRUE(refuses(options)) << "it divides by it";
+  EXPECT_TRUE(refuses(options)) << "it is a divisor";
   options = {};
   options.noise_at_1m = -1;
   EXPECT_TRUE(refuses(options));

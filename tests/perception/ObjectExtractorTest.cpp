@@ -12,7 +12,7 @@ namespace {
 
 using rooms::TableScene;
 
-/// What a robot 1.4 m high sees of a table with a block of 10 x 15 x 20 cm on it, in red and green.
+/// Scan from a height of 1.4 m of a table with a block of 10 x 15 x 20 cm on it, with a red and green picture.
 mrpt::obs::CObservation3DRangeScan tableScan() {
   TableScene table;
   table.addBlock({1, 0, 0.8}, {0.1, 0.15, 0.2});

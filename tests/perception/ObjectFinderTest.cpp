@@ -32,7 +32,7 @@ Found find(const TableScene& table, const ObjectOptions& options = {}) {
   return find(table, rooms::render(table.scene).depth, options);
 }
 
-TableScene withThreeThings() {
+TableScene withThreeObjects() {
   TableScene table;
   table.addBlock({0.9, 0.35, 0.8}, {0.1, 0.15, 0.2});
   table.addBlock({1, 0, 0.76}, {0.08, 0.3, 0.12}, 0.5);
@@ -45,7 +45,7 @@ Vector3d inRoom(const TableScene& table, const Vector3d& in_camera) {
 }
 
 TEST(ObjectFinder, ThreeBlocksOnATableWithTheirBoxes) {
-  const TableScene table = withThreeThings();
+  const TableScene table = withThreeObjects();
   const auto found = find(table);
   ASSERT_EQ(found.objects.size(), 3U);
   std::set<int> surfaces;
@@ -59,7 +59,7 @@ TEST(ObjectFinder, ThreeBlocksOnATableWithTheirBoxes) {
   ASSERT_EQ(surfaces.size(), 1U);
   const auto& top = found.planes.planes[static_cast<std::size_t>(*surfaces.begin())];
   EXPECT_NEAR(inRoom(table, top.centroid).z(), 0.7, 1e-3);
-  // The long block: its top and two sides are seen.
+  // Of the long block the top and two sides are visible.
   const auto& block =
       *std::min_element(found.objects.begin(), found.objects.end(), [&](const ObjectRegion& a, const ObjectRegion& b) {
         return std::abs(inRoom(table, a.centroid).y()) < std::abs(inRoom(table, b.centroid).y());
@@ -71,7 +71,7 @@ TEST(ObjectFinder, ThreeBlocksOnATableWithTheirBoxes) {
 }
 
 TEST(ObjectFinder, NoiseOfAKinectChangesLittle) {
-  const TableScene table = withThreeThings();
+  const TableScene table = withThreeObjects();
   testing::Dice dice(7);
   const auto depth = rooms::withNoise(rooms::render(table.scene), 640, 480, DepthNoise(), dice);
   const auto found = find(table, depth);
@@ -94,7 +94,7 @@ TEST(ObjectFinder, ABlockOnTheFloorStandsOnTheFloor) {
   EXPECT_NEAR(found.objects[0].box_size.z(), 0.4, 0.005);
 }
 
-TEST(ObjectFinder, ComparatorsDifferInWhatAFurrowMeans) {
+TEST(ObjectFinder, ComparatorsDifferAtConcaveBoundaries) {
   TableScene table;
   table.addBlock({1, 0, 0.75}, {0.2, 0.2, 0.1});
   table.addBlock({1, 0, 0.85}, {0.1, 0.1, 0.1});  // on it
@@ -106,7 +106,8 @@ TEST(ObjectFinder, ComparatorsDifferInWhatAFurrowMeans) {
   options.comparator = ObjectOptions::Comparator::locally_convex;
   const auto apart = find(table, options).objects;
   ASSERT_EQ(apart.size(), 2U);
-  EXPECT_EQ(apart[0].pixels.size() + apart[1].pixels.size(), together[0].pixels.size()) << "none is lost at the furrow";
+  EXPECT_EQ(apart[0].pixels.size() + apart[1].pixels.size(), together[0].pixels.size())
+      << "no pixel is lost at the concave boundary";
   for (const auto& object : apart) EXPECT_NEAR(object.box_size.z(), 0.1, 0.02);
 }
 
@@ -123,13 +124,13 @@ TEST(ObjectFinder, ATableIsCoplanarWithItselfWhateverTheOptions) {
   ObjectOptions options;
   options.coplanar_distance = 0;
   PlaneOptions sensor;
-  sensor.bend_at_1m = 0;
-  const TableScene table = withThreeThings();
+  sensor.distortion_at_1m = 0;
+  const TableScene table = withThreeObjects();
   EXPECT_EQ(find(table, rooms::render(table.scene).depth, options, sensor).objects.size(), 3U);
 }
 
 TEST(ObjectFinder, FiltersLeaveOutWhatIsTooSmallTooLargeOrHangs) {
-  TableScene table = withThreeThings();
+  TableScene table = withThreeObjects();
   ObjectOptions options;
   options.min_points = 100000;
   EXPECT_TRUE(find(table, options).objects.empty());
@@ -149,7 +150,7 @@ TEST(ObjectFinder, FiltersLeaveOutWhatIsTooSmallTooLargeOrHangs) {
 }
 
 TEST(ObjectFinder, WallsAreNoTables) {
-  TableScene table = withThreeThings();
+  TableScene table = withThreeObjects();
   table.up = -table.up;
   EXPECT_TRUE(find(table).objects.empty());
 }
@@ -172,7 +173,7 @@ TEST(ObjectFinder, RandomBytesGiveASoundResult) {
     std::vector<std::uint16_t> units(static_cast<std::size_t>(width * height));
     const double spread = dice.uniform(0, 1) < 0.3 ? 65535 : 60;
     for (auto& u : units) u = static_cast<std::uint16_t>(dice.uniform(0, spread) + (spread < 1000 ? 1000 : 0));
-    // A nearer block, now and then over the border.
+    // A nearer block, which in some images reaches over the border.
     for (int y = height / 3; y < height / 2; ++y) {
       for (int x = width / 2; x < width; ++x) units[static_cast<std::size_t>(y * width + x)] /= 2;
     }
@@ -205,7 +206,7 @@ TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
   const auto view = rooms::render(table.scene);
   const auto exact = find(table, view.depth).objects.at(0);
   PlaneOptions sensor;
-  sensor.bend_at_1m = 0.004;
+  sensor.distortion_at_1m = 0.004;
   testing::Dice dice(11);
   double chi_square = 0;
   constexpr int kTimes = 30;
@@ -213,12 +214,13 @@ TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
     const auto depth = rooms::withNoise(view, 640, 480, DepthNoise(), dice);
     const auto found = find(table, depth, {}, sensor);
     ASSERT_EQ(found.objects.size(), 1U);
-    // Along the ray, where the sensor errs; across it what moves is the border of the cluster.
+    // The sensor's error is along the ray; across it the border of the cluster moves the centroid.
     const Vector3d ray = exact.centroid.normalized();
     const double error = ray.dot(found.objects[0].centroid - exact.centroid);
     chi_square += error * error / ray.dot(found.objects[0].covariance * ray);
   }
-  EXPECT_LT(chi_square / kTimes, 1.5) << "no smaller than the error; larger, for the bend that this sensor has not";
+  EXPECT_LT(chi_square / kTimes, 1.5)
+      << "no smaller than the error; larger, since this sensor has no systematic distortion";
   EXPECT_GT(exact.covariance.eigenvalues().real().minCoeff(), 0);
 }
 

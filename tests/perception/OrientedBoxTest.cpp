@@ -50,7 +50,7 @@ TEST(OrientedBox, IsExtendedAlongItsAxes) {
   };
   const auto same = extendedBy(middle, 0);
   EXPECT_LT((same.size - box.size).norm(), 1e-6);
-  for (int inner = 0; inner < 20; ++inner) {  // wherever in a group of eight points
+  for (int inner = 0; inner < 20; ++inner) {  // at any place in a group of eight points
     const auto longer = extendedBy(middle + 0.4 * x + 0.02 * y, inner);
     EXPECT_LT((longer.size - Vector3d(0.6, 0.2, 0.1)).norm(), 1e-5) << inner;
     EXPECT_LT((longer.frame_from_box.translation - (middle + 0.1 * x)).norm(), 1e-5) << inner;

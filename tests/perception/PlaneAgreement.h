@@ -10,16 +10,16 @@
 
 namespace omnimapper::perception::rooms {
 
-/// How segments agree with the truth. The five counts at the end are those of SegComp: A. Hoover et al., An
+/// Agreement of segments with the truth. The last five counts are those of SegComp: A. Hoover et al., An
 /// experimental comparison of range image segmentation algorithms, PAMI 18(7), 1996, at a tolerance of 80 %. Counts of
 /// several images add up.
 struct Agreement {
-  int true_planes = 0;  ///< connected parts of faces with at least so many pixels
-  int found = 0;        ///< of those, at an intersection over union of at least 0.8
+  int true_planes = 0;  ///< connected parts of faces with enough pixels
+  int found = 0;        ///< true planes with a segment at an intersection over union of at least 0.8
   int reported = 0;     ///< segments
   int reported_right = 0;
   double true_pixels = 0;   ///< of true planes
-  double pixels_right = 0;  ///< of those, what lies in the segment that covers their plane best
+  double pixels_right = 0;  ///< true pixels in the segment that covers their plane best
 
   int correct = 0;  ///< true planes of which a segment holds 80 %, and that are 80 % of it
   int over = 0;     ///< true planes that fall into two or more segments
@@ -41,8 +41,8 @@ struct Agreement {
 /// How many pixels each true plane shares with each segment.
 class Overlaps {
  public:
-  /// Segments are the labels' values from 1 on. True planes with fewer pixels than `fewest` do not count; what lies on
-  /// them belongs to no true plane.
+  /// Labels from 1 on are segments. True planes with fewer pixels than `fewest` do not count, and their pixels belong
+  /// to no true plane.
   Overlaps(const View& truth, const std::vector<std::uint16_t>& labels, int width, int height, int fewest) {
     const Components components = connectComponents(width, height, SameFace{truth.face.data()});
     std::vector<int> index_of(components.pixels.size(), -1);
@@ -83,7 +83,7 @@ inline void countPixels(const Overlaps& overlaps, Agreement& result) {
       if (overlaps.shared(p, s) > overlaps.shared(p, best)) best = s;
     }
     if (overlaps.segments.empty()) continue;
-    // A segment over two planes is right on the one that it covers most of.
+    // A segment over two planes counts as right on the plane of which it covers more.
     bool most = true;
     for (std::size_t other = 0; other < overlaps.planes.size(); ++other) {
       most &= overlaps.shared(other, best) <= overlaps.shared(p, best);

@@ -1,4 +1,4 @@
-// The counts that planes are judged by, on images of a few pixels worked out by hand.
+// The counts by which planes are judged, on images of a few pixels with results worked out by hand.
 #include <gtest/gtest.h>
 
 #include "PlaneAgreement.h"

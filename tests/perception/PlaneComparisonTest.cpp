@@ -1,4 +1,4 @@
-// What one plane is: each comparison of PlaneSegmenter, and one that only this test has.
+// Tests each comparison of PlaneSegmenter, and one that only this test has.
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
@@ -20,7 +20,7 @@ constexpr obs::Rgb kWood{150, 110, 70}, kPaper{235, 235, 230}, kRed{190, 40, 40}
 struct Table {
   std::vector<float> depth;
   std::vector<obs::Rgb> colours;
-  std::vector<int> sheet;  // of each pixel: 0 is the table
+  std::vector<int> sheet;  // of each pixel; 0 is the table
 
   Table() {
     for (int y = 0; y < kHeight; ++y) {
@@ -45,7 +45,7 @@ PlaneSegmentation segment(const Table& table, const PlaneComparison& comparison)
   return PlaneSegmenter({}, by(comparison)).segment(table.image(), table.colours);
 }
 
-// The part of the pixels that have one label for each sheet.
+// Share of the pixels that have the most frequent plane label of their sheet.
 double shareRight(const Table& table, const PlaneSegmentation& found) {
   double right = 0;
   for (int sheet = 0; sheet < 3; ++sheet) {
@@ -75,7 +75,7 @@ TEST(PlaneComparison, WithColoursEachSheetIsAPlaneToThePixel) {
     EXPECT_LT((plane.plane_in_sensor.normal - found.planes[0].plane_in_sensor.normal).norm(), 1e-4);
 }
 
-// As a Kinect has it: the edges of colours are 4 px wide, the picture is noisy, the lamp is on one side.
+// Picture as from a Kinect: colour edges are 4 px wide, it is noisy, and a lamp lights it from one side.
 TEST(PlaneComparison, SheetsAreFoundInABlurredNoisyPictureUnderALamp) {
   Table table;
   testing::Dice dice(3);
@@ -121,7 +121,7 @@ TEST(PlaneComparison, ColoursThatAreMissingAreAnError) {
     } catch (const base::Error& error) {
       EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
     }
-    EXPECT_EQ(PlaneSegmenter({}).segment(table.image(), colours).planes.size(), 1U) << "plane asks for none";
+    EXPECT_EQ(PlaneSegmenter({}).segment(table.image(), colours).planes.size(), 1U) << "comparator = plane needs none";
   }
 }
 
@@ -144,11 +144,11 @@ TEST(PlaneComparison, SheetsInNoisyRoomsAreFoundByColourAlone) {
   }
   EXPECT_GT(by_colour.found, 0.8 * by_colour.true_planes);
   EXPECT_GT(by_colour.pixelsRight(), 0.9);
-  EXPECT_LT(by_plane.found, 0.8 * by_plane.true_planes) << "sheets and what they lie on are one";
+  EXPECT_LT(by_plane.found, 0.8 * by_plane.true_planes) << "sheets are one plane with what they lie on";
 }
 
 TEST(PlaneComparison, NormalsFindWhatIsFlatAndDropWhatIsMerelySmooth) {
-  // Two walls that meet in a corner; then a column 0.6 m thick, which is all that is seen.
+  // First two walls that meet in a corner, then a column 0.6 m thick and nothing else.
   std::vector<float> corner, column;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const double u = (i % kWidth - 99.5) / 200;
@@ -165,7 +165,7 @@ TEST(PlaneComparison, NormalsFindWhatIsFlatAndDropWhatIsMerelySmooth) {
     EXPECT_NEAR(std::abs(wall.plane_in_sensor.normal.x()), std::sqrt(0.5), 1e-3);
     EXPECT_LT(wall.rms, 1e-3);
   }
-  // Strips along its limbs are flat for all that a Kinect can tell.
+  // Strips along its sides are too flat for a Kinect to distinguish them from planes.
   for (const auto& strip : segmenter.segment(DepthImage(column.data(), kWidth, kHeight, kCamera)).planes)
     EXPECT_LT(strip.inliers, 2000);
 }
@@ -184,8 +184,8 @@ TEST(PlaneComparison, NormalsFindTheLargePlanesOfRooms) {
   EXPECT_GT(sum.pixelsRight(), 0.5);
 }
 
-// Whatever the image: labels are those of planes, each plane has as many pixels as it says, and its covariance is
-// positive definite.
+// In any image, labels belong to planes, each plane has as many pixels as it reports, and its covariance is positive
+// definite.
 TEST(PlaneComparison, AnyImageOfAnySizeIsTakenByEach) {
   PlaneOptions options;
   options.min_pixels = 1;
@@ -213,7 +213,7 @@ TEST(PlaneComparison, AnyImageOfAnySizeIsTakenByEach) {
   }
 }
 
-/// A comparator of our own: planes are cut in two in the middle of the image.
+/// A comparator that only this test has: it cuts planes in two in the middle of the image.
 struct LeftAndRight {
   PlanePixels pixels;
   bool valid(int pixel) const { return pixels.planes[pixel] != 0; }
@@ -233,7 +233,7 @@ TEST(PlaneComparison, AComparatorIsAFewLines) {
   EXPECT_NE(found.labels[kWidth / 2 - 1], found.labels[kWidth / 2]);
 }
 
-/// Cuts a plane in the middle of each row but one: what is left and right of the cut is of one component all the same.
+/// Cuts a plane in the middle of each row but one, so that both sides of the cut are still one component.
 struct CutButInOneRow {
   PlanePixels pixels;
   bool valid(int pixel) const { return pixels.planes[pixel] != 0; }

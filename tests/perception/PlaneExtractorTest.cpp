@@ -19,7 +19,7 @@ using obs::Rgb;
 using Planes = std::vector<obs::ObservedPlane>;
 
 const auto kWall = [](int, int) { return 2.; };
-// A wall 2 m ahead whose right half is a metre farther.
+// A wall 2 m ahead whose right half is one metre farther.
 const auto kTwoWalls = [](int x, int) { return x < kWidth / 2 ? 2. : 3.; };
 
 std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan, double tolerance = 1) {
@@ -43,7 +43,7 @@ std::string bytesOf(const obs::CObservationPlanes& planes) {
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
 }
 
-// Whether the polygon has a vertex there.
+// Whether the polygon has a vertex at that point.
 bool hasVertex(const geometry::Polygon3& polygon, const Eigen::Vector3d& point) {
   return std::any_of(polygon.vertices.begin(), polygon.vertices.end(),
                      [&](const Eigen::Vector3d& vertex) { return (vertex - point).norm() < 1e-4; });
@@ -63,7 +63,7 @@ TEST(PlaneExtractor, AWallStraightAheadAsWorkedByHand) {
   EXPECT_LT((wall.centroid - Eigen::Vector3d(2, 0, 0)).norm(), 1e-5);
   EXPECT_EQ(wall.inliers, kWidth * kHeight);
   EXPECT_FALSE(wall.colour);
-  // The rays through the image's corners, half a pixel beyond the middles of its last ones.
+  // The corners of the image are half a pixel beyond the middles of its outermost pixels.
   ASSERT_EQ(wall.outline.vertices.size(), 4U);
   for (const double left : {-1.6, 1.6}) {
     for (const double up : {-1.2, 1.2}) EXPECT_TRUE(hasVertex(wall.outline, {2, left, up})) << left << " " << up;
@@ -85,7 +85,7 @@ TEST(PlaneExtractor, CovarianceIsThatOfTheSegmenterInTheSensorsFrame) {
   const DepthImage image(scan.rangeImage.data(), kUnits, kWidth, kHeight, {kFocal, kFocal, 79.5, 59.5});
   const auto expected = PlaneSegmenter({}).segment(image).planes.at(0);
   EXPECT_NEAR(found->planes[0].covariance(2, 2), expected.covariance(2, 2), 1e-12);
-  // A turn about a known axis is the same turn seen from either frame.
+  // A rotation about a given axis is the same rotation in both frames.
   const auto& plane = found->planes[0];
   const Eigen::Vector3d there = expected.plane_in_sensor.normal, here = plane.plane_in_sensor.normal;
   EXPECT_LT((here - Eigen::Vector3d(there.z(), -there.x(), -there.y())).norm(), 1e-12);
@@ -101,7 +101,7 @@ TEST(PlaneExtractor, CovarianceIsThatOfTheSegmenterInTheSensorsFrame) {
 }
 
 TEST(PlaneExtractor, HolesAndOutlinesAreSimplified) {
-  // A slanted step, which pixels make a staircase of, and a window.
+  // A slanted step, which is a staircase in pixels, and a window.
   const auto scan = rangeScan([](int x, int y) {
     if (x > 20 && x < 50 && y > 40 && y < 70) return 0.;
     return 3 * x < 300 + y ? 2. : 3.;
@@ -140,7 +140,7 @@ TEST(PlaneExtractor, ColourAndDepthMayBeOfDifferentSize) {
 }
 
 TEST(PlaneExtractor, ColoursAreSeenFromWhereTheirCameraIs) {
-  // 1.6 m to the right, a wall 2 m ahead lies 80 pixels farther left: its left half is out of view.
+  // From 1.6 m to the right, a wall 2 m ahead is 80 pixels farther left, so that its left half is out of view.
   auto scan = rangeScan(kWall);
   addColours(scan);
   scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -1.6, 0, -0.5 * M_PI, 0, -0.5 * M_PI);
@@ -167,8 +167,9 @@ TEST(PlaneExtractor, AWallOfTwoColoursFallsInTwo) {
   EXPECT_EQ(*halves->planes[left_first ? 1 : 0].colour, (Rgb{30, 220, 40}));
 }
 
-TEST(PlaneExtractor, ColoursThatPartPlanesAreSeenFromWhereTheirCameraIs) {
-  // 0.4 m to the right, a wall 2 m ahead lies 20 pixels farther left, and so much less of the right half is seen of it.
+TEST(PlaneExtractor, ColoursThatSeparatePlanesAreSeenFromWhereTheirCameraIs) {
+  // From 0.4 m to the right, a wall 2 m ahead is 20 pixels farther left, so that as many columns of its right half are
+  // out of view.
   auto scan = rangeScan(kWall);
   addColours(scan);
   scan.relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, -0.4, 0, -0.5 * M_PI, 0, -0.5 * M_PI);

@@ -1,4 +1,4 @@
-// How well planes are found, against rooms whose truth is known, with a Kinect's noise.
+// Quality of the planes found in simulated rooms with a Kinect's noise.
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
@@ -123,7 +123,7 @@ Scene cornerOfARoom() {
   return scene;
 }
 
-/// What a sensor adds to the inverse depth 1/z [1/m] at a pixel, other than noise.
+/// Error other than noise that a sensor adds to the inverse depth 1/z [1/m] at a pixel.
 using SharedError = std::function<double(double inverse_depth, const Eigen::Vector2d& ray)>;
 
 View withError(View view, const Scene& scene, const SharedError& error) {
@@ -141,8 +141,8 @@ View withError(View view, const Scene& scene, const SharedError& error) {
 
 constexpr int kRenderings = 200;
 
-/// Chi-square of each plane found in each of 200 noisy renderings of the corner, by its face. What else the sensor does
-/// wrong is drawn for each of them.
+/// Chi-square of each plane found in each of 200 noisy renderings of the corner, by its face. Other errors of the
+/// sensor are drawn for each rendering.
 std::vector<std::vector<double>> chi2OfRenderings(const PlaneOptions& options,
                                                   const std::function<SharedError(testing::Dice&)>& draw) {
   const Scene scene = cornerOfARoom();
@@ -150,15 +150,15 @@ std::vector<std::vector<double>> chi2OfRenderings(const PlaneOptions& options,
   std::vector<std::vector<double>> chi2(scene.faces.size());
   for (int seed = 0; seed < kRenderings; ++seed) {
     testing::Dice dice(static_cast<std::uint64_t>(1000 + seed));
-    const View seen = draw ? withError(view, scene, draw(dice)) : view;
-    const auto depth = rooms::withNoise(seen, scene.width, scene.height, DepthNoise(), dice);
+    const View image = draw ? withError(view, scene, draw(dice)) : view;
+    const auto depth = rooms::withNoise(image, scene.width, scene.height, DepthNoise(), dice);
     const auto found =
         PlaneSegmenter(options).segment(DepthImage(depth.data(), scene.width, scene.height, scene.camera));
     for (std::size_t f = 0; f < scene.faces.size(); ++f) {
       const auto expected = rooms::planeOf(scene.faces[f]);
       for (const PlaneRegion& plane : found.planes) {
         if (plane.plane_in_sensor.normal.dot(expected.normal) < 0.9) continue;
-        // In the tangent of what was measured, where its covariance is told.
+        // The error is in the tangent of the measured plane, in which its covariance is given.
         const Eigen::Vector3d error = geometry::minus(expected, plane.plane_in_sensor);
         chi2[f].push_back(error.dot(plane.covariance.inverse() * error));
       }
@@ -171,12 +171,12 @@ double meanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
 }
 
-// The mean of 200 draws from chi-square with 3 degrees of freedom has a standard deviation of sqrt(6 / 200).
+// The mean of 200 samples of chi-square with 3 degrees of freedom has a standard deviation of sqrt(6 / 200).
 const double kFar = 1.96 * std::sqrt(6.0 / kRenderings);
 
 TEST(PlaneQuality, TheCovarianceIsThatOfTwoHundredNoisyRenderings) {
   PlaneOptions options;
-  options.bend_at_1m = options.scale_sigma = 0;
+  options.distortion_at_1m = options.scale_sigma = 0;
   for (const auto& chi2 : chi2OfRenderings(options, nullptr)) {
     ASSERT_EQ(chi2.size(), kRenderings);
     EXPECT_NEAR(meanOf(chi2), 3, kFar);
@@ -185,7 +185,7 @@ TEST(PlaneQuality, TheCovarianceIsThatOfTwoHundredNoisyRenderings) {
 
 TEST(PlaneQuality, TheCovarianceCountsAScaleOfDepthsDrawnForEachRendering) {
   PlaneOptions options;
-  options.bend_at_1m = 0;
+  options.distortion_at_1m = 0;
   options.scale_sigma = 0.02;
   const auto draw = [](testing::Dice& dice) -> SharedError {
     const double scale = dice.normal(0.02);
@@ -199,8 +199,9 @@ TEST(PlaneQuality, TheCovarianceCountsAScaleOfDepthsDrawnForEachRendering) {
   for (const auto& chi2 : chi2OfRenderings(options, draw)) EXPECT_GT(meanOf(chi2), 100) << "by noise alone";
 }
 
-// A smooth field of that deviation, correlated over `reach` of the rays' plane: the sum of many random waves.
-SharedError bent(double sigma, double reach, testing::Dice& dice) {
+// A smooth random field with that standard deviation and a correlation length of `reach` between rays (x/z, y/z), as
+// the sum of many random waves.
+SharedError distortion(double sigma, double reach, testing::Dice& dice) {
   struct Wave {
     Eigen::Vector2d number;
     double phase;
@@ -216,11 +217,12 @@ SharedError bent(double sigma, double reach, testing::Dice& dice) {
   };
 }
 
-TEST(PlaneQuality, TheCovarianceCountsABendOfTheImageDrawnForEachRendering) {
+TEST(PlaneQuality, TheCovarianceCountsASystematicDistortionDrawnForEachRendering) {
   const PlaneOptions options;
-  const auto draw = [&](testing::Dice& dice) { return bent(0.5 * options.bend_at_1m, 0.3, dice); };
+  const auto draw = [&](testing::Dice& dice) { return distortion(0.5 * options.distortion_at_1m, 0.3, dice); };
   for (const auto& chi2 : chi2OfRenderings(options, draw)) {
-    // A wall that is bent most may fall in two. What it says of the scale, of which there is none here, is to spare.
+    // A wall with a large distortion may be split in two. The covariance also includes an error of scale, which there
+    // is none of here.
     EXPECT_GT(static_cast<int>(chi2.size()), 0.95 * kRenderings);
     EXPECT_LT(meanOf(chi2), 3 + kFar);
     EXPECT_GT(meanOf(chi2), 1.5);

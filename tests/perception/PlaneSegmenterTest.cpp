@@ -17,7 +17,7 @@ using geometry::Plane3;
 using rooms::Face;
 using rooms::Scene;
 
-/// Rows of a depth image in metres, from what a function says of each pixel.
+/// Rows of a depth image in metres, from a function of the pixel.
 std::vector<float> depths(int width, int height, const std::function<double(int, int)>& depth) {
   std::vector<float> image;
   for (int y = 0; y < height; ++y) {
@@ -68,10 +68,10 @@ TEST(PlaneSegmenter, AWallStraightAheadIsOnePlaneAsWorkedByHand) {
 }
 
 TEST(PlaneSegmenter, TheVarianceOfAWallStraightAheadIsAsWorkedByHand) {
-  // 1/z = a x/f + b y/f + c: with the image symmetric about its middle, a, b and c err independently. The turn about
-  // the second axis is d times the error of a, the distance's d^2 times that of c.
+  // 1/z = a x/f + b y/f + c. The image is symmetric about its middle, so the errors of a, b and c are independent. The
+  // rotation about the second axis is d times the error of a, that of the distance d^2 times the error of c.
   PlaneOptions options;
-  options.bend_at_1m = options.scale_sigma = 0;
+  options.distortion_at_1m = options.scale_sigma = 0;
   const auto found = segment(depths(kWidth, kHeight, [](int, int) { return 2; }), kWidth, kHeight, options);
   ASSERT_EQ(found.planes.size(), 1U);
   const double n = kWidth * kHeight, variance = DepthNoise().meanVariance();
@@ -123,7 +123,7 @@ TEST(PlaneSegmenter, DepthsIn16BitsMeanTheSameAsInMetres) {
 }
 
 TEST(PlaneSegmenter, TwoWallsMeetInTheLineTheyCrossIn) {
-  // A corner of a room at 45 deg to both walls: its edge is in the middle column.
+  // Both walls of the corner are at 45 deg to the view, and its edge is in the middle column.
   const auto found = segment(depths(kWidth, kHeight, [](int x, int) { return 3 / (1 + std::abs(x - 79.5) / 100); }));
   ASSERT_EQ(found.planes.size(), 2U);
   const std::uint16_t left = found.labels[0];
@@ -132,7 +132,7 @@ TEST(PlaneSegmenter, TwoWallsMeetInTheLineTheyCrossIn) {
   }
 }
 
-TEST(PlaneSegmenter, AStepOfAFewCentimetresPartsTwoPlanes) {
+TEST(PlaneSegmenter, AStepOfAFewCentimetresSeparatesTwoPlanes) {
   const auto found = segment(depths(kWidth, kHeight, [](int x, int) { return x < 70 ? 1 : 1.03; }));
   ASSERT_EQ(found.planes.size(), 2U);
   EXPECT_NEAR(found.planes[0].plane_in_sensor.distance, 1.03, 1e-4);
@@ -140,8 +140,8 @@ TEST(PlaneSegmenter, AStepOfAFewCentimetresPartsTwoPlanes) {
   EXPECT_EQ(found.planes[0].inliers, 90 * kHeight);
 }
 
-// The sensor may show each of them bent by 4 mm at 1 m, away from the other.
-TEST(PlaneSegmenter, HalvesOfAWallThatTheSensorBendsApartAreOnePlane) {
+// Systematic distortion may move each half by 4 mm at 1 m, away from the other.
+TEST(PlaneSegmenter, HalvesOfAWallThatTheSensorDistortsApartAreOnePlane) {
   const auto planesWithAStepOf = [](double metres) {
     const auto image = depths(kWidth, kHeight, [&](int x, int) { return x < kWidth / 2 ? 1 : 1 + metres; });
     return segment(image).planes.size();
@@ -166,7 +166,7 @@ TEST(PlaneSegmenter, AHoleIsOutlinedTheOtherWayRound) {
 }
 
 TEST(PlaneSegmenter, APlaneNearlyEdgeOnIsFound) {
-  // A floor 10 cm below the camera, seen at a degree or two where it is far.
+  // A floor 10 cm below the camera, which far away is seen at an angle of a degree or two.
   const auto found = segment(depths(kWidth, kHeight, [](int, int y) { return y > 59 ? 10 / (y - 59.5) : 0; }));
   ASSERT_EQ(found.planes.size(), 1U);
   EXPECT_LT((found.planes[0].plane_in_sensor.normal - Eigen::Vector3d(0, -1, 0)).norm(), 1e-4);
@@ -174,7 +174,7 @@ TEST(PlaneSegmenter, APlaneNearlyEdgeOnIsFound) {
 }
 
 TEST(PlaneSegmenter, ABallIsNoPlane) {
-  // Radius 0.5 m, its middle 1.2 m ahead.
+  // A ball with a radius of 0.5 m, whose middle is 1.2 m ahead.
   const auto found = segment(depths(kWidth, kHeight, [](int x, int y) {
     const Eigen::Vector3d ray = Eigen::Vector3d((x - 79.5) / 100, (y - 59.5) / 100, 1).normalized();
     const double along = 1.2 * ray.z(), left = along * along - 1.2 * 1.2 + 0.25;

@@ -12,7 +12,8 @@ using namespace scans;
 const auto kWall = [](int, int) { return 2.; };
 
 TEST(RangeScan, APictureOfAnotherFocalLengthIsNotReadPixelByPixel) {
-  // The picture is seen through 580 px where depth has 525, and 20 px farther left; it is red left of column 80.
+  // The picture's focal length is 580 px, that of the depth 525 px, and its middle is 20 px farther left. It is red
+  // left of column 80.
   auto scan = rangeScan(kWall);
   scan.cameraParams = camera(kWidth, kHeight, 525);
   addColours(scan);

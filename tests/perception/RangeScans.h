@@ -21,7 +21,7 @@ inline mrpt::img::TCamera camera(int width, int height, double focal) {
   return camera;
 }
 
-/// What a range camera observes whose pixel in column x and row y tells `depth(x, y)` [m]. Without colours.
+/// Scan of a range camera without colours whose pixel in column x and row y measures `depth(x, y)` [m].
 inline mrpt::obs::CObservation3DRangeScan rangeScan(const std::function<double(int, int)>& depth, int width = kWidth,
                                                     int height = kHeight) {
   mrpt::obs::CObservation3DRangeScan scan;
@@ -41,7 +41,7 @@ inline mrpt::obs::CObservation3DRangeScan rangeScan(const std::function<double(i
   return scan;
 }
 
-/// Puts a picture into it whose left half is red and whose right half is green.
+/// Adds a picture whose left half is red and whose right half is green.
 inline void addColours(mrpt::obs::CObservation3DRangeScan& scan, int width = kWidth, int height = kHeight) {
   scan.hasIntensityImage = true;
   scan.intensityImage = mrpt::img::CImage(width, height, mrpt::img::CH_RGB);

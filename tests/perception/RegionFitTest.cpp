@@ -12,7 +12,7 @@ namespace {
 constexpr int kWidth = 96, kHeight = 48;
 constexpr Pinhole kCamera{100, 100, 47.5, 23.5};
 
-// Pixels of one label, whose plane is 1 m ahead, with 1/z [1/m] by the column; columns [begin, end) are of none.
+// Fits pixels of one label, whose plane is 1 m ahead, with 1/z [1/m] by column; columns [begin, end) have no label.
 std::vector<FittedRegion> fitted(const std::function<double(int x)>& inverse_depth, int begin, int end) {
   std::vector<float> depths;
   PixelLabels labels{kWidth, kHeight, {}};
@@ -27,7 +27,7 @@ std::vector<FittedRegion> fitted(const std::function<double(int x)>& inverse_dep
   return fitRegions(inverse, kCamera, {}, components, labels, regions, 1);
 }
 
-TEST(RegionFit, PiecesOfOneLabelThatBendApartAreEachFlat) {
+TEST(RegionFit, PiecesOfOneLabelAtAnAngleAreEachFlat) {
   const auto pieces = fitted([](int x) { return 1 + 0.002 * std::abs(x - 47.5); }, 40, 50);
   ASSERT_EQ(pieces.size(), 2U);
   for (const auto& piece : pieces) {
@@ -43,7 +43,7 @@ TEST(RegionFit, PixelsInOneLineHaveNoPlane) {
 }
 
 TEST(RegionFit, TheRmsIsThatOfTheDistancesFromThePlane) {
-  // Columns are by turns 1 mm nearer and farther than 1 m.
+  // Columns are alternately 1 mm nearer and farther than 1 m.
   const auto wall = fitted([](int x) { return 1 / (x % 2 == 0 ? 0.999 : 1.001); }, 0, 0);
   ASSERT_EQ(wall.size(), 1U);
   EXPECT_NEAR(wall[0].result.rms, 0.001, 1e-5);

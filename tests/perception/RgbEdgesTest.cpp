@@ -24,7 +24,7 @@ std::vector<float> wall(int pixels) {
   return std::vector<float>(static_cast<std::size_t>(pixels), 1.F);
 }
 
-// What the detector should do, plainly.
+// A plain implementation of Canny's detector, for comparison.
 class PlainCanny {
  public:
   PlainCanny(const Bytes& grey, int width, int height) : grey_(grey), width_(width), height_(height) {}

@@ -23,12 +23,12 @@ const Pinhole kCamera{200, 200, 159.5, 41.5};
 // A camera that looks level: up is against y.
 const geometry::Plane3 kExpected{-Eigen::Vector3d::UnitY(), kCameraHeight};
 
-/// A world of heights [m] above the expected ground over depth, and of things that stand at a depth in some columns.
+/// A world with heights [m] above the expected ground as a function of depth, and an object at a depth in some columns.
 struct World {
   std::function<double(double)> height = [](double) { return 0.; };
-  double thing = std::numeric_limits<double>::infinity();  ///< [m] depth
-  int thing_begin = 0, thing_end = 0;                      ///< columns
-  double thing_height = 0;                                 ///< [m]
+  double object = std::numeric_limits<double>::infinity();  ///< [m] depth
+  int object_begin = 0, object_end = 0;                     ///< columns
+  double object_height = 0;                                 ///< [m]
 };
 
 constexpr double kFarthest = 15;
@@ -52,11 +52,11 @@ View look(const World& world, double noise = 0, std::uint64_t seed = 1) {
   for (int y = 0; y < kHeight; ++y) {
     const double down = (y - kCamera.cy) / kCamera.fy, ground = groundDepth(world, down);
     for (int x = 0; x < kWidth; ++x) {
-      const double foot = world.height(world.thing) - kCameraHeight;  // of the thing, above the camera
-      const bool thing = x >= world.thing_begin && x < world.thing_end && (ground == 0 || ground > world.thing) &&
-                         -down * world.thing <= foot + world.thing_height;
-      const double z = thing ? world.thing : ground;
-      view.ground.push_back(!thing && ground > 0);
+      const double foot = world.height(world.object) - kCameraHeight;  // of the object, above the camera
+      const bool object = x >= world.object_begin && x < world.object_end && (ground == 0 || ground > world.object) &&
+                          -down * world.object <= foot + world.object_height;
+      const double z = object ? world.object : ground;
+      view.ground.push_back(!object && ground > 0);
       view.depth.push_back(z > 0 ? static_cast<float>(1 / (1 / z + dice.normal(noise))) : 0.F);
     }
   }
@@ -124,10 +124,10 @@ TEST(RoadSegmenter, GroundThatRisesAheadIsFoundAndARampThatIsTooSteepIsNot) {
 
 TEST(RoadSegmenter, WhatStandsOnItIsNotGround) {
   World world;
-  world.thing = 4;
-  world.thing_begin = 120;
-  world.thing_end = 200;
-  world.thing_height = 0.8;
+  world.object = 4;
+  world.object_begin = 120;
+  world.object_end = 200;
+  world.object_height = 0.8;
   const auto view = look(world);
   const auto shares = sharesOf(view, segment(view));
   EXPECT_GT(shares.found, 0.95);
@@ -148,13 +148,13 @@ TEST(RoadSegmenter, WhatIsFarFromTheExpectedGroundIsNotGround) {
   EXPECT_NEAR(found.ground.planes[0].plane_in_sensor.distance, kCameraHeight - 0.6, 0.02);
 }
 
-TEST(RoadSegmenter, NoisyGroundWithAThingOnASlope) {
+TEST(RoadSegmenter, NoisyGroundWithAnObjectOnASlope) {
   World world;
   world.height = [](double z) { return z < 3 ? 0 : 0.05 * (z - 3); };
-  world.thing = 4;
-  world.thing_begin = 120;
-  world.thing_end = 200;
-  world.thing_height = 1.5;
+  world.object = 4;
+  world.object_begin = 120;
+  world.object_end = 200;
+  world.object_height = 1.5;
   double found = 0, accepted = 0;
   constexpr int kViews = 5;
   for (std::uint64_t seed = 0; seed < kViews; ++seed) {
@@ -168,16 +168,16 @@ TEST(RoadSegmenter, NoisyGroundWithAThingOnASlope) {
     }
   }
   EXPECT_GT(found, 0.9);
-  EXPECT_LT(accepted, 0.1) << "the foot of a thing in an image as small as this";
+  EXPECT_LT(accepted, 0.1) << "the foot of an object in an image as small as this";
 }
 
-// Of so many rows of the image, from the first on.
+// Share of ground in the rows [begin, end) of the image.
 double shareOfRows(const RoadSegmentation& found, int begin, int end) {
   const auto at = [&](int row) { return found.ground.labels.begin() + static_cast<std::ptrdiff_t>(row) * kWidth; };
   return 1 - static_cast<double>(std::count(at(begin), at(end), 0)) / ((end - begin) * kWidth);
 }
 
-// Straight ahead, from one side of the image to the other: its side is seen in rows 102 to 110, all at 3.5 m.
+// A kerb straight ahead, from one side of the image to the other. Its side is in rows 102 to 110, all of it at 3.5 m.
 TEST(RoadSegmenter, TheSideOfAKerbIsNotGroundAndWhatIsBeforeAndBehindItIs) {
   World world;
   world.height = [](double z) { return z < 3.5 ? 0 : 0.15; };
@@ -231,7 +231,7 @@ TEST(RoadSegmenter, SeveralThreadsAtOnceGetWhatOneGets) {
 
 TEST(RoadComparator, ChecksSlopeHeightAndSmoothness) {
   // One pixel each: level ground, ground aslant by 30 degrees, level ground 1 m up, and nothing.
-  OrganisedPoints points{4, 1, {0, 0, 0, 0}, {1, 1, 0, 1}, {5, 5, 5, 5}};
+  OrganizedPoints points{4, 1, {0, 0, 0, 0}, {1, 1, 0, 1}, {5, 5, 5, 5}};
   NormalImage normals;
   normals.width = 4;
   normals.height = 1;

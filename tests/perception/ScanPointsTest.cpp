@@ -21,7 +21,7 @@ ScanPoints beamsOf(const std::vector<double>& ranges) {
   return pointsOf(scan, {});
 }
 
-TEST(ScanPoints, AThingAndWhatIsBehindItAreNoWall) {
+TEST(ScanPoints, AnObjectAndWhatIsBehindItAreNoWall) {
   // 2.5 m apart, where a wall at 87 degrees would have 20 x 0.25 deg x 1 m = 0.087 m between two beams.
   EXPECT_TRUE(beamsOf({1, 3.5}).isBehind(0, 1, kMaxGap));
   EXPECT_TRUE(beamsOf({3.5, 1}).isBehind(0, 1, kMaxGap));
@@ -29,7 +29,8 @@ TEST(ScanPoints, AThingAndWhatIsBehindItAreNoWall) {
 }
 
 TEST(ScanPoints, WallsSeenAslantAreWalls) {
-  // Along a wall 0.6 m beside the sensor, a beam that meets it at 10 m and the next: 10^2 x 0.25 deg / 0.6 = 0.73 m on.
+  // On a wall 0.6 m beside the sensor, a beam meets it at 10 m, and the next one 10^2 x 0.25 deg / 0.6 = 0.73 m farther
+  // on.
   const double angle = std::asin(0.6 / 10), next = 0.6 / std::sin(angle - 0.25 * kDegree);
   const auto points = beamsOf({10, next});
   EXPECT_GT(points.distanceBetween(0, 1), 0.7);

@@ -24,7 +24,7 @@ struct TableScene {
     addBlock({1, 0, 0.69}, {0.8, 1.2, 0.02});  // table top
     addBlock({2.01, 0, 1}, {0.02, 10, 2.5});   // wall
   }
-  /// A block by its middle and whole sides [m], turned about the vertical.
+  /// Adds a block with this middle and these whole sides [m], turned about the vertical.
   void addBlock(const Eigen::Vector3d& middle, const Eigen::Vector3d& size, double yaw = 0) {
     addBox(room_from_camera.inverse(), middle, 0.5 * size, yaw, scene.faces);
   }

@@ -40,7 +40,7 @@ std::optional<LocalPlane> CalibrationView::planeAt(const Eigen::Vector2d& depth_
   static const perception::DepthNoise noise;
   constexpr double kNotFlat = 9;  // times the variance of a pixel
   if (!plane.allFinite() || rest > kNotFlat * noise.pixelVariance()) return std::nullopt;
-  const double variance = noise.meanVariance() / count + noise.bendVariance();
+  const double variance = noise.meanVariance() / count + noise.distortionVariance();
   return LocalPlane{Eigen::Vector2d(column, row), plane[0], plane.tail<2>(), std::sqrt(variance)};
 }
 

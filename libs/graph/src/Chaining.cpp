@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "PoseEdges.h"
-#include "omnimapper/graph/Initialisation.h"
+#include "omnimapper/graph/Initialization.h"
 
 namespace omnimapper::graph {
 
@@ -64,7 +64,7 @@ class Chain {
 
 }  // namespace
 
-void initialiseByChaining(Graph& graph) {
+void initializeByChaining(Graph& graph) {
   PoseEdges edges = poseEdges(graph);
   Chain chain(edges);
   for (std::size_t i = 0; i < edges.poses.size(); ++i)

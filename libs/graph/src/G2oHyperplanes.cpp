@@ -6,7 +6,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "omnimapper/graph/Linearised.h"
+#include "omnimapper/graph/Linearized.h"
 #include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph::g2o {
@@ -21,7 +21,7 @@ Eigen::VectorXd hyperplaneOf(const Graph& graph, base::VariableId id) {
 /// error_by_pose. The rows of `error_by_pose` are orthonormal, so its transpose is its inverse.
 struct FirstOrder {
   FirstOrder(const Graph& graph, const FactorRecord& record, const Eigen::MatrixXd& error_by_pose) {
-    const Linearised factor(graph, record);
+    const Linearized factor(graph, record);
     const Eigen::MatrixXd by_error = factor.jacobians[0] * error_by_pose.transpose();
     information = record.weight * by_error.transpose() * by_error;
     error = by_error.completeOrthogonalDecomposition().solve(factor.residual);

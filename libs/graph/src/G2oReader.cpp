@@ -9,7 +9,7 @@
 #include "G2oTokens.h"
 #include "omnimapper/graph/Between.h"
 #include "omnimapper/graph/G2o.h"
-#include "omnimapper/graph/Initialisation.h"
+#include "omnimapper/graph/Initialization.h"
 #include "omnimapper/graph/PointFactor.h"
 #include "omnimapper/graph/Prior.h"
 #include "omnimapper/graph/VariableKinds.h"
@@ -239,7 +239,7 @@ class G2oReader {
       all_known &= vertex.has_value;
       if (vertex.has_value) content.graph.setFixed(content.ids.at(number), true);
     }
-    if (!all_known) initialiseByChaining(content.graph);
+    if (!all_known) initializeByChaining(content.graph);
     for (const auto& [id, record] : read.variables()) content.graph.setFixed(id, record.fixed);
   }
 

@@ -11,7 +11,7 @@
 #include "G2oHyperplanes.h"
 #include "omnimapper/graph/Between.h"
 #include "omnimapper/graph/G2o.h"
-#include "omnimapper/graph/Linearised.h"
+#include "omnimapper/graph/Linearized.h"
 #include "omnimapper/graph/PointFactor.h"
 #include "omnimapper/graph/Prior.h"
 #include "omnimapper/graph/VariableKinds.h"
@@ -66,7 +66,7 @@ class G2oWriter {
 
   void write(std::ostream& out) const {
     for (const auto& [kind, count] : left_out_) out << "# left out: " << count << " of kind " << kind << '\n';
-    for (const auto& [kind, count] : linearised_) out << "# to first order: " << count << " of kind " << kind << '\n';
+    for (const auto& [kind, count] : linearized_) out << "# to first order: " << count << " of kind " << kind << '\n';
     if (losses_ > 0) out << "# losses left out: " << losses_ << '\n';
     if (needs_offset_) out << "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n";
     out << lines_.text() << '\n';
@@ -150,7 +150,7 @@ class G2oWriter {
       startEdge("EDGE_SE3_TRACKXYZ", record).add(std::int64_t{0}).addAll(spatial->measured());
       needs_offset_ = true;
     } else {
-      return addLinearisedPoint(record);
+      return addLinearizedPoint(record);
     }
     lines_.addUpperTriangle(information(record));
     return true;
@@ -158,13 +158,13 @@ class G2oWriter {
 
   // Any measurement of a point from a pose, such as range and bearing, is to first order a measurement of its
   // coordinates in the base, with the same residual and the same information at the current values.
-  bool addLinearisedPoint(const FactorRecord& record) {
+  bool addLinearizedPoint(const FactorRecord& record) {
     const auto kinds = record.factor->variableKinds();
     if (kinds.size() != 2) return false;
     const bool is_planar = kinds[0] == se2()->kind() && kinds[1] == point2()->kind();
     const bool is_spatial = kinds[0] == se3()->kind() && kinds[1] == point3()->kind();
     if (!is_planar && !is_spatial) return false;
-    const Linearised factor(graph_, record);
+    const Linearized factor(graph_, record);
     const Eigen::VectorXd &pose = graph_.value(record.variables[0]), &point = graph_.value(record.variables[1]);
     Eigen::MatrixXd map_from_base;
     Eigen::VectorXd in_base;
@@ -184,7 +184,7 @@ class G2oWriter {
     if (is_spatial) lines_.add(std::int64_t{0});
     needs_offset_ = needs_offset_ || is_spatial;
     lines_.addAll(measured).addUpperTriangle(record.weight * by_place.transpose() * by_place);
-    ++linearised_[std::string(record.factor->kind())];
+    ++linearized_[std::string(record.factor->kind())];
     return true;
   }
 
@@ -203,7 +203,7 @@ class G2oWriter {
     } else {
       return false;
     }
-    ++linearised_[std::string(record.factor->kind())];
+    ++linearized_[std::string(record.factor->kind())];
     return true;
   }
 
@@ -231,7 +231,7 @@ class G2oWriter {
 
   const Graph& graph_;
   std::unordered_map<base::VariableId, std::int64_t> numbers_;
-  std::map<std::string, int> left_out_, linearised_;
+  std::map<std::string, int> left_out_, linearized_;
   const Eigen::Vector3d kGrey{0.5, 0.5, 0.5};  // g2o's planes have a color
   std::int64_t sensor_ = -1;
   bool is_planar_ = false, has_planes_ = false;

@@ -6,7 +6,7 @@
 
 #include "PoseCycle.h"
 #include "RevisionTrial.h"
-#include "omnimapper/graph/Linearised.h"
+#include "omnimapper/graph/Linearized.h"
 
 namespace omnimapper::graph {
 
@@ -128,7 +128,7 @@ std::vector<std::vector<FactorId>> actingGroups(const Graph& graph) {
 class Influence {
  public:
   Influence(const Graph& graph, const Marginals& marginals, FactorId on, const std::vector<VariableId>& variables)
-      : graph_(graph), jacobians_(Linearised(graph, on).jacobians) {
+      : graph_(graph), jacobians_(Linearized(graph, on).jacobians) {
     for (std::size_t i = 0; i < variables.size(); ++i) places_.emplace(variables[i], i);
     for (const VariableId id : graph.factor(on).variables)
       covariances_.push_back(marginals.crossCovariances(id, variables));
@@ -136,7 +136,7 @@ class Influence {
   double of(const std::vector<FactorId>& group) const {
     double sum = 0;
     for (const FactorId id : group) {
-      const Linearised acting(graph_, id);
+      const Linearized acting(graph_, id);
       const std::vector<VariableId>& variables = graph_.factor(id).variables;
       Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(acting.residual.size(), jacobians_[0].rows());
       for (std::size_t i = 0; i < variables.size(); ++i)

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "omnimapper/graph/Linearised.h"
+#include "omnimapper/graph/Linearized.h"
 
 namespace omnimapper::graph {
 
@@ -50,15 +50,15 @@ Innovation::Innovation(const Graph& graph, const Marginals& marginals, std::vect
   residual_.resize(rows_.back());
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows_.back(), places.size);
   for (int i = 0; i < size(); ++i) {
-    const Linearised linearised(graph, factors_[i]);
-    residual_.segment(rows_[i], degreesOfFreedom(i)) = linearised.residual;
+    const Linearized linearized(graph, factors_[i]);
+    residual_.segment(rows_[i], degreesOfFreedom(i)) = linearized.residual;
     const FactorRecord& record = graph.factor(factors_[i]);
-    weights_.push_back(record.weight * record.loss.evaluate(linearised.residual.squaredNorm()).first_derivative);
+    weights_.push_back(record.weight * record.loss.evaluate(linearized.residual.squaredNorm()).first_derivative);
     const std::vector<base::VariableId>& variables = graph.factor(factors_[i]).variables;
     for (std::size_t k = 0; k < variables.size(); ++k)
       if (const auto place = places.offsets.find(variables[k]); place != places.offsets.end())
-        jacobian.block(rows_[i], place->second, degreesOfFreedom(i), linearised.jacobians[k].cols()) =
-            linearised.jacobians[k];
+        jacobian.block(rows_[i], place->second, degreesOfFreedom(i), linearized.jacobians[k].cols()) =
+            linearized.jacobians[k];
   }
   covariance_ = Eigen::MatrixXd::Identity(rows_.back(), rows_.back());
   if (places.size > 0)

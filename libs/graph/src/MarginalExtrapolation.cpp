@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "omnimapper/graph/Linearised.h"
+#include "omnimapper/graph/Linearized.h"
 
 namespace omnimapper::graph {
 
@@ -99,14 +99,14 @@ struct System {
         coupling(Eigen::MatrixXd::Zero(growth.fresh.size(), growth.older.size())) {
     for (const auto id : growth.factors) {
       const FactorRecord& record = graph.factor(id);
-      const Linearised linearised(graph, record);
-      const double weight = record.weight * record.loss.evaluate(linearised.residual.squaredNorm()).first_derivative;
+      const Linearized linearized(graph, record);
+      const double weight = record.weight * record.loss.evaluate(linearized.residual.squaredNorm()).first_derivative;
       for (std::size_t i = 0; i < record.variables.size(); ++i) {
         if (!growth.fresh.contains(record.variables[i])) continue;
         const int row = growth.fresh.offset(record.variables[i]);
         for (std::size_t j = 0; j < record.variables.size(); ++j) {
           const VariableId other = record.variables[j];
-          const Eigen::MatrixXd part = weight * linearised.jacobians[i].transpose() * linearised.jacobians[j];
+          const Eigen::MatrixXd part = weight * linearized.jacobians[i].transpose() * linearized.jacobians[j];
           if (growth.fresh.contains(other)) {
             information.block(row, growth.fresh.offset(other), part.rows(), part.cols()) += part;
           } else if (growth.older.contains(other)) {

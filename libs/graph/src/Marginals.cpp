@@ -113,7 +113,7 @@ class Marginals::Blocks {
 Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()), blocks_(std::make_unique<Blocks>()) {
   checkGauge(graph);
   NormalEquations equations(graph);
-  equations.linearise(equations.values(graph));
+  equations.linearize(equations.values(graph));
   for (const auto& [id, record] : graph.variables()) {
     const int size = record.kind->tangentSize();
     if (record.fixed) {

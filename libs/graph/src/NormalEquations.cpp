@@ -129,7 +129,7 @@ void NormalEquations::bindBlocks(const std::vector<ColumnPattern>& patterns) {
       }
 }
 
-double NormalEquations::linearise(const Eigen::VectorXd& values) {
+double NormalEquations::linearize(const Eigen::VectorXd& values) {
   std::fill(information_.values.begin(), information_.values.end(), 0);
   gradient_.setZero();
   double cost = 0;

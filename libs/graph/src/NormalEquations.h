@@ -17,7 +17,7 @@ class NormalEquations {
   explicit NormalEquations(const Graph& graph);
 
   /// Fills information and gradient at the given ambient values; returns the cost.
-  double linearise(const Eigen::VectorXd& values);
+  double linearize(const Eigen::VectorXd& values);
   /// Returns only the cost.
   double cost(const Eigen::VectorXd& values) const;
   /// Sets `moved` to values plus step, variable by variable.

@@ -9,7 +9,7 @@
 
 namespace omnimapper::graph {
 
-/// The poses of a graph and the Between and Prior factors on them, all in SE(3): the input of the initialisations.
+/// The poses of a graph and the Between and Prior factors on them, all in SE(3): the input of the initializations.
 struct PoseEdges {
   struct Pose {
     base::VariableId id;
@@ -35,7 +35,7 @@ struct PoseEdges {
 
 PoseEdges poseEdges(const Graph& graph);
 
-/// Writes back the poses that are not fixed, and sets the points (see Initialisation.h).
+/// Writes back the poses that are not fixed, and sets the points (see Initialization.h).
 void storePoses(const PoseEdges& edges, Graph& graph);
 
 }  // namespace omnimapper::graph

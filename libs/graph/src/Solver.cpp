@@ -15,7 +15,7 @@ namespace {
 class Descent {
  public:
   Descent(const Graph& graph, const SolveOptions& options)
-      : options_(options), equations_(graph), values_(equations_.values(graph)), cost_(equations_.linearise(values_)) {
+      : options_(options), equations_(graph), values_(equations_.values(graph)), cost_(equations_.linearize(values_)) {
     summary_.initial_cost = cost_;
   }
 
@@ -49,7 +49,7 @@ class Descent {
     if (ratio > 0) {
       values_.swap(moved_);
       const double before = cost_;
-      cost_ = equations_.linearise(values_);
+      cost_ = equations_.linearize(values_);
       rule_->moved();
       if (decrease <= options_.function_tolerance * before) return end(true, "the cost no longer falls");
     } else if (predicted <= options_.function_tolerance * cost_) {

@@ -87,7 +87,7 @@ class Dogleg : public StepRule {
   explicit Dogleg(const NormalEquations& equations) : system_(equations) {}
   void moved() override { known_ = false; }
   bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& predicted) override {
-    if (!known_ && !linearised(equations)) return false;
+    if (!known_ && !linearized(equations)) return false;
     const double newton_length = newton_.norm(), cauchy_length = cauchy_.norm();
     if (radius_ < 0) radius_ = newton_length;
     if (newton_length <= radius_) {
@@ -111,7 +111,7 @@ class Dogleg : public StepRule {
   }
 
  private:
-  bool linearised(NormalEquations& equations) {
+  bool linearized(NormalEquations& equations) {
     if (!system_.solve(equations, damping_, newton_)) return false;
     const SymmetricMatrix& matrix = equations.information();
     scale_.resize(matrix.size);

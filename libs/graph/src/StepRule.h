@@ -13,7 +13,7 @@ namespace omnimapper::graph {
 class StepRule {
  public:
   virtual ~StepRule() = default;
-  /// Called when the equations were linearised at new values.
+  /// Called when the equations were linearized at new values.
   virtual void moved() = 0;
   /// Sets `step` and the decrease of the cost that the model predicts for it. Returns false if there is no step.
   virtual bool propose(NormalEquations& equations, Eigen::VectorXd& step, double& predicted) = 0;

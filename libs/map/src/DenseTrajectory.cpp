@@ -7,7 +7,7 @@ namespace omnimapper::map {
 
 namespace {
 
-/// Spreads the disagreement of the continuous source and the optimised next key frame over the frames between.
+/// Spreads the disagreement of the continuous source and the optimized next key frame over the frames between.
 class Spread {
  public:
   Spread(const KeyFrame& begin, const KeyFrame& end)

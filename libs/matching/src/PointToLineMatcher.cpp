@@ -24,7 +24,7 @@ constexpr double kSmallestLoss = 0.07;  // [m]
 // line, because it may be clutter, or an edge that the next beam passes. It counts even less for which directions are
 // constrained.
 constexpr double kPointWeight = 0.6, kPointObservabilityWeight = 0.03;
-// Noise share of the wide search: far from the solution, open directions are hard to recognise.
+// Noise share of the wide search: far from the solution, open directions are hard to recognize.
 constexpr double kWideNoiseShare = 0.003;
 constexpr double kReachOfLoss = 3;
 constexpr double kShrink = 0.5;   // factor on the search radius, from one search of correspondences to the next

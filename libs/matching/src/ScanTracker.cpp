@@ -112,7 +112,7 @@ struct ScanTracker::Candidates {
                             [](const Weight& a, const Weight& b) { return a.fit < b.fit; })
         ->fit;
   }
-  /// Unnormalised logarithm of the probability of each candidate. Where none fits (people, glass, grass), a difference
+  /// Unnormalized logarithm of the probability of each candidate. Where none fits (people, glass, grass), a difference
   /// in fit says little. A motion that no source predicted must fit by its beams alone.
   std::vector<double> logarithms() const {
     const double beams = bestFit() < kNothing ? kIndependentInPoor : kIndependent;

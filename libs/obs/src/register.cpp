@@ -20,7 +20,7 @@ void registerClasses() {
   for (const auto* id : allClasses()) mrpt::rtti::registerClass(id);
 }
 
-// The build links this file last, so that the ids of the classes are initialised before.
+// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister(registerClasses);
 
 }  // namespace omnimapper::obs

@@ -48,7 +48,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using mrpt::obs::CObservationBearingRange;
 
-// Range, yaw and pitch of a point in MRPT's axes, away from straight above and below.
+// Range, yaw and pitch of a point in MRPT's axes. The point must not be straight above or below the sensor.
 CObservationBearingRange::TMeasurement measurementOf(int id, const Vector3d& point, const Matrix3d& covariance) {
   const double range = point.norm(), flat_squared = point.head<2>().squaredNorm(), flat = std::sqrt(flat_squared);
   Matrix3d by_point;

@@ -11,7 +11,7 @@ namespace {
 using Options = CameraCalibrationOptions;
 using Number = Options::Number;
 
-// The numbers of one camera: fx, fy, cx, cy, then its lens in MRPT's order.
+// Parameters of one camera: fx, fy, cx, cy, then its lens in MRPT's order.
 using CameraNumbers = std::array<Number, 9>;
 
 CameraNumbers depthNumbers(const Options& o) {
@@ -24,11 +24,10 @@ CameraNumbers pictureNumbers(const Options& o) {
 }
 
 void set(mrpt::img::TCamera& camera, const CameraNumbers& numbers) {
-  const bool tells_lens =
-      std::any_of(numbers.begin() + 4, numbers.end(), [](const Number& n) { return n.has_value(); });
-  // A fisheye's numbers are of another model, of which nothing can be kept.
-  if (tells_lens && camera.distortion != mrpt::img::DistortionModel::plumb_bob) camera.dist.fill(0);
-  if (tells_lens) camera.distortion = mrpt::img::DistortionModel::plumb_bob;
+  const bool sets_lens = std::any_of(numbers.begin() + 4, numbers.end(), [](const Number& n) { return n.has_value(); });
+  // The coefficients of a fisheye belong to another model, so none of them are kept.
+  if (sets_lens && camera.distortion != mrpt::img::DistortionModel::plumb_bob) camera.dist.fill(0);
+  if (sets_lens) camera.distortion = mrpt::img::DistortionModel::plumb_bob;
   if (numbers[0]) camera.fx(*numbers[0]);
   if (numbers[1]) camera.fy(*numbers[1]);
   if (numbers[2]) camera.cx(*numbers[2]);
@@ -121,14 +120,14 @@ const base::OptionTable<Options>& Options::table() {
 }
 
 CameraCalibration::CameraCalibration(const Options& options)
-    : options_(options), depth_distortion_(distortionOf(options.depth_distortion)), tells_(true) {
+    : options_(options), depth_distortion_(distortionOf(options.depth_distortion)), is_set_(true) {
   const std::array<Number, 6> pose{options.picture_x,   options.picture_y,     options.picture_z,
                                    options.picture_yaw, options.picture_pitch, options.picture_roll};
-  const auto told = std::count_if(pose.begin(), pose.end(), [](const Number& n) { return n.has_value(); });
-  if (told == 0 || told == 6) return;
+  const auto given = std::count_if(pose.begin(), pose.end(), [](const Number& n) { return n.has_value(); });
+  if (given == 0 || given == 6) return;
   throw base::Error(
       base::ExitCode::out_of_range,
-      "[calibration] tells a part of the pose of the picture's camera: it takes all of picture_x_m, "
+      "[calibration] gives only a part of the pose of the picture's camera: it takes all of picture_x_m, "
       "picture_y_m, picture_z_m, picture_yaw_deg, picture_pitch_deg and picture_roll_deg, or none of them");
 }
 
@@ -144,7 +143,7 @@ CameraCalibration CameraCalibration::read(const base::Config& config) {
 
 void CameraCalibration::applyTo(mrpt::obs::CObservation3DRangeScan& scan) const {
   set(scan.cameraParams, depthNumbers(options_));
-  depth_distortion_.applyTo(scan);  // while the units are the log's
+  depth_distortion_.applyTo(scan);  // before depth_scale changes the units
   set(scan.cameraParamsIntensity, pictureNumbers(options_));
   if (options_.depth_scale)
     scan.rangeUnits = static_cast<float>(static_cast<double>(scan.rangeUnits) * *options_.depth_scale);

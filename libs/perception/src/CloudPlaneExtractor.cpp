@@ -59,7 +59,7 @@ std::vector<Eigen::Vector3f> pointsOf(const mrpt::obs::CObservation& raw, double
   return pointsOf(points.getPointsBufferRef_x(), points.getPointsBufferRef_y(), points.getPointsBufferRef_z());
 }
 
-// A cloud that another extractor made; logs of what was perceived have them.
+// Whether another extractor made the cloud. Logs of derived observations contain such clouds.
 bool isDerived(const mrpt::obs::CObservation& raw) {
   return LaserPointsExtractor::made(raw) || raw.sensorLabel.find(kEdgesSuffix) != std::string::npos;
 }

@@ -25,7 +25,7 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
           .number("bias_sigma_m", &Options::bias_sigma, Range::notNegative(),
                   "Standard deviation of the range error that neighbouring points have in common, which covariances "
                   "include.")
-          .number("bend_at_1m_m", &Options::bend_at_1m, Range::notNegative(),
+          .number("distortion_at_1m_m", &Options::distortion_at_1m, Range::notNegative(),
                   "Largest systematic range error at 1 m that neighbouring points have in common and that grows "
                   "with the square of the range; 0.004 for a Kinect.")
           .number("scale_sigma", &Options::scale_sigma, {0, 1},
@@ -54,8 +54,8 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
 
 namespace {
 
-// Planes that many points lie on, here and there, but no surface: so many in a row are the end.
-constexpr int kMostVain = 5;
+// The search ends after this many planes in a row whose points are too scattered to form a surface.
+constexpr int kMostFailures = 5;
 constexpr std::size_t kMostPlanes = 65535;
 
 }  // namespace
@@ -74,7 +74,7 @@ CloudPlanes CloudPlaneFinder::find(const std::vector<Eigen::Vector3f>& points) c
   base::SplitMix random(static_cast<std::uint64_t>(options_.seed));
   CloudPlanes result;
   std::vector<std::uint16_t> of_voxel(voxels.means.size(), 0);
-  for (int vain = 0; vain < kMostVain && result.planes.size() < kMostPlanes;) {
+  for (int failures = 0; failures < kMostFailures && result.planes.size() < kMostPlanes;) {
     const auto plane = clouds::findPlane(left, options_, random);
     if (!plane) break;
     std::vector<bool> used(left.size(), false);
@@ -87,7 +87,7 @@ CloudPlanes CloudPlaneFinder::find(const std::vector<Eigen::Vector3f>& points) c
             static_cast<std::uint16_t>(result.planes.size());
       }
     }
-    vain = patches.empty() ? vain + 1 : 0;
+    failures = patches.empty() ? failures + 1 : 0;
     if (!patches.empty()) left.remove(used);
   }
   result.labels.reserve(points.size());

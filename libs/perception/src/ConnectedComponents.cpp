@@ -17,7 +17,7 @@ std::vector<std::int32_t> Components::labels(int fewest) const {
 namespace detail {
 
 void numberComponents(UnionFind& sets, Components& components) {
-  // A component's first run was given the least number of its set, and sets were numbered from top to bottom.
+  // The root of a set is its smallest number, that of the component's first run, so roots are met from top to bottom.
   std::vector<int> number(static_cast<std::size_t>(sets.size()));
   int count = 0;
   for (int i = 0; i < sets.size(); ++i) {

@@ -9,10 +9,10 @@ namespace omnimapper::perception {
 
 namespace {
 
-constexpr std::size_t kWorthDropping = 64;    // sorting fewer costs less than looking for the inner ones
-constexpr std::size_t kExtremeSample = 1024;  // points among which extreme ones are sought
+constexpr std::size_t kWorthDropping = 64;    // with fewer points, sorting is cheaper than dropping
+constexpr std::size_t kExtremeSample = 1024;  // most points that are searched for extreme ones
 
-// The farthest points in eight directions among some of all, as a convex polygon.
+// Convex polygon of the points that are farthest in eight directions, among a sample of all points.
 std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points) {
   std::array<Eigen::Vector2d, 8> farthest;
   farthest.fill(points.front());
@@ -35,7 +35,7 @@ std::vector<Eigen::Vector2d> extremes(const std::vector<Eigen::Vector2d>& points
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
   if (points.size() > kWorthDropping) {
     const HullNeighbourhood inside(extremes(points));
-    // What lies within by more than rounding is no corner.
+    // A point that is inside by more than rounding errors is no corner.
     constexpr double kWithin = 1e-9;
     const auto isInner = [&](const Eigen::Vector2d& point) { return inside.holds(point, -kWithin); };
     points.erase(std::remove_if(points.begin(), points.end(), isInner), points.end());

@@ -5,15 +5,15 @@
 
 namespace omnimapper::perception {
 
-/// geometry::convexHull() of many points in less time: of what lies within Akl and Toussaint's polygon of extreme
-/// points (A fast convex hull algorithm, IPL 7(5), 1978) nothing is sorted.
+/// The same as geometry::convexHull(), but faster for many points: those within a polygon of extreme points are dropped
+/// before the others are sorted. Source: Akl and Toussaint: A fast convex hull algorithm, IPL 7(5), 1978.
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points);
 
-/// Answers for many points whether they are near a convex hull.
+/// Tests whether points lie in or near a convex hull.
 class HullNeighbourhood {
  public:
   HullNeighbourhood() = default;
-  /// The corners as convexHull() tells them. A hull of fewer than three has no neighbourhood.
+  /// `corners` are in the order of convexHull(). With fewer than three, no point is in the neighbourhood.
   explicit HullNeighbourhood(const std::vector<Eigen::Vector2d>& corners);
 
   /// Whether the point lies within the hull, or at most `margin` outside of each of its edges.
@@ -27,7 +27,7 @@ class HullNeighbourhood {
  private:
   struct Side {
     Eigen::Vector2d inwards;  // unit
-    double offset;            // of the edge along it
+    double offset;            // of the edge along `inwards`
   };
   std::vector<Side> sides_;
 };

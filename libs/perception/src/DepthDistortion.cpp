@@ -23,14 +23,14 @@ Polynomials legendreUpTo(int degree, double x) {
   return p;
 }
 
-// From the middle of a pixel to [-1, 1].
-double shareOf(int pixel, int size) {
+// Maps the middle of a pixel to [-1, 1].
+double normalized(int pixel, int size) {
   return (2.0 * pixel + 1) / size - 1;
 }
 
 constexpr float kSaturatedUnits = 65535;
 
-// `error` is by how much the inverse of each range is too small [1/m]. Without a branch, so that it is vectorized.
+// `error` [1/m] is added to the inverse of each range. The loop has no branches, so that it is vectorized.
 void correctRanges(const float* error, float metres_per_unit, std::size_t count, std::uint16_t* units) {
   for (std::size_t i = 0; i < count; ++i) {
     const float range = units[i];
@@ -44,11 +44,11 @@ void correctRanges(const float* error, float metres_per_unit, std::size_t count,
 
 }  // namespace
 
-// What the table of an image depends on beside the coefficients.
+// Properties of an image that its table depends on, beside the coefficients.
 struct DepthDistortion::ImageKey {
   int width, height;
   bool is_depth;
-  std::array<double, 4> camera;  // of ranges alone
+  std::array<double, 4> camera;  // zeros for depths, whose table does not depend on it
 
   explicit ImageKey(const CObservation3DRangeScan& scan)
       : width(static_cast<int>(scan.rangeImage.cols())),
@@ -69,7 +69,7 @@ struct DepthDistortion::ImageKey {
 
 struct DepthDistortion::Table {
   ImageKey key;
-  std::vector<float> error;  // of the inverse range, of each pixel [1/m]
+  std::vector<float> error;  // [1/m] of the inverse range of each pixel
 };
 
 std::size_t DepthDistortion::termsOf(int degree) {
@@ -91,10 +91,10 @@ DepthDistortion::DepthDistortion(std::vector<double> coefficients) : coefficient
     counts += (degree == kLeastDegree ? "" : degree == kMostDegree ? " or " : ", ") + std::to_string(termsOf(degree));
   }
   if (degree_ == 0)
-    throw base::Error(base::ExitCode::out_of_range, "a distortion of the depths has " + counts + " numbers, not " +
+    throw base::Error(base::ExitCode::out_of_range, "a depth distortion has " + counts + " coefficients, not " +
                                                         std::to_string(coefficients_.size()));
   if (!std::all_of(coefficients_.begin(), coefficients_.end(), [](double c) { return std::isfinite(c); }))
-    throw base::Error(base::ExitCode::out_of_range, "a distortion of the depths has a number that is not finite");
+    throw base::Error(base::ExitCode::out_of_range, "a depth distortion has a coefficient that is not finite");
 }
 
 double DepthDistortion::at(double x, double y) const {
@@ -114,7 +114,7 @@ std::shared_ptr<const DepthDistortion::Table> DepthDistortion::tableOf(const COb
   table->error.reserve(static_cast<std::size_t>(scan.rangeImage.size()));
   for (int v = 0; v < key.height; ++v) {
     for (int u = 0; u < key.width; ++u) {
-      const double error = at(shareOf(u, key.width), shareOf(v, key.height)) / key.rangeOverDepth(u, v);
+      const double error = at(normalized(u, key.width), normalized(v, key.height)) / key.rangeOverDepth(u, v);
       // A camera without a calibration has no rays; its ranges stay as they are.
       table->error.push_back(std::isfinite(error) ? static_cast<float>(error) : 0.F);
     }

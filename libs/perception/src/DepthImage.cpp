@@ -9,7 +9,7 @@ namespace omnimapper::perception {
 namespace {
 
 constexpr int kLongestSide = 4096;
-// What no calibration has [px]. Beyond it numbers overflow that are made of it.
+// Limits [px] that no real calibration exceeds. Beyond them, computations with its parameters overflow.
 constexpr double kShortestFocal = 1, kFarthest = 1e6;
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -23,7 +23,7 @@ void check(const void* pixels, int width, int height, const Pinhole& camera) {
   }
   if (pixels == nullptr && width > 0 && height > 0) refuse("it has a size but no pixels");
   for (const double value : {camera.fx, camera.fy, camera.cx, camera.cy}) {
-    if (!(std::abs(value) <= kFarthest)) {  // not a number, too
+    if (!(std::abs(value) <= kFarthest)) {  // also true of NaN
       refuse("an intrinsic parameter of " + std::to_string(value) + " px is beyond " + std::to_string(kFarthest) +
              " px; calibrate the camera");
     }

@@ -6,7 +6,7 @@
 
 namespace omnimapper::perception {
 
-/// What the options of every extractor of depth images say of the sensor.
+/// Options of the sensor that all extractors of depth images have.
 template <class Options>
 base::OptionTable<Options> depthSensorTable() {
   using base::Range;
@@ -21,7 +21,7 @@ base::OptionTable<Options> depthSensorTable() {
       .number("max_depth_m", &Options::max_depth, Range::positive(), "Pixels with a larger depth are left out.");
 }
 
-/// What the options of those that tell covariances add.
+/// Help text of the option scale_sigma, which extractors that report covariances add.
 inline constexpr char kScaleHelp[] =
     "Standard deviation of the relative depth error that all pixels share. Reported covariances include it.";
 
@@ -33,10 +33,10 @@ void refuseDepths(const char* who, const Options& options) {
   throw base::Error(base::ExitCode::out_of_range,
                     std::string(who) + ": min_depth_m = " + format(options.min_depth) +
                         " must be > 0 and below max_depth_m = " + format(options.max_depth) +
-                        "; make the span from one to the other the sensor's");
+                        "; set both to the limits of the sensor's range");
 }
 
-/// Normals by that sensor.
+/// Options to estimate normals from images of that sensor.
 template <class Options>
 NormalOptions normalsBy(const Options& sensor, int radius = NormalOptions().radius) {
   NormalOptions options;

@@ -65,8 +65,8 @@ EdgeImage unmarked(const DepthImage& image) {
   return edges;
 }
 
-// Of the angle between two normals at 1 m [rad]; it grows with the depth. The slope of a plane fitted to a window of
-// n = 2 r + 1 pixels a side has the variance 3 sigma^2 / (n^2 r (r + 1)), a pixel is 1 / f wide.
+// Standard deviation of the angle between two normals at 1 m [rad]; it grows with the depth. The slope of a plane
+// fitted to a window of n = 2 r + 1 pixels a side has the variance 3 sigma^2 / (n^2 r (r + 1)); a pixel is 1 / f wide.
 double angleSigma(const DepthImage& image, const EdgeOptions& options) {
   const double r = options.window_radius, n = 2 * r + 1;
   const double slope = std::sqrt(3 * options.noise().meanVariance() / (n * n * r * (r + 1)));
@@ -76,10 +76,10 @@ double angleSigma(const DepthImage& image, const EdgeOptions& options) {
 void markHighCurvature(const planes::InverseDepth& inverse, const DepthImage& image, const EdgeOptions& options,
                        EdgeImage& edges) {
   const NormalImage normals = NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
-  edges::markCreases(inverse, image.camera(), normals,
-                     {options.min_turn, options.turn_sigmas * angleSigma(image, options), 2 * options.window_radius,
-                      options.min_turn_pixels},
-                     edges.labels.data());
+  edges::labelCurvatureEdges(inverse, image.camera(), normals,
+                             {options.min_turn, options.turn_sigmas * angleSigma(image, options),
+                              2 * options.window_radius, options.min_turn_pixels},
+                             edges.labels.data());
 }
 
 void markRgb(const planes::InverseDepth& inverse, edges::Candidates found, EdgeImage& edges) {
@@ -98,10 +98,10 @@ EdgeImage geometricEdges(const planes::InverseDepth& inverse, const DepthImage& 
   EdgeImage edges = unmarked(image);
   if (options.jumps) {
     const double of_difference = std::sqrt(2 * options.noise().pixelVariance());
-    edges::markJumps(inverse,
-                     {static_cast<float>(options.jump_sigmas * of_difference),
-                      static_cast<float>(options.relative_jump), options.max_hole},
-                     edges.labels.data());
+    edges::labelDepthDiscontinuities(inverse,
+                                     {static_cast<float>(options.jump_sigmas * of_difference),
+                                      static_cast<float>(options.relative_jump), options.max_hole},
+                                     edges.labels.data());
   }
   if (options.high_curvature && !edges.labels.empty()) markHighCurvature(inverse, image, options, edges);
   return edges;

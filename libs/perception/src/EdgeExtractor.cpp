@@ -12,7 +12,7 @@ namespace omnimapper::perception {
 
 namespace {
 
-// How many edge pixels of a picture lie in any upright rectangle.
+// Counts the edge pixels of a picture in rectangles, by a summed-area table.
 class EdgeSums {
  public:
   EdgeSums(edges::Candidates& found, const ColourImage& picture)
@@ -28,7 +28,7 @@ class EdgeSums {
     }
   }
 
-  /// Whether one is up to `half` columns and rows from the place.
+  /// Whether an edge pixel is at most `half` columns and rows from the place.
   bool isNear(const ScanColours::Place& place, int half) {
     const int left = std::max(0, place.x - half), right = std::min(width_, place.x + half + 1);
     const int top = std::max(0, place.y - half), bottom = std::min(height_, place.y + half + 1);
@@ -40,17 +40,17 @@ class EdgeSums {
 
   int width_, height_;
   std::size_t stride_;
-  std::vector<int> sums_;  // of what is left of a corner of pixels and above it
+  std::vector<int> sums_;  // edge pixels to the left of and above each pixel corner
 };
 
-// What a pixel of the depth image covers of the picture to each side of its middle [px]. The colour camera's
-// calibration may be anything.
+// Half of the width of a depth pixel in the picture, without the middle pixel [px]. It is limited to the size of the
+// picture, since the colour camera's calibration may be anything.
 int halfWidth(const ScanColours& colours, const ColourImage& picture) {
   const double half = 0.5 * colours.pixelsPerDepthPixel() - 0.5;
   return half > 0 ? static_cast<int>(std::lround(std::min<double>(half, std::max(picture.width, picture.height)))) : 0;
 }
 
-// Of a picture of another view.
+// Adds the edges of a picture whose pixels do not coincide with those of the depth image.
 void addRgb(const ScanDepth& depth, const ScanColours& colours, const EdgeOptions& options, EdgeImage& edges) {
   const ColourImage picture = colours.picture();
   auto found = edges::canny(picture, static_cast<int>(options.rgb_low), static_cast<int>(options.rgb_high));

@@ -44,7 +44,8 @@ namespace {
 
 using namespace lines;
 
-// A wall that goes on over the end of a scan all round is found whole if the points begin where another one does.
+// In a scan all round, a wall may continue across the start of the scan. It is found in one piece if the points are
+// made to start at another wall.
 ScanPoints findLines(ScanPoints points, const LineFinder& finder, std::vector<Stretch>& stretches) {
   stretches = finder.find(points);
   if (!points.all_round || stretches.size() < 2) return points;
@@ -58,9 +59,9 @@ double lengthOf(const ScanPoints& points, const Fit& fit) {
   return points.distanceBetween(fit.first, fit.last);
 }
 
-// Where what is on the line leaves a gap, the stretch is several.
-std::vector<Stretch> partedAtGaps(const ScanPoints& points, const std::vector<Stretch>& stretches,
-                                  const LaserLineOptions& options) {
+// Splits stretches where the points on their lines leave gaps.
+std::vector<Stretch> splitAtGaps(const ScanPoints& points, const std::vector<Stretch>& stretches,
+                                 const LaserLineOptions& options) {
   std::vector<Stretch> parts;
   for (const auto& stretch : stretches) {
     int first = -1, last = -1;
@@ -79,7 +80,7 @@ std::vector<Stretch> partedAtGaps(const ScanPoints& points, const std::vector<St
 }
 
 std::vector<Fit> fitsOf(const ScanPoints& points, std::vector<Stretch> stretches, const LaserLineOptions& options) {
-  // What is too small for a line has no say in where its neighbours end.
+  // Stretches that are too small for a line are removed first, so that they do not affect where their neighbours end.
   const auto tooSmall = [&](const Stretch& stretch) {
     return stretch.last - stretch.first + 1 < options.min_points ||
            points.distanceBetween(stretch.first, stretch.last) < 0.5 * options.min_length;
@@ -87,7 +88,7 @@ std::vector<Fit> fitsOf(const ScanPoints& points, std::vector<Stretch> stretches
   stretches.erase(std::remove_if(stretches.begin(), stretches.end(), tooSmall), stretches.end());
   shareOut(points, stretches, options.gate);
   for (auto& stretch : stretches) stretch.line = fit(points, stretch, options.gate).line;
-  stretches = partedAtGaps(points, stretches, options);
+  stretches = splitAtGaps(points, stretches, options);
   shareOut(points, stretches, options.gate);
   std::vector<Fit> fits;
   for (const auto& stretch : stretches) {

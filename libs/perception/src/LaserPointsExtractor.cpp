@@ -28,7 +28,7 @@ std::vector<Point> validPoints(const mrpt::obs::CObservation2DRangeScan& scan, d
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.getScanRange(i);
     if (!scan.getScanRangeValidity(i) || !std::isfinite(range) || range < min_range || range > max_range) continue;
-    if (range >= scan.maxRange) continue;  // how many sensors say that nothing came back
+    if (range >= scan.maxRange) continue;  // many sensors report this if no echo came back
     const double angle = first + sign * step * static_cast<double>(i);
     points.push_back({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle))});
   }
@@ -45,7 +45,8 @@ std::vector<Point> withoutIsolated(const std::vector<Point>& points, double isol
     const bool near_after = i + 1 < points.size() && distance(points[i], points[i + 1]) < limit;
     if (near_before || near_after) kept.push_back(points[i]);
   }
-  // Far walls seen at coarse angular steps are not mixed pixels: if most would go, the scan is of that kind.
+  // Points on far walls are isolated, too, if the angular steps are coarse. If most points would
+  // be dropped, the steps are taken to be coarse, and all points are kept.
   return 2 * kept.size() >= points.size() ? kept : points;
 }
 

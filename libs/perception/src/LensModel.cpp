@@ -9,8 +9,8 @@ namespace omnimapper::perception {
 
 namespace {
 
-constexpr double kLeastFocal = 1, kMostParameter = 1e6;  // [px], as DepthImage has them
-constexpr double kWidestRay = 1e3;                       // tangent of its angle from the axis
+constexpr double kLeastFocal = 1, kMostParameter = 1e6;  // [px] the same limits as in DepthImage
+constexpr double kWidestRay = 1e3;                       // tangent of the largest angle between a ray and the axis
 
 cv::Matx33d matrixOf(const mrpt::img::TCamera& camera) {
   return {camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1};
@@ -55,19 +55,21 @@ std::optional<Corners> LensModel::raysOf(const Corners& in_image) const {
 }
 
 LensModel::Projection LensModel::project(const Eigen::Vector3d& point) const {
-  // The origin, moved to the point: its derivatives by the way are those by the point.
+  // The origin is translated to the point, so that derivatives with respect to the translation are those with respect
+  // to the point.
   const std::vector<cv::Point3d> origin{{0, 0, 0}};
-  const cv::Vec3d turn(0, 0, 0), way(point.x(), point.y(), point.z());
+  const cv::Vec3d rotation(0, 0, 0), translation(point.x(), point.y(), point.z());
   const auto lens = camera_.getDistortionParamsAsVector();
   std::vector<cv::Point2d> places;
   cv::Mat by_all;
   const bool fisheye = isFisheye(camera_);
   if (fisheye) {
-    cv::fisheye::projectPoints(origin, places, turn, way, matrixOf(camera_), lens, 0, by_all);
+    cv::fisheye::projectPoints(origin, places, rotation, translation, matrixOf(camera_), lens, 0, by_all);
   } else {
-    cv::projectPoints(origin, turn, way, matrixOf(camera_), lens, places, by_all);
+    cv::projectPoints(origin, rotation, translation, matrixOf(camera_), lens, places, by_all);
   }
-  const int first = fisheye ? 11 : 3;  // columns: focal lengths, centre, lens, turn, way; or turn, way, ...
+  // Columns: focal lengths, centre, lens, rotation, translation; or rotation, translation, ...
+  const int first = fisheye ? 11 : 3;
   Projection projection{{places[0].x, places[0].y}, {}};
   for (int row = 0; row < 2; ++row)
     for (int column = 0; column < 3; ++column)

@@ -12,12 +12,12 @@ namespace omnimapper::perception {
 
 using mrpt::obs::CObservation3DRangeScan;
 
-/// Where the lens shows what each pixel of the straight image shows.
+/// For each pixel of the straightened image, the place in the original image that shows the same ray.
 struct LensStraightener::Map {
   mrpt::img::TCamera camera;
   cv::Size size;
-  cv::Mat columns, rows;  // [px] 32 bits
-  double bend = 0;        // [px]
+  cv::Mat columns, rows;  // [px] of 32 bits
+  double max_shift = 0;   // [px] largest distance between a pixel and its place in the original image
 };
 
 namespace {
@@ -25,16 +25,16 @@ namespace {
 bool isCalibration(const mrpt::img::TCamera& camera) {
   auto values = camera.getDistortionParamsAsVector();
   values.insert(values.end(), {camera.fx(), camera.fy(), camera.cx(), camera.cy()});
-  constexpr double kFarthest = 1e6, kShortestFocal = 1;  // [px], as DepthImage has them
+  constexpr double kFarthest = 1e6, kShortestFocal = 1;  // [px] the same limits as in DepthImage
   return camera.fx() >= kShortestFocal && camera.fy() >= kShortestFocal &&
          std::all_of(values.begin(), values.end(), [](double value) { return std::abs(value) <= kFarthest; });
 }
 
-// The inverse depths around a place, where they are of one surface: inverse depth is linear in an image of a plane.
-// Across an edge the nearest pixel's. 0: none.
+// Depth at a place between pixels. On one surface it is interpolated in inverse depth, which is linear in an image of a
+// plane; across an edge it is the nearest pixel's. 0 if there is none.
 std::uint16_t depthAt(const mrpt::math::CMatrix_u16& depths, float column, float row) {
   constexpr int kSaturated = 65535;
-  constexpr double kOneSurface = 0.05;  // in parts of the depth
+  constexpr double kOneSurface = 0.05;  // largest difference of depths on one surface, relative to the depth
   const auto width = static_cast<float>(depths.cols()), height = static_cast<float>(depths.rows());
   if (!(column >= 0 && row >= 0 && column < width - 1 && row < height - 1)) return 0;
   const int x = static_cast<int>(column), y = static_cast<int>(row);
@@ -47,7 +47,7 @@ std::uint16_t depthAt(const mrpt::math::CMatrix_u16& depths, float column, float
   return static_cast<std::uint16_t>(std::lround(1 / inverse));
 }
 
-// Of 8 bits; one that is in a file is read.
+// Whether the scan has a picture of 8 bits. A picture in a file is loaded.
 bool hasPicture(const CObservation3DRangeScan& scan) {
   if (!scan.hasIntensityImage) return false;
   try {
@@ -70,7 +70,7 @@ LensStraightener::~LensStraightener() = default;
 
 const LensStraightener::Map* LensStraightener::mapOf(const mrpt::img::TCamera& camera, int width, int height,
                                                      std::unique_ptr<Map>& kept) {
-  constexpr double kNothing = 1.0 / 3;  // [px]
+  constexpr double kNegligibleShift = 1.0 / 3;  // [px]
   const cv::Size size(width, height);
   if (size.empty() || !isCalibration(camera)) return nullptr;
   if (!kept || kept->camera != camera || kept->size != size) {
@@ -91,11 +91,11 @@ const LensStraightener::Map* LensStraightener::mapOf(const mrpt::img::TCamera& c
       for (int x = 0; x < kept->columns.cols; ++x) {
         const double off = std::hypot(static_cast<double>(kept->columns.at<float>(y, x)) - x,
                                       static_cast<double>(kept->rows.at<float>(y, x)) - y);
-        kept->bend = std::max(kept->bend, off);
+        kept->max_shift = std::max(kept->max_shift, off);
       }
     }
   }
-  return kept->bend < kNothing ? nullptr : kept.get();
+  return kept->max_shift < kNegligibleShift ? nullptr : kept.get();
 }
 
 CObservation3DRangeScan::ConstPtr LensStraightener::straightened(const CObservation3DRangeScan::ConstPtr& scan) {

@@ -14,10 +14,11 @@ namespace omnimapper::perception {
 
 namespace {
 
-// A pixel is on a plane within so many standard deviations.
+// A pixel is on a plane if it is within this many standard deviations of it.
 constexpr double kSigmas = 4;
 
-/// Hands normals on to pixels that have none of their own, from pixel to pixel, each on the plane of the one before.
+/// Propagates normals to pixels that have none, from pixel to adjacent pixel, if the pixel is on the plane of the one
+/// before.
 class Spreading {
  public:
   Spreading(const planes::InverseDepth& inverse, const Pinhole& camera, double tolerance, int most_steps,
@@ -51,13 +52,14 @@ class Spreading {
 
   bool needsOne(int x, int y) const { return std::isnan(normals_.z[index(x, y)]) && *inverse_.at(x, y) > 0; }
 
-  // Of the plane through the origin's unit distance: what the normal says of 1/z but for its scale.
+  // Normal times ray, which is proportional to 1/z on a plane with this normal.
   float slant(std::size_t normal, int x, int y) const {
     return normals_.x[normal] * across_[static_cast<std::size_t>(x)] +
            normals_.y[normal] * down_[static_cast<std::size_t>(y)] + normals_.z[normal];
   }
 
-  // From the neighbour beside it or the one below or above it: first the one whose normal came a shorter way.
+  // Takes the normal of the horizontal or the vertical neighbour in the direction of `step`, preferably of the one
+  // whose normal was propagated over fewer pixels.
   bool takeFrom(int x, int y, int step) {
     const bool beside = x + step >= 0 && x + step < width_, beyond = y + step >= 0 && y + step < height_;
     if (!beside || !beyond) return (beside && take(x, y, x + step, y)) || (beyond && take(x, y, x, y + step));
@@ -83,9 +85,9 @@ class Spreading {
   float tolerance_;
   std::uint8_t most_steps_;
   int width_, height_;
-  planes::NormalRow normals_;  // of all pixels
-  std::vector<std::uint8_t> steps_;
-  std::vector<float> across_, down_;  // the ray of each column and row
+  planes::NormalRow normals_;         // normals of all pixels
+  std::vector<std::uint8_t> steps_;   // number of pixels over which a normal was propagated
+  std::vector<float> across_, down_;  // x and y of the rays of each column and row
 };
 
 }  // namespace
@@ -94,7 +96,7 @@ NormalEstimator::NormalEstimator(const NormalOptions& options) : options_(option
   using base::option_text::format;
   const auto refuse = [](const std::string& what) { throw base::Error(base::ExitCode::out_of_range, what); };
   if (options.radius < 1 || options.radius > 7)
-    refuse("normals: a window's radius of " + std::to_string(options.radius) + " px: must be in [1, 7]");
+    refuse("normals: a window radius of " + std::to_string(options.radius) + " px: must be in [1, 7]");
   if (!(options.noise_at_1m > 0) || !(options.step_at_1m >= 0)) {
     refuse("normals: noise_at_1m_m = " + format(options.noise_at_1m) +
            " must be > 0, step_at_1m_m = " + format(options.step_at_1m) + " must be >= 0");
@@ -108,7 +110,8 @@ NormalImage NormalEstimator::estimate(const DepthImage& image) const {
   normals.height = image.height();
   const auto width = static_cast<std::size_t>(image.width());
   if (normals.size() == 0) return normals;
-  // One block, not set to zeros, and larger than what is needed meanwhile: memory that was used before is used again.
+  // This is one block that is not zeroed and is larger than all temporary buffers, so that the allocator reuses memory
+  // that was freed before.
   normals.values.reset(new float[3 * normals.size()]);
   const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
   const DepthNoise noise{options_.noise_at_1m, options_.step_at_1m, 0, 1};

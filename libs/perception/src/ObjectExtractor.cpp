@@ -27,7 +27,7 @@ Eigen::Vector3d pointOf(const DepthImage& image, int pixel, double depth) {
   return {(x - camera.cx) / camera.fx * depth, (y - camera.cy) / camera.fy * depth, depth};
 }
 
-// Points and colours, and the mean of all colours.
+// Adds points with colours, at most max_points, and the mean colour of all pixels.
 void addPoints(const ObjectRegion& region, const ScanDepth& depth, const ScanColours& colours, int max_points,
                obs::ObservedObject& object) {
   const int count = static_cast<int>(region.pixels.size()), step = (count + max_points - 1) / max_points;
@@ -94,8 +94,8 @@ std::vector<DerivedName> ObjectExtractor::namesOf(const mrpt::obs::CObservation&
 std::vector<std::string> ObjectExtractor::warnings() const {
   if (scans_ == 0 || with_surface_ > 0 || !options_.objects.on_surfaces_only) return {};
   return {"none of " + std::to_string(scans_) +
-          " scans shows a level surface for things to stand on: is the sensor's place on the base right, which tells "
-          "what is level? For a camera in the hand set max_tilt_deg = 75"};
+          " scans shows a level surface for objects to stand on: is the sensor's pose on the base right, which "
+          "determines what is level? For a camera in the hand set max_tilt_deg = 75"};
 }
 
 }  // namespace omnimapper::perception

@@ -58,13 +58,13 @@ namespace {
 
 using objects::Surface;
 
-constexpr double kNoiseSigmas = 3;     // what noise may do
-constexpr double kLowest = 0.02;       // share of a thing's points that may be noise below the rest
-constexpr double kFoot = 0.03;         // [m] beside the noise, of a thing that may be lost in the surface
-constexpr std::size_t kSample = 4096;  // points of a cluster that tell its surface, its axes and its covariance
-constexpr double kHullMargin = 0.05;   // [m] a thing on the edge of a table hides where it ends
+constexpr double kNoiseSigmas = 3;  // largest deviation that noise may cause
+constexpr double kLowest = 0.02;    // share of an object's points that may be noise below the rest
+constexpr double kFoot = 0.03;      // [m] height of an object's foot, beside the noise, that may be lost in the surface
+constexpr std::size_t kSample = 4096;  // most points that determine a cluster's surface, axes and covariance
+constexpr double kHullMargin = 0.05;   // [m] an object at the edge of a table hides where the table ends
 
-Eigen::Vector3f pointOf(int pixel, const OrganisedPoints& all) {
+Eigen::Vector3f pointOf(int pixel, const OrganizedPoints& all) {
   const auto i = static_cast<std::size_t>(pixel);
   return {all.x[i], all.y[i], all.z[i]};
 }
@@ -97,8 +97,8 @@ Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, cons
   return pixelsOf(labels);
 }
 
-// No more than kSample points, evenly among the pixels.
-std::vector<Eigen::Vector3d> sampleOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+// At most kSample points, taken evenly from the pixels.
+std::vector<Eigen::Vector3d> sampleOf(const std::vector<int>& pixels, const OrganizedPoints& all) {
   const std::size_t step = (pixels.size() - 1) / kSample + 1;
   std::vector<Eigen::Vector3d> sample;
   sample.reserve(pixels.size() / step + 1);
@@ -106,7 +106,7 @@ std::vector<Eigen::Vector3d> sampleOf(const std::vector<int>& pixels, const Orga
   return sample;
 }
 
-objects::PointList pointsOf(const std::vector<int>& pixels, const OrganisedPoints& all) {
+objects::PointList pointsOf(const std::vector<int>& pixels, const OrganizedPoints& all) {
   objects::PointList points;
   const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
     to.reserve(pixels.size() + 1);
@@ -149,28 +149,28 @@ class OuterSum {
   double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;
 };
 
-// Of the mean of `all` points, of which some are told with their own mean. Noise moves each point along its ray by
-// itself; what bends the image, and the scale of depths, move all alike.
+// Covariance of the mean of `all` points, from a sample `points` and its `mean`. Noise moves each point along its ray
+// independently; systematic distortion and the scale of depths move all points alike.
 Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& mean,
                                  std::size_t all, const DepthNoise& noise) {
   const auto count = static_cast<double>(points.size());
-  OuterSum apart;
-  Eigen::Vector3d together = Eigen::Vector3d::Zero();
+  OuterSum independent;
+  Eigen::Vector3d common = Eigen::Vector3d::Zero();
   for (const auto& point : points) {
     const Eigen::Vector3d by_inverse_depth = -point.z() * point;  // derivative of the point by 1/z
-    apart.add(by_inverse_depth);
-    together += by_inverse_depth / count;
+    independent.add(by_inverse_depth);
+    common += by_inverse_depth / count;
   }
-  return noise.meanVariance() / (count * static_cast<double>(all)) * apart.matrix() +
-         noise.bendVariance() * together * together.transpose() + noise.scale * noise.scale * mean * mean.transpose();
+  return noise.meanVariance() / (count * static_cast<double>(all)) * independent.matrix() +
+         noise.distortionVariance() * common * common.transpose() + noise.scale * noise.scale * mean * mean.transpose();
 }
 
 struct Standing {
   const Surface* surface = nullptr;
-  double gap = 0;  // [m] below the lowest that is seen
+  double gap = 0;  // [m] between the surface and the lowest visible points
 };
 
-// The surface that the lowest of the cluster is nearest to, if it is over one.
+// The surface below the cluster that is nearest to its lowest points; none farther than `max_gap`.
 Standing surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::Vector3d& centroid,
                       const PlaneSegmentation& planes, const std::vector<Surface>& surfaces, double max_gap) {
   Standing best{nullptr, max_gap};
@@ -221,7 +221,7 @@ ObjectFinder::ObjectFinder(const ObjectOptions& options, const PlaneOptions& sen
 }
 
 bool ObjectFinder::hasSurface(const PlaneSegmentation& planes, const Eigen::Vector3d& up) const {
-  return !objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up).empty();
+  return !objects::findSurfaces(planes, options_, sensor_.distortion_at_1m, up).empty();
 }
 
 std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const PlaneSegmentation& planes,
@@ -230,12 +230,12 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
   if (image.width() == 0 || image.height() == 0) return found;
   if (planes.width != image.width() || planes.height != image.height())
     throw base::Error(base::ExitCode::unreadable_input, "objects: the planes are not those of this depth image");
-  const OrganisedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
-  const auto surfaces = objects::findSurfaces(planes, options_, sensor_.bend_at_1m, up);
+  const OrganizedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
+  const auto surfaces = objects::findSurfaces(planes, options_, sensor_.distortion_at_1m, up);
   const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
   const auto noise = static_cast<float>(kNoiseSigmas * sensor_.noise_at_1m);
-  const auto labels = objects::withRemainders(planes, points, surfaces, of_place,
-                                              {static_cast<float>(options_.min_height), noise, kHullMargin});
+  const auto labels = objects::assignToSurfaces(planes, points, surfaces, of_place,
+                                                {static_cast<float>(options_.min_height), noise, kHullMargin});
   const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
 
   for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
@@ -247,7 +247,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
         surface == nullptr ? nullptr : &planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
     const Eigen::Vector3d axis = under == nullptr ? leastAxisOf(sample, middle) : under->normal;
     auto box = objects::boxAlong(axis, sample);
-    if (box.size.prod() > options_.max_volume) continue;  // with all points it is no smaller
+    if (box.size.prod() > options_.max_volume) continue;  // the box of all points is no smaller
 
     auto cluster = pointsOf(pixels, points);
     ObjectRegion region;
@@ -255,7 +255,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const Plan
     region.covariance = covarianceOfMean(sample, middle, pixels.size(), sensor_.noise());
     if (under != nullptr) {
       region.surface = surface->plane;
-      // The box goes down to it where the lowest of the thing was taken for the surface.
+      // The box is extended down to the surface if the foot of the object may be lost in the surface.
       const double foot = kFoot + kNoiseSigmas * sensor_.noise_at_1m * region.centroid.z() * region.centroid.z();
       const Eigen::Vector3d below = region.centroid - signedDistance(*under, region.centroid) * under->normal;
       if (gap < foot) cluster.push_back(below.cast<float>());

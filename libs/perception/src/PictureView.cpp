@@ -27,17 +27,17 @@ Picture pictureOf(const mrpt::obs::CObservation& observation) {
   if (!bringsPicture(observation)) return {nullptr, nullptr, {}};
   const auto& image = view != nullptr ? view->image : scan->intensityImage;
   try {
-    const auto* seen = image.isEmpty() ? nullptr : &image;
-    if (seen != nullptr) seen->getWidth();  // loads it
-    if (view != nullptr) return {seen, &view->cameraParams, view->cameraPose};
-    return {seen, isPictureOfDepthView(*scan) ? &scan->cameraParams : &scan->cameraParamsIntensity,
+    const auto* loaded = image.isEmpty() ? nullptr : &image;
+    if (loaded != nullptr) loaded->getWidth();  // loads the image
+    if (view != nullptr) return {loaded, &view->cameraParams, view->cameraPose};
+    return {loaded, isPictureOfDepthView(*scan) ? &scan->cameraParams : &scan->cameraParamsIntensity,
             scan->sensorPose + scan->relativePoseIntensityWRTDepth};
   } catch (const mrpt::img::CExceptionExternalImageNotFound&) {
     refuseMissing(observation.sensorLabel, "colour", image.getExternalStorageFile());
   }
 }
 
-// doDepthAndIntensityCamerasCoincide() compares places and turns alone.
+// doDepthAndIntensityCamerasCoincide() compares only the poses of the cameras, so the rest is compared here.
 bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan) {
   const auto& image = scan.intensityImage;
   const auto& camera = scan.cameraParamsIntensity;

@@ -23,8 +23,8 @@ std::shared_ptr<obs::CObservationPlanes> PlaneExtractor::extract(const mrpt::obs
   if (!colours.exist()) {
     throw base::Error(base::ExitCode::unreadable_input,
                       scan.sensorLabel +
-                          ": its scans have no picture of 8 bits a channel, and the comparator of planes compares "
-                          "colours; comparator = plane does without");
+                          ": its scans have no picture with 8 bits per channel, but the comparator of planes needs "
+                          "colours; comparator = plane does without them");
   }
   return planes::observe(segmenter_.segment(depth.image(), colours.inDepthView(depth)), scan, depth, colours,
                          outlines_.tolerance);

@@ -13,7 +13,7 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
   using base::Range;
   static const auto table =
       depthSensorTable<PlaneOptions>()
-          .number("bend_at_1m_m", &PlaneOptions::bend_at_1m, Range::notNegative(),
+          .number("distortion_at_1m_m", &PlaneOptions::distortion_at_1m, Range::notNegative(),
                   "Largest systematic distortion of a flat wall by the sensor, at 1 m. Covariances count half of "
                   "it as a standard deviation.")
           .number("scale_sigma", &PlaneOptions::scale_sigma, {0, 1}, kScaleHelp)
@@ -25,7 +25,7 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
 
 namespace {
 
-// Rows of `from`, `stride` long.
+// Pads the rows of `from` to a length of `stride`.
 std::vector<obs::Rgb> widened(const std::vector<obs::Rgb>& from, int width, int height, int stride) {
   std::vector<obs::Rgb> to(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height));
   for (std::ptrdiff_t y = 0; y < height; ++y)
@@ -45,20 +45,20 @@ PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image, const std::ve
   if (width == 0 || height == 0) return {width, height, {}, {}};
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (needsColours() && colours.size() != pixels) {
-    throw base::Error(base::ExitCode::unreadable_input, "a comparison of colours has " +
-                                                            std::to_string(colours.size()) + " of them for " +
-                                                            std::to_string(pixels) + " pixels");
+    throw base::Error(base::ExitCode::unreadable_input, "the comparator of planes needs a colour for each of " +
+                                                            std::to_string(pixels) + " pixels, but there are " +
+                                                            std::to_string(colours.size()) + " colours");
   }
   const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
   planes::LabelledPlanes found = comparison_.comparison->find(image, inverse, options_);
-  PlanePixels seen{found.labels.stride, found.labels.rows, found.labels.values.data(), colours.data()};
+  PlanePixels labelled{found.labels.stride, found.labels.rows, found.labels.values.data(), colours.data()};
   std::vector<obs::Rgb> padded;
-  if (needsColours() && seen.width != width) {
-    padded = widened(colours, width, height, seen.width);
-    seen.colours = padded.data();
+  if (needsColours() && labelled.width != width) {
+    padded = widened(colours, width, height, labelled.width);
+    labelled.colours = padded.data();
   }
-  const Components components = comparison_.comparison->connect(seen, comparison_);
-  // What asks for one plane alone leaves no pixel out.
+  const Components components = comparison_.comparison->connect(labelled, comparison_);
+  // A comparison that only requires the same plane drops no pixel, so that there is nothing to clear.
   if (comparison_.comparison->connect != kSamePlane.connect) planes::clearOthers(components, found.labels);
   return planes::describe(inverse, image.camera(), options_.noise(), found.regions, std::move(found.labels), components,
                           {options_.min_pixels, options_.min_hole_pixels, options_.max_depth});

@@ -16,7 +16,7 @@ Pinhole pinholeOf(const mrpt::img::TCamera& camera) {
   return {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
 }
 
-// Depths along the optical axis of ranges along the rays.
+// Converts ranges along the rays to depths along the optical axis.
 std::vector<float> depthsOf(const CObservation3DRangeScan& scan) {
   const Pinhole camera = pinholeOf(scan.cameraParams);
   const auto rows = static_cast<int>(scan.rangeImage.rows()), columns = static_cast<int>(scan.rangeImage.cols());
@@ -67,7 +67,8 @@ ScanColours::ScanColours(const CObservation3DRangeScan& scan)
     refuseMissing(scan.sensorLabel, "colour", scan.intensityImage.getExternalStorageFile());
   }
   if (!exist()) return;
-  const mrpt::poses::CPose3D& depth_from_colour = scan.relativePoseIntensityWRTDepth;  // to MRPT's axes, from optical
+  // From the optical frame of the colour camera to MRPT's frame of the depth camera.
+  const mrpt::poses::CPose3D& depth_from_colour = scan.relativePoseIntensityWRTDepth;
   const Eigen::Matrix3d colour_from_sensor = depth_from_colour.getRotationMatrix().asEigen().transpose();
   const Eigen::Vector3d colour_in_sensor(depth_from_colour.x(), depth_from_colour.y(), depth_from_colour.z());
   colour_from_depth_ = colour_from_sensor * geometry::sensorFromOptical().rotation.toRotationMatrix();

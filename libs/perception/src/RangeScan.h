@@ -16,14 +16,14 @@
 
 namespace omnimapper::perception {
 
-/// From a camera's optical frame (x right, y down, z forward) to MRPT's frame of a range camera (x forward, y left,
-/// z up), which observations are in: geometry::sensorFromOptical() without losing a digit.
+/// Turns a vector from a camera's optical frame (x right, y down, z forward) to MRPT's frame of a range camera (x
+/// forward, y left, z up), which observations use: geometry::sensorFromOptical() without rounding errors.
 template <class Scalar>
 Eigen::Matrix<Scalar, 3, 1> toSensor(const Eigen::Matrix<Scalar, 3, 1>& in_optical) {
   return {in_optical.z(), -in_optical.x(), -in_optical.y()};
 }
 
-/// And back.
+/// The inverse of toSensor().
 inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
   return {-in_sensor.y(), -in_sensor.z(), in_sensor.x()};
 }
@@ -31,8 +31,8 @@ inline Eigen::Vector3d toOptical(const Eigen::Vector3d& in_sensor) {
 /// The depth image of an observation. The observation must outlive it.
 class ScanDepth {
  public:
-  /// Throws Error(missing_images) where the depths are in a file that was not loaded, and Error(unreadable_input) for a
-  /// camera without calibration; the message names the sensor.
+  /// Throws Error(missing_images) if the depths are in a file that was not loaded, and Error(unreadable_input) if the
+  /// camera has no calibration; the message names the sensor.
   explicit ScanDepth(const mrpt::obs::CObservation3DRangeScan& scan);
   ScanDepth(const ScanDepth&) = delete;
   ScanDepth& operator=(const ScanDepth&) = delete;
@@ -42,19 +42,19 @@ class ScanDepth {
   double at(std::size_t pixel) const { return image_->at(pixel); }
 
  private:
-  std::vector<float> metres_;  // where the ranges are no depths
+  std::vector<float> metres_;  // only if the scan has ranges along the rays
   std::optional<DepthImage> image_;
 };
 
-/// What colour the points of a depth image have. The observation must outlive it.
+/// Colours of the points of a depth image. The observation must outlive it.
 class ScanColours {
  public:
-  /// Throws Error(missing_images) where the image is in a file that cannot be read.
+  /// Throws Error(missing_images) if the image is in a file that cannot be read.
   explicit ScanColours(const mrpt::obs::CObservation3DRangeScan& scan);
 
   /// Whether there is an image of 8 bits with 3 channels of colours, or 1 of greys.
   bool exist() const { return channels_ > 0; }
-  /// Of what the pixel in column x and row y of the depth image sees at that depth [m]; none outside the picture.
+  /// Colour of the point that the depth pixel in column x and row y sees at `depth` [m]; none outside the picture.
   std::optional<obs::Rgb> at(int x, int y, double depth) const {
     if (same_view_) return pixel(x, y);
     const auto place = placeOf(x, y, depth);
@@ -62,23 +62,23 @@ class ScanColours {
     return pixel(place->x, place->y);
   }
 
-  /// Of all pixels of the depth image, row by row; black where there is no depth or none is seen.
+  /// Colours of all pixels of the depth image, row by row; black where there is no depth or no colour.
   std::vector<obs::Rgb> inDepthView(const ScanDepth& depth) const;
 
   /// Column and row of the picture.
   struct Place {
     int x, y;
   };
-  /// Where the picture shows what that pixel of the depth image sees; none outside it or without one.
+  /// Where the picture shows the point that this depth pixel sees; none outside the picture or without one.
   std::optional<Place> placeOf(int x, int y, double depth) const {
     if (!exist()) return std::nullopt;
     return same_view_ ? Place{x, y} : placeInOtherView(x, y, depth);
   }
-  /// The picture itself, of no size without one.
+  /// The picture itself; its size is 0 if there is none.
   ColourImage picture() const;
-  /// Whether the picture is the depth image's, pixel by pixel.
+  /// Whether the pixels of the picture coincide with those of the depth image.
   bool areOfDepthView() const { return same_view_; }
-  /// How many pixels of the picture one of the depth image is wide.
+  /// Width of a depth pixel in pixels of the picture.
   double pixelsPerDepthPixel() const { return std::abs(colour_camera_.fx / depth_camera_.fx); }
 
  private:
@@ -93,13 +93,13 @@ class ScanColours {
   std::vector<const std::uint8_t*> rows_;
   int width_ = 0, channels_ = 0;
   bool red_first_ = false;
-  bool same_view_ = false;  // pixel by pixel
+  bool same_view_ = false;  // see areOfDepthView()
   Pinhole depth_camera_, colour_camera_;
-  Eigen::Matrix3d colour_from_depth_ = Eigen::Matrix3d::Identity();  // optical frames
+  Eigen::Matrix3d colour_from_depth_ = Eigen::Matrix3d::Identity();  // between optical frames
   Eigen::Vector3d depth_in_colour_ = Eigen::Vector3d::Zero();        // [m]
 };
 
-/// The mean of colours.
+/// Accumulates colours and returns their mean.
 class ColourSum {
  public:
   void add(const obs::Rgb& colour) {
@@ -108,7 +108,7 @@ class ColourSum {
     blue_ += colour.blue;
     ++count_;
   }
-  /// None of none.
+  /// None if no colour was added.
   std::optional<obs::Rgb> mean() const;
 
  private:

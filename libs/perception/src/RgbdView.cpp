@@ -9,7 +9,7 @@ struct RgbdView::Parts {
 
   ScanDepth depth;
   ScanColours colours;
-  std::vector<obs::Rgb> turned;  // a picture of another view
+  std::vector<obs::Rgb> in_depth_view;  // colours of a picture that was taken from another view
   ColourImage picture;
 };
 
@@ -19,11 +19,11 @@ RgbdView::RgbdView(const mrpt::obs::CObservation3DRangeScan& scan) : parts_(std:
     parts_->picture = parts_->colours.picture();
     return;
   }
-  static_assert(sizeof(obs::Rgb) == 3, "pixels lie one behind the other");
+  static_assert(sizeof(obs::Rgb) == 3, "pixels must be contiguous");
   const auto& image = parts_->depth.image();
-  parts_->turned = parts_->colours.inDepthView(parts_->depth);
-  if (parts_->turned.empty()) return;
-  parts_->picture = {&parts_->turned.data()->red, image.width(), image.height(), 3 * image.width(),
+  parts_->in_depth_view = parts_->colours.inDepthView(parts_->depth);
+  if (parts_->in_depth_view.empty()) return;
+  parts_->picture = {&parts_->in_depth_view.data()->red, image.width(), image.height(), 3 * image.width(),
                      ColourImage::Order::rgb};
 }
 

@@ -42,9 +42,9 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
 
 namespace {
 
-constexpr int kLeastSeed = 200;      // pixels of a component that the second pass begins with
-constexpr float kStanding = 0.423F;  // cosine: a surface steeper than 65 degrees to the ground stands on it
-constexpr int kFootRows = 6;         // [px]
+constexpr int kLeastSeed = 200;      // fewest pixels of a component from which the second pass grows the ground
+constexpr float kStanding = 0.423F;  // cosine of 65 degrees: surfaces steeper than this to the ground stand on it
+constexpr int kFootRows = 6;         // [px] rows of a foot, see feetOf()
 
 NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
   return NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
@@ -57,10 +57,12 @@ std::vector<std::uint8_t> seedsOf(const Components& components) {
   return seeds;
 }
 
-// 1 for pixels of what stands on the ground, and for those just below, which windows of stereo mix with it.
+// 1 for pixels of objects that stand on the ground and for the pixels just below them, which the windows of stereo
+// matching mix with the object.
 std::vector<std::uint8_t> feetOf(const NormalImage& normals, const Eigen::Vector3f& up) {
   std::vector<std::uint8_t> feet(normals.size(), 0);
-  std::vector<int> left(static_cast<std::size_t>(normals.width), 0);  // of each column: pixels that still belong to it
+  // For each column, the number of further rows that belong to the foot.
+  std::vector<int> left(static_cast<std::size_t>(normals.width), 0);
   std::size_t i = 0;
   for (int y = 0; y < normals.height; ++y) {
     for (int& of_column : left) {
@@ -72,7 +74,7 @@ std::vector<std::uint8_t> feetOf(const NormalImage& normals, const Eigen::Vector
   return feet;
 }
 
-// The expected ground as the image shows it, for residuals to be reckoned from: 1/z = -n . ray / d.
+// The expected ground in image coordinates, from which residuals are computed: 1/z = -n . ray / d.
 planes::CellRegions expectedRegion(const geometry::Plane3& expected, const Pinhole& camera) {
   const Eigen::Vector3d w = -expected.normal / std::max(1e-3, expected.distance);
   planes::CellRegions regions;
@@ -95,7 +97,7 @@ RoadSegmentation RoadSegmenter::segment(const DepthImage& image, const geometry:
   result.ground.width = image.width();
   result.ground.height = image.height();
   if (image.width() == 0 || image.height() == 0) return result;
-  const OrganisedPoints points = backProject(image, options_.min_depth, options_.max_depth);
+  const OrganizedPoints points = backProject(image, options_.min_depth, options_.max_depth);
   const NormalImage normals = normalsOf(image, options_);
   const RoadComparator comparator{points,
                                   normals,

@@ -1,4 +1,4 @@
-#include <omnimapper/graph/Linearised.h>
+#include <omnimapper/graph/Linearized.h>
 #include <omnimapper/plugin/Association.h>
 
 #include <Eigen/Cholesky>
@@ -14,10 +14,10 @@ namespace omnimapper::mapper {
 
 namespace {
 
-// A pairing, linearised at the current values, with its gate and cost.
+// A pairing, linearized at the current values, with its gate and cost.
 struct Candidate {
   std::size_t pairing;
-  graph::Linearised linearised;
+  graph::Linearized linearized;
   double chi2 = 0, limit = 0, cost = 0;
 };
 
@@ -46,12 +46,12 @@ class Prediction {
 
   // J_a cov J_b^T
   Eigen::MatrixXd between(const Candidate& a, const Candidate& b) const {
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(a.linearised.residual.size(), b.linearised.residual.size());
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(a.linearized.residual.size(), b.linearized.residual.size());
     const auto& of_a = pairings_[a.pairing].record.variables;
     const auto& of_b = pairings_[b.pairing].record.variables;
     for (std::size_t i = 0; i < of_a.size(); ++i) {
       for (std::size_t j = 0; j < of_b.size(); ++j) {
-        const auto &by_a = a.linearised.jacobians[i], &by_b = b.linearised.jacobians[j];
+        const auto &by_a = a.linearized.jacobians[i], &by_b = b.linearized.jacobians[j];
         sum += by_a *
                covariance_.block(places_.offsets.at(of_a[i]), places_.offsets.at(of_b[j]), by_a.cols(), by_b.cols()) *
                by_b.transpose();
@@ -79,7 +79,7 @@ bool isBound(const Pairing& pairing, const graph::Graph& graph) {
 // Computes the gate and cost of each candidate by itself.
 void gate(std::vector<Candidate>& candidates, const Prediction& prediction, const AssociationOptions& options) {
   for (Candidate& candidate : candidates) {
-    const Eigen::VectorXd& residual = candidate.linearised.residual;
+    const Eigen::VectorXd& residual = candidate.linearized.residual;
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(residual.size(), residual.size());
     covariance += options.inflation * options.inflation * prediction.between(candidate, candidate);
     const Eigen::LLT<Eigen::MatrixXd> root(covariance);
@@ -118,7 +118,7 @@ JointInnovation innovationOf(const std::vector<const Candidate*>& candidates, co
   for (const Candidate* candidate : candidates) {
     const Pairing& pairing = pairings[candidate->pairing];
     const std::size_t landmark = numbers.emplace(pairing.landmark, numbers.size()).first->second;
-    const Eigen::Index size = candidate->linearised.residual.size();
+    const Eigen::Index size = candidate->linearized.residual.size();
     innovation.pairings.push_back(
         {pairing.measurement, landmark, rows, size, candidate->chi2, candidate->limit, candidate->cost});
     rows += size;
@@ -128,7 +128,7 @@ JointInnovation innovationOf(const std::vector<const Candidate*>& candidates, co
   const double inflation = options.inflation * options.inflation;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const PairingRows& at = innovation.pairings[i];
-    innovation.residual.segment(at.first, at.size) = candidates[i]->linearised.residual;
+    innovation.residual.segment(at.first, at.size) = candidates[i]->linearized.residual;
     for (std::size_t j = 0; j <= i; ++j) {
       const PairingRows& other = innovation.pairings[j];
       const Eigen::MatrixXd block = inflation * prediction.between(*candidates[i], *candidates[j]);
@@ -159,7 +159,7 @@ Association associate(std::size_t measurements, const std::vector<Pairing>& pair
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < pairings.size(); ++i)
     if (isBound(pairings[i], state.graph))
-      candidates.push_back({i, graph::Linearised(state.graph, pairings[i].record)});
+      candidates.push_back({i, graph::Linearized(state.graph, pairings[i].record)});
   if (candidates.empty()) return association;
   const Places places(candidates, pairings, state.graph);
   auto joint = state.jointCovariance(places.ids);

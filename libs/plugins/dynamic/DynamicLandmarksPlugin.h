@@ -21,7 +21,7 @@ struct DynamicLandmarksOptions {
   static const base::OptionTable<DynamicLandmarksOptions>& table();
 };
 
-/// Finds the landmarks that were moved (thesis 4.6): expectation maximisation over one weight per landmark, on a copy
+/// Finds the landmarks that were moved (thesis 4.6): expectation maximization over one weight per landmark, on a copy
 /// of the graph; then the measurements of each landmark with a small weight are clustered by the places where it was
 /// seen. Moved landmarks are retired and no longer affect the map; a landmark of kind "moved thing" records the places
 /// of each. A landmark with a small weight whose measurements at no place determine it is retired without a record. The

@@ -1,7 +1,7 @@
 #include "LandmarkRelocations.h"
 
 #include <omnimapper/graph/ChiSquare.h>
-#include <omnimapper/graph/Linearised.h>
+#include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/landmarks/Merging.h>
 #include <omnimapper/landmarks/PlaneParametrization.h>
@@ -247,12 +247,12 @@ bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::Facto
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
   for (const auto id : factors) {
     const auto& record = graph.factor(id);
-    const graph::Linearised linearised(graph, record);
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(linearised.residual.size(), size);
+    const graph::Linearized linearized(graph, record);
+    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(linearized.residual.size(), size);
     for (std::size_t i = 0; i < record.variables.size(); ++i) {
       const auto offset = offsets.find(record.variables[i]);
       if (offset == offsets.end()) continue;
-      jacobian.middleCols(offset->second, linearised.jacobians[i].cols()) = linearised.jacobians[i];
+      jacobian.middleCols(offset->second, linearized.jacobians[i].cols()) = linearized.jacobians[i];
     }
     information += jacobian.transpose() * jacobian;
   }

@@ -33,7 +33,7 @@ std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const 
 /// The factors that bind only the landmark's variables, such as a prior: they apply wherever the landmark is.
 std::vector<base::FactorId> factorsOfItself(const WeighedLandmark& landmark, const graph::Graph& graph);
 
-/// Expectation maximisation over one weight for each landmark (thesis 4.6.2.2). It minimises
+/// Expectation maximization over one weight for each landmark (thesis 4.6.2.2). It minimizes
 ///   chi2 of all else + sum over landmarks of weight chi2 + lambda (1 - weight)^2
 /// alternately over the map and the weights. lambda depends on a landmark's degrees of freedom, so that 99 of 100
 /// static landmarks keep a weight of at least 0.9. The first run starts from the current map. If landmarks lose weight

@@ -84,7 +84,7 @@ class CoveredMemo {
 };
 
 /// What is known of a plane landmark beside its plane (thesis 4.2.2.1). Its patches are attached to the key frames that
-/// measured them and are projected on the optimised plane on request, so that a loop closure moves them at no cost.
+/// measured them and are projected on the optimized plane on request, so that a loop closure moves them at no cost.
 struct PlanePayload : map::LandmarkPayload {
   using Ground = PlaneLandmarksOptions::Ground;
   using Boundary = PlaneLandmarksOptions::Boundary;

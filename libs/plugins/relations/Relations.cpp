@@ -3,7 +3,7 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/graph/ChiSquare.h>
-#include <omnimapper/graph/Linearised.h>
+#include <omnimapper/graph/Linearized.h>
 #include <omnimapper/landmarks/PlaneAxes.h>
 #include <omnimapper/landmarks/PlaneVariable.h>
 #include <omnimapper/landmarks/WallVariable.h>
@@ -222,14 +222,14 @@ class Finder {
         hypothesis.name};
     const auto joint = state_.jointCovariance(relation.record.variables);
     if (!joint) return false;
-    const graph::Linearised linearised(state_.graph, relation.record);
-    Eigen::MatrixXd jacobian(linearised.residual.size(), joint->cols());
-    jacobian << linearised.jacobians[0], linearised.jacobians[1];
+    const graph::Linearized linearized(state_.graph, relation.record);
+    Eigen::MatrixXd jacobian(linearized.residual.size(), joint->cols());
+    jacobian << linearized.jacobians[0], linearized.jacobians[1];
     Eigen::MatrixXd covariance = jacobian * *joint * jacobian.transpose();
     covariance.diagonal().array() += 1;
     const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-    const auto rows = static_cast<int>(linearised.residual.size());
-    relation.chi2 = linearised.residual.dot(root.solve(linearised.residual));
+    const auto rows = static_cast<int>(linearized.residual.size());
+    relation.chi2 = linearized.residual.dot(root.solve(linearized.residual));
     constexpr double kConfidence = 0.999;
     if (relation.chi2 > graph::chiSquareQuantile(kConfidence, rows)) return false;
     // Both densities are in whitened units.

@@ -13,7 +13,7 @@ std::ptrdiff_t digitsIn(const std::string& text) {
   return std::count_if(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Only ASCII letters are capitalised; other bytes are kept.
+// Only ASCII letters are capitalized; other bytes are kept.
 std::string inCapitals(const std::string& text, bool keeps_blanks) {
   std::string result;
   for (const char c : text) {

@@ -111,8 +111,8 @@ double missOf(const Ray& ray, const Meeting& meeting) {
   return ray.range ? std::max(aside, std::abs(seen.norm() - *ray.range) / ray.range_sigma) : aside;
 }
 
-// Minimises the sum of squared angles and range errors, starting from a point near the minimum. The distances that
-// meetingOf() minimises favour points near the cameras, where the rays are nearly parallel.
+// Minimizes the sum of squared angles and range errors, starting from a point near the minimum. The distances that
+// meetingOf() minimizes favour points near the cameras, where the rays are nearly parallel.
 std::optional<Meeting> refined(const Vector3d& start, const std::vector<const Ray*>& rays, double offset_sigma) {
   constexpr int kRounds = 10;
   using Vector5 = Eigen::Matrix<double, 5, 1>;

@@ -2,7 +2,7 @@
 
 namespace omnimapper::signs {
 
-/// Factor from a number of a histogram, which the normalisation of blocks keeps below 0.5, to its byte.
+/// Factor from a number of a histogram, which the normalization of blocks keeps below 0.5, to its byte.
 constexpr float kFeatureScale = 510;
 
 }  // namespace omnimapper::signs

@@ -67,7 +67,7 @@ const base::OptionTable<HogOptions>& HogOptions::table() {
           .integer("rows", &O::rows, {1, 16}, "Number of HOG cells down the window.")
           .integer("cell_px", &O::cell, {2, 32}, "Side of a HOG cell.")
           .integer("block", &O::block, {1, 16},
-                   "Number of HOG cells across a block, over which contrast is normalised.")
+                   "Number of HOG cells across a block, over which contrast is normalized.")
           .integer("orientations", &O::orientations, {2, 36}, "Number of edge orientations over half a turn.")
           .number("margin", &O::margin, {0, 0.4},
                   "Share of the window on each side that shows the surroundings of the region.");

@@ -64,7 +64,7 @@ std::optional<PlateRange> PlateRanges::of(const Corners& plate, const Eigen::Vec
   if (medianOf(depths) > kMostSpread * depth) return std::nullopt;
   const perception::DepthNoise noise;
   const double relative =
-      std::hypot(depth * std::sqrt(noise.meanVariance() / count + noise.bendVariance()), noise.scale);
+      std::hypot(depth * std::sqrt(noise.meanVariance() / count + noise.distortionVariance()), noise.scale);
   return PlateRange{depth / ray.z(), relative * depth / ray.z()};
 }
 

@@ -11,7 +11,7 @@
 
 namespace omnimapper::source {
 
-/// Reads one serialised object after another from a file. Unlike MRPT's own reader it distinguishes the end of the file
+/// Reads one serialized object after another from a file. Unlike MRPT's own reader it distinguishes the end of the file
 /// from truncation, corruption, and a class that is not registered. A CRawlog saved as one object is split into its
 /// objects, so that it is streamed too.
 class ObjectReader {

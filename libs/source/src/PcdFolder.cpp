@@ -78,7 +78,7 @@ void addColours(const PcdCloud& cloud, mrpt::obs::CObservation3DRangeScan& scan)
 }  // namespace
 
 mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name) {
-  if (cloud.height < 2 || cloud.width < 2) refuse(name, "is no organised cloud: it has no rows and columns");
+  if (cloud.height < 2 || cloud.width < 2) refuse(name, "is no organized cloud: it has no rows and columns");
   auto scan = mrpt::obs::CObservation3DRangeScan::Create();
   scan->cameraParams = scan->cameraParamsIntensity = cameraOf(cloud, name);
   scan->hasRangeImage = true;
@@ -115,7 +115,7 @@ PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options)
 mrpt::obs::CObservation::Ptr PcdFolder::read(const std::string& file) {
   const auto cloud = readPcd(file);
   if (cloud.height > 1 && cloud.width > 1) return depthImageOf(cloud, file);
-  ++unorganised_;
+  ++unorganized_;
   return cloudOf(cloud);
 }
 

@@ -383,7 +383,7 @@ TEST(ScanOdometryPlugin, OfScansWithASweepAllTimeSinceTheFirstStampIsCovered) {
 }
 
 /// Mean of e' C^-1 e over some logs, with the error e and its covariance C: 3 if C is right.
-double normalisedSquares(const ScanOdometryOptions& options) {
+double normalizedSquares(const ScanOdometryOptions& options) {
   double squares = 0;
   constexpr int kLogs = 20;
   for (int seed = 1; seed <= kLogs; ++seed) {
@@ -404,8 +404,8 @@ TEST(ScanOdometryPlugin, TheCovarianceOfTheMatchesIsThatOfTheErrors) {
   ScanOdometryOptions options;
   options.point_sigma = testing::SimulatedLaser().sigma;
   options.position_noise_per_root_m = options.yaw_noise_per_root_m = options.yaw_noise_per_root_turn = 0;
-  const double squares = normalisedSquares(options);
-  RecordProperty("normalised_squares", std::to_string(squares));
+  const double squares = normalizedSquares(options);
+  RecordProperty("normalized_squares", std::to_string(squares));
   EXPECT_LT(squares, 6) << "of three degrees of freedom";
   EXPECT_GT(squares, 0.5);
 }
@@ -413,7 +413,7 @@ TEST(ScanOdometryPlugin, TheCovarianceOfTheMatchesIsThatOfTheErrors) {
 // Real floors, walls and mountings cause further errors, which a simulated world lacks: the covariance must include
 // them, and still be small enough to be useful.
 TEST(ScanOdometryPlugin, ItsCovarianceHasRoomForARealWorldButNotMore) {
-  EXPECT_LT(normalisedSquares({}), 0.1);
+  EXPECT_LT(normalizedSquares({}), 0.1);
   const auto log = halfALap();
   const auto measured = follow(log, [](auto observation) { return observation; });
   const double travel = log.lapLength() / 2;

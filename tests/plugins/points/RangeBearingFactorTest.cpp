@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/graph/G2o.h>
 #include <omnimapper/graph/GraphArchive.h>
-#include <omnimapper/graph/Linearised.h>
+#include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/testing/SimulatedLog.h>
@@ -177,11 +177,11 @@ TEST(RangeBearingFactor, InAG2oFileItIsItsPointToFirstOrder) {
     EXPECT_NE(text.str().find("# to first order: 1 of kind range_bearing"), std::string::npos) << text.str();
     const auto read = graph::readG2o(text, "written").graph;
     ASSERT_EQ(read.factors().size(), 1U);
-    const graph::Linearised ours(*graph, (*graph->factors().begin()).first),
+    const graph::Linearized ours(*graph, (*graph->factors().begin()).first),
         theirs(read, (*read.factors().begin()).first);
     EXPECT_NEAR(ours.residual.squaredNorm(), theirs.residual.squaredNorm(), 1e-9);
     EXPECT_GT(ours.residual.squaredNorm(), 1);
-    const auto information = [](const graph::Linearised& factor, int of) -> Eigen::MatrixXd {
+    const auto information = [](const graph::Linearized& factor, int of) -> Eigen::MatrixXd {
       return factor.jacobians[of].transpose() * factor.jacobians[of];
     };
     EXPECT_LT((information(ours, 1) - information(theirs, 1)).norm(), 1e-9 * information(ours, 1).norm());

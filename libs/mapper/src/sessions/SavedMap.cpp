@@ -1,6 +1,6 @@
 #include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/graph/GraphArchive.h>
-#include <omnimapper/graph/Linearised.h>
+#include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Marginals.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/SavedMap.h>
@@ -73,7 +73,7 @@ double spreadOfInformation(const graph::Graph& graph) {
   std::unordered_map<base::VariableId, Eigen::VectorXd> information;
   for (const auto& [id, record] : graph.factors()) {
     if (record.weight == 0) continue;
-    const graph::Linearised factor(graph, id);
+    const graph::Linearized factor(graph, id);
     for (std::size_t i = 0; i < record.variables.size(); ++i) {
       if (graph.variable(record.variables[i]).fixed) continue;
       const Eigen::VectorXd more = record.weight * factor.jacobians[i].colwise().squaredNorm().transpose();

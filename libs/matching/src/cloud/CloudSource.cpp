@@ -2,7 +2,7 @@
 #include <omnimapper/matching/CloudSource.h>
 #include <omnimapper/perception/EdgeDetector.h>
 #include <omnimapper/perception/Normals.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,7 +124,7 @@ Eigen::Matrix3f onSurface(const Eigen::Vector3f& normal, float spacing, const Ei
 }
 
 struct Surface {
-  perception::OrganisedPoints points;
+  perception::OrganizedPoints points;
   perception::NormalImage normals;
   Eigen::Vector3f point(std::size_t i) const { return {points.x[i], points.y[i], points.z[i]}; }
   Eigen::Vector3f normal(std::size_t i) const { return {normals.x()[i], normals.y()[i], normals.z()[i]}; }

@@ -12,16 +12,16 @@ namespace omnimapper::perception::clouds {
 
 namespace {
 
-constexpr int kMostCells = 1000;  // a side
-constexpr double kTolerance = 1;  // [cell] of a concave outline's corners
-constexpr int kLeastHole = 4;     // [cell]
+constexpr int kMostCells = 1000;  // along a side of the grid
+constexpr double kTolerance = 1;  // [cell] tolerance of a concave outline's corners
+constexpr int kLeastHole = 4;     // [cell] smaller holes are not outlined
 
 Eigen::Vector3d onPlane(const FlatGrid& grid, int member, const geometry::Plane3& plane) {
   const Eigen::Vector3d p = grid.point(member);
   return p - geometry::signedDistance(plane, p) * plane.normal;
 }
 
-// Cells of one component, with one empty cell all around.
+// The cells of one component, with a border of one empty cell.
 struct Window {
   int left, top, width, height;
   std::vector<std::uint16_t> labels;
@@ -70,7 +70,7 @@ class CornerPoints {
  private:
   struct Nearest {
     int member = FlatGrid::kNone;
-    double distance = 3;  // [cell^2] more than any
+    double distance = 3;  // [cell^2] larger than any real one
   };
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * stride_ + x); }
 
@@ -109,7 +109,7 @@ void outlineConvex(const FlatGrid& grid, const std::vector<int>& members, CloudP
     plane.outline.vertices.emplace_back(basis * corner - in_sensor.distance * in_sensor.normal);
 }
 
-// So that they go counter-clockwise against the normal, and holes the other way round.
+// Orients the outline counter-clockwise against the normal, and the holes clockwise.
 void orient(CloudPlane& plane) {
   if (areaVector(plane.outline).dot(plane.plane_in_sensor.normal) >= 0) return;
   std::reverse(plane.outline.vertices.begin(), plane.outline.vertices.end());

@@ -9,12 +9,13 @@
 
 namespace omnimapper::perception::clouds {
 
-/// Square cells of a plane, and which of them points fill.
+/// A grid of square cells on a plane, with the cells that points fill.
 class FlatGrid {
  public:
   static constexpr int kNone = -1;
 
-  /// Of the points `members`, which are not none. Cells are larger than `cell` [m] where there would be too many.
+  /// Covers the points `members`, which must not be empty. Cells are larger than `cell` [m] if there would be too
+  /// many.
   FlatGrid(const LoosePoints& points, const std::vector<int>& members, const geometry::Plane3& plane, double cell);
 
   int width() const { return width_; }
@@ -22,9 +23,9 @@ class FlatGrid {
   /// 1 for cells with points, row by row.
   const std::vector<std::uint16_t>& filled() const { return filled_; }
   std::size_t cellOf(int point) const { return static_cast<std::size_t>(cellOrNone(point)); }
-  /// kNone outside the cells.
+  /// As cellOf(), but kNone for a point outside the grid.
   int cellOrNone(int point) const;
-  /// Where a point is on the plane, in cells from the upper left corner of the first one.
+  /// Position of a point on the plane, in cells from the upper left corner of the first cell.
   Eigen::Vector2d at(int point) const;
   /// A point of the cloud [m].
   Eigen::Vector3d point(int point) const { return points_.at(static_cast<std::size_t>(point)); }
@@ -38,7 +39,7 @@ class FlatGrid {
   std::vector<std::uint16_t> filled_;
 };
 
-/// Sets the outline, and holes, of the points `members` that fill a component of the grid's cells.
+/// Sets the outline and the holes of `plane` from the points `members`, which fill one component of the grid's cells.
 void outline(const FlatGrid& grid, const Components& components, int component, const std::vector<int>& members,
              CloudPlaneOptions::Outline kind, CloudPlane& plane);
 

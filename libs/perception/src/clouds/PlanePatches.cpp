@@ -15,40 +15,43 @@ namespace omnimapper::perception::clouds {
 
 namespace {
 
-// Points up to so much farther off than inliers, squared, belong to no other plane.
+// Largest squared distance, relative to that of inliers, of points that lie so near a surface that they belong to no
+// other plane.
 constexpr float kHalo = 2.5F;
-// Sum of the variances of a plane's turns [rad^2]. The points of a line, such as what a laser's turn leaves of a wall,
-// tell no plane.
+// Largest sum of the variances of a plane's two rotations [rad^2]. Points on one line, such as those that one turn of a
+// laser leaves of a wall, do not determine a plane.
 constexpr double kMostTurn = 0.1;
 
 using geometry::Plane3;
 
-// What a point tells of a plane's two turns and its distance, by n.p + d = 0.
+// Derivative of n.p + d by the plane's two rotations and its distance.
 Eigen::Vector3d rowOf(const Eigen::Vector3d& point, const Eigen::Matrix<double, 3, 2>& basis) {
   return {basis.col(0).dot(point), basis.col(1).dot(point), 1};
 }
 
-// A voxel's mean errs by less than a point does, but for errors that neighbours share.
+// Information of a voxel's mean. The error of the mean is smaller than that of one point, except for the part that
+// neighbouring points share.
 double informationOf(const LoosePoints& points, int member, const Plane3& plane, const CloudPlaneOptions& options) {
   const auto i = static_cast<std::size_t>(member);
   const double of_point = static_cast<double>(points.tolerance(i, plane)) / (options.gate * options.gate);
   return static_cast<double>(points.of[i]) / (options.correlated_points * of_point);
 }
 
-// [m] by which what all points share may move a point along its ray.
+// Standard deviation [m] of a point along its ray, from errors that all points share.
 double sharedSigma(double range, const CloudPlaneOptions& options) {
-  const double bend = 0.5 * options.bend_at_1m * range * range;  // it is two standard deviations
-  return std::hypot(options.bias_sigma, bend, options.scale_sigma * range);
+  const double distortion =
+      0.5 * options.distortion_at_1m * range * range;  // distortion_at_1m is two standard deviations
+  return std::hypot(options.bias_sigma, distortion, options.scale_sigma * range);
 }
 
-// Covariance of the plane's two turns and its distance: by the noise of points, and by errors along the rays that are
-// alike for neighbouring rays and so do not average out.
+// Covariance of the plane's two rotations and its distance, from the noise of the points and from errors along the rays
+// that neighbouring rays share, so that they do not average out.
 Eigen::Matrix3d covarianceOf(const LoosePoints& points, const std::vector<int>& members, const Plane3& plane,
                              const Eigen::Vector3d& centroid, const CloudPlaneOptions& options) {
   const auto basis = geometry::tangentBasis(plane.normal);
   const auto across = geometry::tangentBasis(centroid.normalized());
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();  // what an error, and its slopes over the rays, make of the sums
+  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();  // of the sums, by a shared error and its slopes over the rays
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   double weights = 0;
   for (const int member : members) {

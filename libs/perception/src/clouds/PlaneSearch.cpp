@@ -15,9 +15,10 @@ using planes::kLanes;
 using planes::LaneMask;
 using planes::Lanes;
 
-// A quick look counts one of so many.
+// A quick count takes one in this many groups of points.
 constexpr int kQuickly = 4;
-// The largest plane is missed with that probability, if three neighbours on it are on one surface half the time.
+// Accepted probability of missing the largest plane, and assumed probability that three neighbours, of which the first
+// is on the plane, are on one surface.
 constexpr double kMissed = 1e-3, kPure = 0.5;
 
 struct CountTask {
@@ -25,7 +26,7 @@ struct CountTask {
   float nx, ny, nz, distance, everywhere;
 };
 
-// Of every `step`-th group of eight points; what is left over at the end is not looked at.
+// Counts inliers in every `step`-th group of eight points; an incomplete group at the end is left out.
 OMNIMAPPER_KERNEL_BODY int countBody(const CountTask& task, int n, int step) {
   LaneMask sum{};
   const float squared_distance = task.distance * task.distance;
@@ -66,14 +67,14 @@ int count(const LoosePoints& points, const geometry::Plane3& plane, int step) {
   return countBody(task, n, step);
 }
 
-// Where the group of a point begins and ends.
+// Begin and end of the group of a point.
 std::pair<int, int> groupAround(const LoosePoints& points, int i) {
   const auto range =
       std::equal_range(points.group.begin(), points.group.end(), points.group[static_cast<std::size_t>(i)]);
   return {static_cast<int>(range.first - points.group.begin()), static_cast<int>(range.second - points.group.begin())};
 }
 
-// The plane through three points of a group; none if they are on a line, or it is seen edge-on.
+// The plane through three random points of one group; none if they are nearly on a line, or if it is seen edge-on.
 std::optional<geometry::Plane3> drawPlane(const LoosePoints& points, double min_incidence, base::SplitMix& random) {
   const int first = random.below(static_cast<int>(points.size()));
   const auto [begin, end] = groupAround(points, first);
@@ -98,7 +99,7 @@ std::vector<int> inliersOf(const LoosePoints& points, const geometry::Plane3& pl
   return inliers;
 }
 
-// How many triples are enough once a plane with so many of the points is known.
+// Number of triples that suffices once a plane with that many inliers is known.
 int enoughTrials(int inliers, std::size_t points, int most) {
   const double hit = kPure * inliers / static_cast<double>(points);
   if (hit >= 1) return 1;
@@ -162,7 +163,7 @@ LoosePoints loosen(const Voxels& voxels, const CloudPlaneOptions& options) {
 }
 
 geometry::Plane3 fitPlane(const LoosePoints& points, const std::vector<int>& members, const geometry::Plane3& roughly) {
-  // About one of the points, so that no digits are lost far from the origin.
+  // Sums are taken about one of the points, so that no digits are lost far from the origin.
   const Eigen::Vector3d origin = points.at(static_cast<std::size_t>(members.front()));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();

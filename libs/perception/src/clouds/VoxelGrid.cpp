@@ -7,10 +7,10 @@ namespace omnimapper::perception::clouds {
 
 namespace {
 
-constexpr float kReach = 1 << 20;  // cubes from the origin
+constexpr float kReach = 1 << 20;  // largest distance from the origin, in cubes
 constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
 
-/// Numbers keys in the order in which they come, in an open hash table.
+/// Numbers keys in the order in which they first occur, by a hash table with open addressing.
 class Numbering {
  public:
   Numbering() : slots_(std::size_t{1} << bits_, kNoVoxel) {}
@@ -55,7 +55,7 @@ std::uint64_t keyOf(const Eigen::Vector3f& point, float per_metre) {
   std::uint64_t key = 0;
   for (int i = 0; i < 3; ++i) {
     const float cube = std::floor(point[i] * per_metre);
-    if (!(cube >= -kReach && cube < kReach)) return kNoKey;  // not a number, too
+    if (!(cube >= -kReach && cube < kReach)) return kNoKey;  // NaN, too
     key = key << 21 | static_cast<std::uint64_t>(static_cast<std::int64_t>(cube) + (1 << 20));
   }
   return key;

@@ -8,17 +8,18 @@ namespace omnimapper::perception::clouds {
 constexpr int kNoVoxel = -1;
 
 struct Voxels {
-  std::vector<Eigen::Vector3f> means;  ///< in the order in which voxels were first met
-  std::vector<int> sizes;              ///< of how many points each is the mean
-  std::vector<int> of_point;           ///< for each point; kNoVoxel for what was left out
+  std::vector<Eigen::Vector3f> means;  ///< in the order in which the voxels first occur
+  std::vector<int> sizes;              ///< number of points that each is the mean of
+  std::vector<int> of_point;           ///< voxel of each point; kNoVoxel if it was left out
 };
 
-/// Means of the points in cubes of side `voxel` [m], or the points themselves if it is 0. Left out is what is not
-/// finite, out of [min_range, max_range] [m] or more than 2^20 voxels away.
+/// Averages the points in cubes of side `voxel` [m], or keeps the points themselves if it is 0. Points are left out if
+/// they are not finite, out of [min_range, max_range] [m] or more than 2^20 voxels away.
 Voxels averaged(const std::vector<Eigen::Vector3f>& points, double voxel, double min_range, double max_range);
 
-/// Numbers cubes of side `cell` [m]: for each point that of its cube, from 0 on in the order in which they are met.
-/// kNoVoxel for what is not finite or more than 2^20 cubes away.
+/// Returns the number of each point's cube of side `cell` [m], and sets `count` to the number of cubes. Cubes are
+/// numbered from 0 on in the order in which they first occur. Points that are not finite or more than 2^20 cubes away
+/// have kNoVoxel.
 std::vector<int> cubesOf(const std::vector<Eigen::Vector3f>& points, double cell, int& count);
 
 }  // namespace omnimapper::perception::clouds

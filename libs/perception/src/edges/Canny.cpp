@@ -9,7 +9,7 @@ namespace omnimapper::perception::edges {
 
 namespace {
 
-// The weights of ITU-R BT.601 in parts of 256.
+// Converts a row of colours to grey with the weights of ITU-R BT.601, in parts of 256.
 template <int kFirst, int kThird>
 void writeGrey(const std::uint8_t* from, int n, std::uint8_t* to) {
   for (int x = 0; x < n; ++x, from += 3) {

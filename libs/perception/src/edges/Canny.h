@@ -6,8 +6,9 @@
 
 namespace omnimapper::perception::edges {
 
-/// Canny's edges, kKept: Sobel's 3 x 3 operators on the grey picture (borders repeated), |gx| + |gy|, its maxima across
-/// the edge to 45 degrees, those above `low` that are connected with one above `high`.
+/// Finds Canny's edges, whose pixels are kKept: the gradient is |gx| + |gy| of Sobel's 3 x 3 operators on the grey
+/// picture (borders repeated). Its maxima across the edge, in directions of 45 degrees, are edges if they are above
+/// `low` and connected with one above `high`.
 Candidates canny(const ColourImage& image, int low, int high);
 
 }  // namespace omnimapper::perception::edges

@@ -17,17 +17,17 @@ using planes::kLanes;
 using planes::LaneMask;
 using planes::Lanes;
 
-// What a pixel and its neighbour may be to each other: of other direction, or only one of them with a normal.
-enum CreaseMark : std::int32_t { kCreaseRight = 1, kCreaseBelow = 2, kGapRight = 4, kGapBelow = 8 };
+// Bits of a pixel's mask: its normal and that of a neighbour differ (turn), or only one of the two has a normal (gap).
+enum CurvatureBits : std::int32_t { kTurnRight = 1, kTurnBelow = 2, kGapRight = 4, kGapBelow = 8 };
 
-struct CreaseTask {
+struct CurvatureTask {
   const float *x, *y, *z;  // normals of the row
   const float* inverse;
-  float least, noise;  // squared chords between unit normals; that of noise at 1/z = 1
+  float least, noise;  // thresholds of the squared chord between unit normals; that of the noise is at 1/z = 1
 };
 
-OMNIMAPPER_KERNEL_BODY void compare(const CreaseTask& task, int at, std::ptrdiff_t step, int turned, int gap,
-                                    LaneMask& marks) {
+OMNIMAPPER_KERNEL_BODY void compare(const CurvatureTask& task, int at, std::ptrdiff_t step, int turned, int gap,
+                                    LaneMask& masks) {
   Lanes x, y, z, other_x, other_y, other_z, q;
   planes::load(x, task.x + at);
   planes::load(y, task.y + at);
@@ -40,31 +40,31 @@ OMNIMAPPER_KERNEL_BODY void compare(const CreaseTask& task, int at, std::ptrdiff
   y -= other_y;
   const Lanes dz = z - other_z;
   const Lanes chord = x * x + y * y + dz * dz;
-  marks |= (chord > task.least) & (chord * q * q > task.noise) & turned;
-  marks |= ((z == z) ^ (other_z == other_z)) & gap;
+  masks |= (chord > task.least) & (chord * q * q > task.noise) & turned;
+  masks |= ((z == z) ^ (other_z == other_z)) & gap;
 }
 
-// `below`: whether there is a row below.
-OMNIMAPPER_KERNEL_BODY void markRowBody(const CreaseTask& task, int end, int width, bool below, std::uint8_t* to) {
+// Computes the masks of a row's pixels up to `end`. `below`: whether there is a row below.
+OMNIMAPPER_KERNEL_BODY void maskRowBody(const CurvatureTask& task, int end, int width, bool below, std::uint8_t* to) {
   for (int x = 0; x < end; x += kLanes) {
-    LaneMask marks{};
-    compare(task, x, 1, kCreaseRight, kGapRight, marks);
-    if (below) compare(task, x, width, kCreaseBelow, kGapBelow, marks);
-    storeMarks(marks, to + x);
+    LaneMask masks{};
+    compare(task, x, 1, kTurnRight, kGapRight, masks);
+    if (below) compare(task, x, width, kTurnBelow, kGapBelow, masks);
+    storeMasks(masks, to + x);
   }
 }
 
 #ifdef OMNIMAPPER_KERNEL_AVX2
-OMNIMAPPER_KERNEL_AVX2 void markRowAvx2(const CreaseTask& task, int end, int width, bool below, std::uint8_t* to) {
-  markRowBody(task, end, width, below, to);
+OMNIMAPPER_KERNEL_AVX2 void maskRowAvx2(const CurvatureTask& task, int end, int width, bool below, std::uint8_t* to) {
+  maskRowBody(task, end, width, below, to);
 }
 #endif
 
-void markRow(const CreaseTask& task, int end, int width, bool below, std::uint8_t* to) {
+void maskRow(const CurvatureTask& task, int end, int width, bool below, std::uint8_t* to) {
 #ifdef OMNIMAPPER_KERNEL_AVX2
-  if (planes::hasAvx2()) return markRowAvx2(task, end, width, below, to);
+  if (planes::hasAvx2()) return maskRowAvx2(task, end, width, below, to);
 #endif
-  markRowBody(task, end, width, below, to);
+  maskRowBody(task, end, width, below, to);
 }
 
 float squaredChord(double angle) {
@@ -72,10 +72,10 @@ float squaredChord(double angle) {
   return static_cast<float>(chord * chord);
 }
 
-class CreaseMarking {
+class CurvatureEdgeFinder {
  public:
-  CreaseMarking(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
-                const CreaseThresholds& thresholds, std::uint8_t* labels)
+  CurvatureEdgeFinder(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
+                      const CurvatureThresholds& thresholds, std::uint8_t* labels)
       : inverse_(inverse),
         camera_(camera),
         normals_(normals),
@@ -86,23 +86,23 @@ class CreaseMarking {
         turns_(normals.width, normals.height),
         before_gap_(static_cast<std::size_t>(normals.width), kNone) {}
 
-  void mark() {
+  void find() {
     const int width = normals_.width, height = normals_.height;
-    std::vector<std::uint8_t> marks(static_cast<std::size_t>(inverse_.stride + kLanes), 0);
+    std::vector<std::uint8_t> masks(static_cast<std::size_t>(inverse_.stride + kLanes), 0);
     for (int y = 0; y < height; ++y) {
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * width;
-      const CreaseTask task{
+      const CurvatureTask task{
           normals_.x() + first, normals_.y() + first, normals_.z() + first, inverse_.at(0, y), least_, noise_};
-      // Eight from the last but one column on would read behind the image; those few are done by themselves.
+      // Eight lanes from the last but one column on would read past the image: those pixels are computed one by one.
       const int lanes_end = std::max(0, (width - 1) / kLanes * kLanes);
-      markRow(task, lanes_end, width, y + 1 < height, marks.data());
-      for (int x = lanes_end; x < width; ++x) marks[static_cast<std::size_t>(x)] = markOf(x, y);
-      readRow(marks, y);
+      maskRow(task, lanes_end, width, y + 1 < height, masks.data());
+      for (int x = lanes_end; x < width; ++x) masks[static_cast<std::size_t>(x)] = maskOf(x, y);
+      readRow(masks, y);
     }
     turns_.keepConnected(thresholds_.min_pixels);
-    for (const Crease& crease : creases_) {
-      if (turns_.row(crease.turn_y)[crease.turn_x] == Candidates::kKept) {
-        labels_[index(crease.x, crease.y)] |= kHighCurvature;
+    for (const EdgePixel& edge_pixel : edge_pixels_) {
+      if (turns_.row(edge_pixel.turn_y)[edge_pixel.turn_x] == Candidates::kKept) {
+        labels_[index(edge_pixel.x, edge_pixel.y)] |= kHighCurvature;
       }
     }
   }
@@ -110,8 +110,8 @@ class CreaseMarking {
  private:
   static constexpr int kNone = -1;
 
-  // Where the normals turn, and where the crease is.
-  struct Crease {
+  // A pixel of a curvature edge, and the pixel where the change of the normals was found.
+  struct EdgePixel {
     int turn_x, turn_y, x, y;
   };
 
@@ -128,30 +128,30 @@ class CreaseMarking {
     return chord > least_ && chord * q * q > noise_;
   }
 
-  std::uint8_t markOf(int x, int y) const {
-    int mark = 0;
+  std::uint8_t maskOf(int x, int y) const {
+    int mask = 0;
     if (x + 1 < normals_.width) {
-      mark |= turns(x, y, x + 1, y) ? kCreaseRight : 0;
-      mark |= hasNormal(x, y) != hasNormal(x + 1, y) ? kGapRight : 0;
+      mask |= turns(x, y, x + 1, y) ? kTurnRight : 0;
+      mask |= hasNormal(x, y) != hasNormal(x + 1, y) ? kGapRight : 0;
     }
     if (y + 1 < normals_.height) {
-      mark |= turns(x, y, x, y + 1) ? kCreaseBelow : 0;
-      mark |= hasNormal(x, y) != hasNormal(x, y + 1) ? kGapBelow : 0;
+      mask |= turns(x, y, x, y + 1) ? kTurnBelow : 0;
+      mask |= hasNormal(x, y) != hasNormal(x, y + 1) ? kGapBelow : 0;
     }
-    return static_cast<std::uint8_t>(mark);
+    return static_cast<std::uint8_t>(mask);
   }
 
-  void readRow(const std::vector<std::uint8_t>& marks, int y) {
+  void readRow(const std::vector<std::uint8_t>& masks, int y) {
     int before_gap = kNone;
-    forEachMark(marks.data(), static_cast<int>(marks.size()) - kLanes, [&](int x) {
-      const int mark = marks[static_cast<std::size_t>(x)];
-      if ((mark & kCreaseRight) != 0) addTurn({x, y, 1, 0, 1});
-      if ((mark & kCreaseBelow) != 0) addTurn({x, y, 0, 1, 1});
-      if ((mark & kGapRight) != 0) {
+    forEachMask(masks.data(), static_cast<int>(masks.size()) - kLanes, [&](int x) {
+      const int mask = masks[static_cast<std::size_t>(x)];
+      if ((mask & kTurnRight) != 0) addTurn({x, y, 1, 0, 1});
+      if ((mask & kTurnBelow) != 0) addTurn({x, y, 0, 1, 1});
+      if ((mask & kGapRight) != 0) {
         if (!hasNormal(x, y) && before_gap != kNone) endGap({before_gap, y, 1, 0, x + 1 - before_gap});
         before_gap = x;
       }
-      if ((mark & kGapBelow) != 0) {
+      if ((mask & kGapBelow) != 0) {
         int& above_gap = before_gap_[static_cast<std::size_t>(x)];
         if (!hasNormal(x, y) && above_gap != kNone) endGap({x, above_gap, 0, 1, y + 1 - above_gap});
         above_gap = y;
@@ -159,7 +159,7 @@ class CreaseMarking {
     });
   }
 
-  // From a pixel to the one n steps along a row or column.
+  // A pixel and the one n steps from it along a row or column.
   struct Pair {
     int x, y, dx, dy, n;
     int xAt(int k) const { return x + k * dx; }
@@ -170,8 +170,8 @@ class CreaseMarking {
     if (pair.n - 1 <= thresholds_.max_gap && turns(pair.x, pair.y, pair.xAt(pair.n), pair.yAt(pair.n))) addTurn(pair);
   }
 
-  // Normals turn where the pixels begin to disagree with the one side's plane; the crease is where the planes of both
-  // sides meet.
+  // The normals change where the pixels begin to deviate from the plane of one side; the edge is put where the planes
+  // of both sides meet.
   void addTurn(const Pair& pair) {
     const Side one = sideOf(pair, 0, -1), other = sideOf(pair, pair.n, 1);
     const float meet =
@@ -179,18 +179,19 @@ class CreaseMarking {
     const float middle = 0.5F * static_cast<float>(pair.n);
     if (!(std::abs(meet - middle) <= middle + static_cast<float>(thresholds_.max_gap))) return;
     const int k = static_cast<int>(std::lround(meet));
-    if (!isInside(pair.xAt(k), pair.yAt(k)) || jumps(pair, std::min(k, 0), std::max(k, pair.n))) return;
+    if (!isInside(pair.xAt(k), pair.yAt(k)) || crossesDiscontinuity(pair, std::min(k, 0), std::max(k, pair.n))) return;
     if (!(*inverse_.at(pair.xAt(k), pair.yAt(k)) > 0)) return;
     turns_.addStrong(pair.x, pair.y);
-    creases_.push_back({pair.x, pair.y, pair.xAt(k), pair.yAt(k)});
+    edge_pixels_.push_back({pair.x, pair.y, pair.xAt(k), pair.yAt(k)});
   }
 
-  // What a plane says of the inverse depth along a pair: at a pixel of it, and by how much it grows with each step.
+  // The inverse depth of a plane along a pair: its value at one pixel, and its increase with each step.
   struct Side {
     float inverse, slope;
   };
 
-  // The mean of the pixels from the k-th on, away from the other side, as the plane has them at the k-th.
+  // The plane of a side. Its value at the k-th pixel is the mean of up to four measurements from that pixel on, away
+  // from the other side, each carried to the k-th pixel along the slope that the normal gives.
   Side sideOf(const Pair& pair, int k, int away) const {
     constexpr int kPixels = 4;
     const std::size_t i = index(pair.xAt(k), pair.yAt(k));
@@ -215,8 +216,8 @@ class CreaseMarking {
 
   bool isInside(int x, int y) const { return x >= 0 && y >= 0 && x < normals_.width && y < normals_.height; }
 
-  // Whether there is a jump in depth among the pixels from `first` to `last` of a pair's line.
-  bool jumps(const Pair& pair, int first, int last) const {
+  // Whether a depth discontinuity is among the pixels from `first` to `last` on a pair's line.
+  bool crossesDiscontinuity(const Pair& pair, int first, int last) const {
     for (int k = first; k <= last; ++k) {
       if ((labels_[index(pair.xAt(k), pair.yAt(k))] & (kOccluding | kOccluded)) != 0) return true;
     }
@@ -226,19 +227,19 @@ class CreaseMarking {
   const planes::InverseDepth& inverse_;
   const Pinhole& camera_;
   const NormalImage& normals_;
-  const CreaseThresholds& thresholds_;
+  const CurvatureThresholds& thresholds_;
   float least_, noise_;
   std::uint8_t* labels_;
   Candidates turns_;
-  std::vector<Crease> creases_;
-  std::vector<int> before_gap_;  // of each column: the row above the gap that we are in
+  std::vector<EdgePixel> edge_pixels_;
+  std::vector<int> before_gap_;  // for each column, the row above the current gap, or kNone
 };
 
 }  // namespace
 
-void markCreases(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
-                 const CreaseThresholds& thresholds, std::uint8_t* labels) {
-  CreaseMarking(inverse, camera, normals, thresholds, labels).mark();
+void labelCurvatureEdges(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
+                         const CurvatureThresholds& thresholds, std::uint8_t* labels) {
+  CurvatureEdgeFinder(inverse, camera, normals, thresholds, labels).find();
 }
 
 }  // namespace omnimapper::perception::edges

@@ -5,7 +5,7 @@
 
 namespace omnimapper::perception::edges {
 
-/// What each pixel of an image may be, with one pixel of nothing around.
+/// Edge candidates of an image: the state of each pixel, with a border of one pixel of kNothing around the image.
 class Candidates {
  public:
   enum : std::uint8_t { kNothing = 0, kWeak = 1, kStrong = 2, kKept = 3 };
@@ -20,8 +20,8 @@ class Candidates {
     strong_.push_back(static_cast<int>(static_cast<std::ptrdiff_t>(y + 1) * stride_ + x + 1));
   }
 
-  /// Makes kKept of strong ones and of the weak ones that are 8-connected with them, in components of at least `fewest`
-  /// pixels.
+  /// Sets strong pixels, and weak ones that are 8-connected with them, to kKept if their component has at least
+  /// `fewest` pixels; else to kNothing.
   void keepConnected(int fewest);
 
  private:

@@ -9,10 +9,10 @@ namespace omnimapper::perception::lines {
 
 namespace {
 
-constexpr int kReach = 12;          // points about a seam that may change sides
-constexpr double kParallel = 0.1;   // sine of the angle between two lines of which nobody knows where they cross
-constexpr double kSteepest = 4;     // a surface at up to 75 degrees to the beams is still one surface with the next
-constexpr double kSameDepth = 0.1;  // [m] steps of less than that are part of a wall: frames, skirtings
+constexpr int kReach = 12;          // points on either side of a seam that may go to the other line
+constexpr double kParallel = 0.1;   // sine of the angle between two lines; below it their crossing is undetermined
+constexpr double kSteepest = 4;     // range over arc: a surface up to 75 degrees oblique to the beams is no occlusion
+constexpr double kSameDepth = 0.1;  // [m] smaller steps in depth, as of frames and skirtings, belong to the wall
 
 std::optional<Eigen::Vector2d> crossing(const Line& a, const Line& b) {
   const double sine = a.nx * b.ny - a.ny * b.nx;
@@ -26,15 +26,15 @@ Eigen::Vector2d footOf(const ScanPoints& points, int i, const Line& line) {
   return {points.x[i] - off * line.nx, points.y[i] - off * line.ny};
 }
 
-// Length of a line between two beams there [m].
+// Distance [m] along a line between neighbouring beams at point i.
 double spacing(const ScanPoints& points, int i, const Line& line) {
   const double facing = std::abs(line.nx * points.ux[i] + line.ny * points.uy[i]);
   return points.range[i] * points.step / std::max(facing, 0.05);
 }
 
-// What follows the last point of a line (way = 1) or comes before its first (way = -1).
-obs::LineEnd reason(const ScanPoints& points, int end, int way, double gate) {
-  int next = end + way;
+// Why a line ends, from what follows its last point (direction = 1) or precedes its first one (direction = -1).
+obs::LineEnd reason(const ScanPoints& points, int end, int direction, double gate) {
+  int next = end + direction;
   const int size = points.size();
   if (points.all_round) next = (next + size) % size;
   if (next < 0 || next >= size) return obs::LineEnd::view;
@@ -47,7 +47,8 @@ obs::LineEnd reason(const ScanPoints& points, int end, int way, double gate) {
   return nearer > std::max({noise, slope, kSameDepth}) ? obs::LineEnd::occluded : obs::LineEnd::wall;
 }
 
-// The corner with the neighbour, where both lines reach it but for some beams.
+// The corner of two neighbouring lines; none if either of them ends farther from it than 1.5 beam spacings and the
+// noise.
 std::optional<Eigen::Vector2d> cornerWith(const ScanPoints& points, const Fit& fit, int end, const Fit& neighbour,
                                           int neighbours_end, double gate) {
   const auto corner = crossing(fit.line, neighbour.line);
@@ -65,16 +66,16 @@ void shareOut(const ScanPoints& points, std::vector<Stretch>& stretches, double 
   const double limit = gate * gate;
   for (std::size_t k = 1; k < stretches.size(); ++k) {
     Stretch &a = stretches[k - 1], &b = stretches[k];
-    // Of parallel walls each keeps what it has: either would do as well, which says nothing about where one ends.
+    // Parallel walls keep their points: points between them fit both, so their costs determine no seam.
     const bool is_parallel = std::abs(a.line.nx * b.line.ny - a.line.ny * b.line.nx) < kParallel;
     if (b.first > a.last + 3 || b.last <= a.last || is_parallel) continue;
     const int from = std::max(a.first + 1, std::min(a.last, b.first) - kReach);
     const int to = std::min(b.last - 1, std::max(a.last, b.first) + kReach);
     const auto cost = [&](int i, const Line& line) { return std::min(limit, points.chiSquare(i, line)); };
-    double sum = 0;  // of all that are b's
+    double sum = 0;  // cost with the seam at `from`: all points are of b
     for (int i = from; i <= to; ++i) sum += cost(i, b.line);
     double least = sum;
-    int seam = from;  // the first that is b's
+    int seam = from;  // first point of b
     for (int i = from; i <= to; ++i) {
       sum += cost(i, a.line) - cost(i, b.line);
       if (sum < least) {

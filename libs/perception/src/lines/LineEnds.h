@@ -8,15 +8,16 @@
 
 namespace omnimapper::perception::lines {
 
-/// Where two neighbours are one after the other or overlap, the points between them go to the line they are nearer to.
+/// Moves the seam between neighbouring lines that overlap or follow one another to where the points on both sides fit
+/// their lines best.
 void shareOut(const ScanPoints& points, std::vector<Stretch>& stretches, double gate);
 
-/// The ends of a line: where, and why there.
+/// The two ends of a line, and why it ends there.
 struct Ends {
   geometry::Segment2 segment;
   obs::LineEnd from, to;
 };
-/// `fits` in the order of their first points; of number `index`.
+/// The ends of line `index`. `fits` are in the order of their first points.
 Ends endsOf(const ScanPoints& points, const std::vector<Fit>& fits, std::size_t index, double gate);
 
 }  // namespace omnimapper::perception::lines

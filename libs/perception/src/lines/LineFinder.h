@@ -7,7 +7,7 @@
 
 namespace omnimapper::perception::lines {
 
-/// Tells which points of a scan lie on one line, roughly; in the order of their first points.
+/// Finds roughly which points of a scan lie on one line. The lines are in the order of their first points.
 class LineFinder {
  public:
   virtual ~LineFinder() = default;

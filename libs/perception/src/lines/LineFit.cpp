@@ -17,7 +17,7 @@ Line Moments::line() const {
   const double mx = x / w, my = y / w;
   const double sxx = xx / w - mx * mx, syy = yy / w - my * my, sxy = xy / w - mx * my;
   const double difference = sxx - syy, spread = std::sqrt(difference * difference + 4 * sxy * sxy);
-  // Direction of the larger spread: half the angle of (difference, 2 sxy), from the form that does not cancel.
+  // Direction of the larger spread: half the angle of (difference, 2 sxy), in the form without cancellation.
   double tx = difference >= 0 ? spread + difference : 2 * sxy;
   double ty = difference >= 0 ? 2 * sxy : spread - difference;
   const double length = std::sqrt(tx * tx + ty * ty);
@@ -44,7 +44,7 @@ Fit fit(const ScanPoints& points, const Stretch& stretch, double gate) {
   Fit result;
   result.line = stretch.line;
   const double limit = gate * gate;
-  // Which points count and how much depends on the line: what the second round changes is far below the noise.
+  // Inliers and weights depend on the line. Two rounds suffice: the second one changes far less than the noise.
   for (int round = 0; round < 2; ++round) {
     Moments moments;
     result.inliers = 0;
@@ -61,7 +61,7 @@ Fit fit(const ScanPoints& points, const Stretch& stretch, double gate) {
     }
     result.line = moments.line();
   }
-  // Residual n . p - distance changes by (t . p) with the angle and by -1 with the distance.
+  // The residual n . p - distance changes by (t . p) with the angle and by -1 with the distance.
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   double squares = 0;
   int counted = 0;

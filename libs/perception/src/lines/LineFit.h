@@ -6,7 +6,7 @@
 
 namespace omnimapper::perception::lines {
 
-/// Sums over weighted points, from which the line nearest to them follows at once.
+/// Sums over weighted points, from which the best line is computed in closed form.
 struct Moments {
   double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 
@@ -24,21 +24,22 @@ struct Moments {
   Moments plus(const Moments& other) const {
     return {w + other.w, x + other.x, y + other.y, xx + other.xx, xy + other.xy, yy + other.yy};
   }
-  /// Total least squares. Of a single point: the line through it square to its beam.
+  /// The line by total least squares; for a single point, the line through it at right angles to its beam.
   Line line() const;
 };
 
 Line throughPoints(const ScanPoints& points, int i, int j);
 
-/// Weighted total least squares with the deviation that each point has across the line.
+/// A line by total least squares, weighted by the inverse variance of each point across the line.
 struct Fit {
   Line line;
   Eigen::Matrix2d covariance;  ///< of the normal's angle [rad] and the distance [m]
   int inliers = 0;
-  int first = 0, last = 0;  ///< points that are inliers at the ends
+  int first = 0, last = 0;  ///< the first and the last inlier
   double rms = 0;           ///< [m]
 };
-/// Of those points of the stretch that are within `gate` deviations of its line. Fewer than two: inliers = 0.
+/// Fits the points of the stretch that are within `gate` standard deviations of its line. With fewer than two of them
+/// inliers = 0.
 Fit fit(const ScanPoints& points, const Stretch& stretch, double gate);
 
 }  // namespace omnimapper::perception::lines

@@ -30,7 +30,7 @@ class Ransac : public LineFinder {
         };
         left.erase(std::remove_if(left.begin(), left.end(), is_on), left.end());
       }
-      // Nothing was found, or lines that their own points are not on: then nothing more will be.
+      // Stop if no point was removed: nothing was found, or only lines that their own points are not on.
       if (left.size() == before) break;
     }
     std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });
@@ -62,7 +62,7 @@ class Ransac : public LineFinder {
 
   Inliers largestSet(const ScanPoints& points, const std::vector<int>& left, base::SplitMix& random) const {
     const int size = static_cast<int>(left.size());
-    // The second point is not far in the scan from the first: more often on the same wall than one from anywhere.
+    // The second point is drawn near the first one in the scan, where it is more often on the same wall.
     const int window = std::max(4, size / 4);
     int most = 0;
     Line best;
@@ -88,7 +88,7 @@ class Ransac : public LineFinder {
     return moments.line();
   }
 
-  // Parts on either side of a gap are lines of their own; those of too few points are none.
+  // Splits the inliers into one line for each side of a gap, and drops lines with too few points.
   std::vector<Stretch> withoutGaps(const ScanPoints& points, const Inliers& inliers) const {
     std::vector<Stretch> stretches;
     const auto& of = inliers.points;

@@ -9,7 +9,8 @@ namespace omnimapper::perception::lines {
 
 namespace {
 
-// Of a point from any line [m^2]: a micrometre. Without noise across the beam, a line along it would have none at all.
+// Smallest variance [m^2] of a point across a line: that of one micrometre. Without it, the variance would be 0 across
+// a line along a beam that has no noise to its sides.
 constexpr double kLeastVariance = 1e-12;
 
 void reserve(ScanPoints& points, std::size_t count) {
@@ -24,7 +25,7 @@ ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserL
   ScanPoints points;
   const std::size_t beams = scan.getScanSize();
   points.beams = static_cast<int>(beams);
-  // Where beams go that are no one knows how far apart, nobody knows.
+  // Without a finite aperture the directions of the beams are unknown.
   if (beams == 0 || !std::isfinite(scan.aperture)) return points;
   reserve(points, beams);
   points.step = beams > 1 ? scan.aperture / static_cast<double>(beams - 1) : 0.0;
@@ -35,10 +36,10 @@ ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserL
   double ux = std::cos(first), uy = std::sin(first);
   const double range_variance = options.range_sigma * options.range_sigma;
   const double rough_variance = options.roughness * options.roughness;
-  const double width_variance = options.beam_width * options.beam_width / 12;  // of what is even over the width
+  const double width_variance = options.beam_width * options.beam_width / 12;  // of a uniform distribution
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.getScanRange(i);
-    // Not a number fails each comparison.
+    // NaN fails every comparison.
     if (scan.getScanRangeValidity(i) && range >= options.min_range && range <= options.max_range &&
         range < scan.maxRange) {
       points.ux.push_back(ux);
@@ -51,7 +52,8 @@ ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserL
       points.steep.push_back(range_variance - sideways);
       points.beam.push_back(static_cast<int>(i));
     }
-    // Turning on is many times faster than a sine for each beam; over 10^4 beams it is off by 10^-12.
+    // Rotating the direction by one step is many times faster than a sine for each beam; after 10^4 beams its error is
+    // 10^-12.
     const double next = ux * turn_x - uy * turn_y;
     uy = ux * turn_y + uy * turn_x;
     ux = next;

@@ -9,24 +9,25 @@
 
 namespace omnimapper::perception::lines {
 
-/// A line of the plane: n . p = distance with n unit, distance >= 0 [m].
+/// A 2D line, n . p = distance: n is a unit vector, distance >= 0 [m].
 struct Line {
   double nx = 1, ny = 0, distance = 0;
 };
 
-/// How much farther apart beams meet a wall than one that faces them, at the most: at 87 degrees.
+/// Largest spacing of beams on a wall, relative to that on a wall that faces them; reached at an incidence of 87
+/// degrees.
 inline constexpr double kSteepestWall = 20;
 
-/// The beams of a scan that met something, in their order, one array for each number.
+/// The valid beams of a scan, in their order, with one array for each quantity.
 struct ScanPoints {
   std::vector<double> ux, uy;  ///< unit, direction of the beam
   std::vector<double> x, y;    ///< [m]
   std::vector<double> range;   ///< [m]
-  /// The square of a point's deviation from a line with normal n, across it [m^2], is across + steep (n . u)^2: a range
-  /// counts as far as the beam is square to the line, the beam's width as far as it is along it.
+  /// The variance of a point across a line with normal n is across + steep (n . u)^2 [m^2]: the noise of the range
+  /// counts by how squarely the beam meets the line, the width of the beam by how obliquely.
   std::vector<double> across, steep;
   std::vector<int> beam;   ///< index in the scan
-  int beams = 0;           ///< of the scan
+  int beams = 0;           ///< number of beams of the scan, invalid ones included
   double step = 0;         ///< [rad] between two beams
   bool all_round = false;  ///< the last beam is next to the first
 
@@ -36,19 +37,20 @@ struct ScanPoints {
     return across[i] + steep[i] * facing * facing;
   }
   double offset(int i, const Line& line) const { return line.nx * x[i] + line.ny * y[i] - line.distance; }
-  /// Squared distance from a line in deviations.
+  /// Squared distance from a line, in standard deviations.
   double chiSquare(int i, const Line& line) const {
     const double off = offset(i, line);
     return off * off / variance(i, line);
   }
-  /// Whether a line that has points i < j, and none between them, is two lines. Of two beams side by side nothing is
-  /// known in between, however far apart they meet the wall; one beam may fail.
+  /// Whether a line on which point j follows point i is split between them. Neighbouring beams never split it, however
+  /// far apart they meet the wall, since nothing was measured between them; if one beam is missing, which may have
+  /// failed, the gap may be twice as long.
   bool isGap(int i, int j, double max_gap) const {
     const int between = beamsBetween(i, j);
     return between > 0 && distanceBetween(i, j) > (between == 1 ? 2 * max_gap : max_gap);
   }
-  /// Whether only a wall that points at the sensor itself could have both, and none between them: those are a thing and
-  /// what is behind it.
+  /// Whether points i and j, with none between them, could be on one wall only if it pointed at the sensor: one is then
+  /// on an object and the other on what is behind it.
   bool isBehind(int i, int j, double max_gap) const {
     const double distance = distanceBetween(i, j);
     const double facing = step * (beamsBetween(i, j) + 1) * std::min(range[i], range[j]);
@@ -60,10 +62,10 @@ struct ScanPoints {
 
 ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserLineOptions& options);
 
-/// The same points, the one at `start` first and those before it last.
+/// The same points in cyclic order, with the one at `start` first.
 ScanPoints startingAt(ScanPoints points, int start);
 
-/// Points first..last that are on one line, but for some that are not.
+/// Points first..last, which are on one line except for some outliers.
 struct Stretch {
   int first = 0, last = 0;
   Line line;

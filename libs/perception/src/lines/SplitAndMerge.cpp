@@ -1,4 +1,3 @@
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,8 +9,8 @@ namespace omnimapper::perception::lines {
 
 namespace {
 
-constexpr int kFewest = 3;     // points of a piece that says where a line may be
-constexpr int kLookAhead = 3;  // pieces that a line is tried with: what stands before a wall is a piece or two
+constexpr int kFewest = 3;     // points of a piece that may be part of a line
+constexpr int kLookAhead = 3;  // pieces that a line may be merged with: an object before a wall is one or two pieces
 
 class SplitAndMerge : public LineFinder {
  public:
@@ -22,7 +21,7 @@ class SplitAndMerge : public LineFinder {
     const auto sums = sumsOf(points);
     auto pieces = split(points, sums);
     mergeAll(points, pieces);
-    // What is left over of things before a wall would keep its parts from one another.
+    // Small pieces of objects before a wall would keep the wall's parts from being merged.
     const auto is_small = [&](const Stretch& piece) { return piece.last - piece.first + 1 < fewest_; };
     pieces.erase(std::remove_if(pieces.begin(), pieces.end(), is_small), pieces.end());
     grow(points, pieces);
@@ -31,7 +30,7 @@ class SplitAndMerge : public LineFinder {
   }
 
  private:
-  // Of the points before each one.
+  // Moments of the points before each point.
   static std::vector<Moments> sumsOf(const ScanPoints& points) {
     std::vector<Moments> sums(1);
     sums.reserve(points.x.size() + 1);
@@ -42,10 +41,11 @@ class SplitAndMerge : public LineFinder {
     return sums;
   }
 
-  // Where the points i..j leave the line by more than the noise, split them where they are farthest from the chord.
+  // Splits points that deviate from their line by more than the noise at the point farthest from their chord, until
+  // each piece is on a line.
   std::vector<Stretch> split(const ScanPoints& points, const std::vector<Moments>& sums) const {
     std::vector<Stretch> pieces;
-    std::vector<std::pair<int, int>> waiting;  // the foremost on top
+    std::vector<std::pair<int, int>> waiting;  // the first points are on top
     for (int j = points.size() - 1, i = j; i >= 0; --i) {
       if (i > 0 && !points.isGap(i - 1, i, max_gap_)) continue;
       waiting.emplace_back(i, j);
@@ -60,9 +60,9 @@ class SplitAndMerge : public LineFinder {
         pieces.push_back({i, j, line});
         continue;
       }
-      const int bend = farthest(points, i, j);
-      waiting.emplace_back(bend + 1, j);
-      waiting.emplace_back(i, bend);
+      const int corner = farthest(points, i, j);
+      waiting.emplace_back(corner + 1, j);
+      waiting.emplace_back(i, corner);
     }
     return pieces;
   }
@@ -75,19 +75,19 @@ class SplitAndMerge : public LineFinder {
     return true;
   }
 
-  // From i to j - 1, so that both parts are smaller than the whole.
+  // The point farthest from the chord, from i to j - 1, so that both parts are smaller than the whole.
   static int farthest(const ScanPoints& points, int i, int j) {
     const Line chord = throughPoints(points, i, j);
-    int bend = (i + j) / 2;
+    int corner = (i + j) / 2;
     double most = 0;
     for (int k = i + 1; k < j; ++k) {
       const double off = std::abs(points.offset(k, chord));
       if (off > most) {
         most = off;
-        bend = k;
+        corner = k;
       }
     }
-    return bend;
+    return corner;
   }
 
   void mergeAll(const ScanPoints& points, std::vector<Stretch>& pieces) const {
@@ -95,7 +95,7 @@ class SplitAndMerge : public LineFinder {
     }
   }
 
-  // Each line takes what lies on it beyond its ends, up to the next line or gap.
+  // Extends each line by the points on it beyond its ends, up to the next line or gap.
   void grow(const ScanPoints& points, std::vector<Stretch>& pieces) const {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       Stretch& piece = pieces[k];
@@ -110,7 +110,7 @@ class SplitAndMerge : public LineFinder {
     }
   }
 
-  // One pass; whether anything was merged.
+  // Makes one pass over the pieces and returns whether any were merged.
   bool merge(const ScanPoints& points, std::vector<Stretch>& pieces) const {
     bool merged = false;
     std::vector<bool> taken(pieces.size(), false);
@@ -135,7 +135,7 @@ class SplitAndMerge : public LineFinder {
     return merged;
   }
 
-  // The line of both, if what was on each is on it, but for a straggler in eight.
+  // The common line of two pieces; none if more than one in eight inliers of either piece is not on it.
   std::optional<Line> common(const ScanPoints& points, const Stretch& a, const Stretch& b) const {
     Moments moments;
     for (const Stretch* part : {&a, &b}) {

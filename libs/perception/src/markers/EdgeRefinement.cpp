@@ -12,11 +12,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSpared = 0.08;   // of a side, at either corner
-constexpr double kStep = 0.25;     // [px] along a profile
-constexpr double kLeastStep = 10;  // of grey
+constexpr double kSpared = 0.08;   // share of a side that is left out at either corner
+constexpr double kStep = 0.25;     // [px] between the samples of a profile
+constexpr double kLeastStep = 10;  // of the grey value, from black to white
 
-// Between the pixels; those at the border go on outside.
+// Grey value, interpolated between the pixels; those at the border continue outside.
 double greyAt(const ColourImage& picture, const Vector2d& place) {
   const double u = std::clamp<double>(place.x(), 0, picture.width - 1.001);
   const double v = std::clamp<double>(place.y(), 0, picture.height - 1.001);
@@ -31,20 +31,20 @@ struct Line {
   Vector2d point, direction;
 };
 
-// Where the side is, from one corner to the next in the sense of rotation that has the inside to the right. The border
-// is black for `border` [px].
+// The line along a side, from one corner to the next with the inside of the marker on the right; none where the picture
+// shows no step from black to white. `border` [px]: width of the marker's black border.
 std::optional<Line> sideBetween(const ColourImage& picture, const Vector2d& from, const Vector2d& to, double border) {
-  const Vector2d way = to - from;
-  const double length = way.norm();
+  const Vector2d along = to - from;
+  const double length = along.norm();
   if (!(length > 1)) return std::nullopt;
-  const Vector2d outward = Vector2d(way.y(), -way.x()) / length;
+  const Vector2d outward = Vector2d(along.y(), -along.x()) / length;
   const double reach = std::clamp(0.5 * border, 1.25, 4.);
   const int profiles = std::clamp(static_cast<int>(length), 8, 100),
             half = static_cast<int>(std::lround(reach / kStep));
   std::vector<double> sums;
   double black = 0, white = 0;
   for (int i = 0; i < profiles; ++i) {
-    const Vector2d middle = from + (kSpared + (1 - 2 * kSpared) * (i + 0.5) / profiles) * way;
+    const Vector2d middle = from + (kSpared + (1 - 2 * kSpared) * (i + 0.5) / profiles) * along;
     const auto at = [&](int k) { return greyAt(picture, middle + k * kStep * outward); };
     double sum = 0.5 * (at(-half) + at(half));
     for (int k = 1 - half; k < half; ++k) sum += at(k);
@@ -56,8 +56,8 @@ std::optional<Line> sideBetween(const ColourImage& picture, const Vector2d& from
   std::vector<Vector2d> places;
   Vector2d mean = Vector2d::Zero();
   for (int i = 0; i < profiles; ++i) {
-    const Vector2d middle = from + (kSpared + (1 - 2 * kSpared) * (i + 0.5) / profiles) * way;
-    const double blackened = (2 * half * white - sums[static_cast<std::size_t>(i)]) / (white - black);  // steps
+    const Vector2d middle = from + (kSpared + (1 - 2 * kSpared) * (i + 0.5) / profiles) * along;
+    const double blackened = (2 * half * white - sums[static_cast<std::size_t>(i)]) / (white - black);  // in kStep
     places.push_back(middle + std::clamp<double>(blackened - half, -half, half) * kStep * outward);
     mean += places.back() / profiles;
   }
@@ -68,17 +68,17 @@ std::optional<Line> sideBetween(const ColourImage& picture, const Vector2d& from
 
 std::optional<Vector2d> crossing(const Line& a, const Line& b) {
   constexpr double kParallel = 0.05;  // sine of the angle
-  Eigen::Matrix2d ways;
-  ways << a.direction, -b.direction;
-  if (std::abs(ways.determinant()) < kParallel) return std::nullopt;
-  return a.point + (ways.inverse() * (b.point - a.point))[0] * a.direction;
+  Eigen::Matrix2d directions;
+  directions << a.direction, -b.direction;
+  if (std::abs(directions.determinant()) < kParallel) return std::nullopt;
+  return a.point + (directions.inverse() * (b.point - a.point))[0] * a.direction;
 }
 
 }  // namespace
 
 Corners refinedByEdges(const ColourImage& picture, const Corners& corners, int cells) {
   constexpr int kRounds = 3;
-  constexpr double kFarthest = 3;  // [px] from where a corner was
+  constexpr double kFarthest = 3;  // [px] that a corner may move
   Corners result = corners;
   for (int round = 0; round < kRounds; ++round) {
     std::array<Line, 4> sides;

@@ -5,11 +5,12 @@
 
 namespace omnimapper::perception::markers {
 
-/// The corners of a black square on white, where the lines along its sides meet: on each side the place of the step
-/// from black to white is measured across it at many places, by how much black there is. Gradients around a corner
-/// (cv::cornerSubPix) put it 0.13 px too far inside a large marker, farther in a small one, which then seems farther
-/// away; this does not. `picture` is grey; `corners` are right to 1.5 px; `cells`: how many, each as wide as the black
-/// border, along a side. Where a side shows no step the corners remain as they are.
+/// Refines the corners of a black square on white, which are where the lines along its sides meet. Each line is fitted
+/// to the steps from black to white on many profiles across the side; the share of black on a profile gives the
+/// position of its step. Gradients around a corner (cv::cornerSubPix) put it 0.13 px too far inside a large marker and
+/// farther inside a small one, which then seems farther away; this method does not. `picture` is grey; `corners` are
+/// accurate to 1.5 px; `cells`: number of cells along a side, each as wide as the black border. If a side shows no step
+/// or a corner would move by 3 px or more, all corners are returned unchanged.
 Corners refinedByEdges(const ColourImage& picture, const Corners& corners, int cells);
 
 }  // namespace omnimapper::perception::markers

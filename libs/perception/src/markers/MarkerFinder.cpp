@@ -62,7 +62,7 @@ cv::aruco::PREDEFINED_DICTIONARY_NAME nameOf(Options::Dictionary dictionary) {
   return cv::aruco::DICT_4X4_50;
 }
 
-// Without pixels where the picture has none that markers are found in.
+// The picture in grey; without pixels if it is not of 8 bits with 1 or 3 channels.
 cv::Mat greyOf(const mrpt::img::CImage& picture) {
   if (picture.isEmpty() || picture.getPixelDepth() != mrpt::img::PixelDepth::D8U) return {};
   const auto pixels = picture.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
@@ -84,10 +84,10 @@ double shortestSide(const std::vector<cv::Point2f>& corners) {
   return shortest;
 }
 
-// To where the gradients around a corner say that it is.
+// Moves the corners to where the gradients around them indicate.
 void refineByGradients(const cv::Mat& grey, int cells, std::vector<cv::Point2f>& corners) {
-  constexpr double kWindow = 1;  // of a cell, to either side
-  constexpr int kLargest = 5;    // [px]
+  constexpr double kWindow = 1;  // [cell] half the side of the window
+  constexpr int kLargest = 5;    // [px] half the side of the window
   constexpr int kSteps = 30;
   constexpr double kSettled = 0.01;  // [px]
   const int half = std::clamp(static_cast<int>(kWindow * shortestSide(corners) / cells), 1, kLargest);

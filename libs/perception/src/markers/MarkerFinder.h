@@ -13,8 +13,8 @@ struct FoundMarker {
   Corners corners;  ///< [px]
 };
 
-/// The markers of the dictionary that a picture shows, in order of their ids. None in pictures that are not of 8 bits
-/// with 1 or 3 channels. Throws mrpt::img::CExceptionExternalImageNotFound.
+/// Finds the markers of the dictionary in a picture, in the order of their ids. Pictures that are not of 8 bits with 1
+/// or 3 channels have none. Throws mrpt::img::CExceptionExternalImageNotFound.
 std::vector<FoundMarker> findMarkers(const mrpt::img::CImage& picture, const ArucoMarkerOptions& options);
 
 }  // namespace omnimapper::perception::markers

@@ -22,7 +22,7 @@ std::array<Vector3d, 4> cornersOfMarker(double side) {
   return {Vector3d(-half, half, 0), Vector3d(half, half, 0), Vector3d(half, -half, 0), Vector3d(-half, -half, 0)};
 }
 
-// As if it faced the camera.
+// The marker's pose if it faced the camera.
 Se3 facing(const Corners& rays, double side) {
   const Eigen::Vector2d right = 0.5 * (rays[1] - rays[0] + rays[2] - rays[3]);
   const Eigen::Vector2d middle = 0.25 * (rays[0] + rays[1] + rays[2] + rays[3]);
@@ -32,24 +32,25 @@ Se3 facing(const Corners& rays, double side) {
   return {Eigen::Quaterniond(axes), Vector3d(middle.x(), middle.y(), 1) * side / right.norm()};
 }
 
-// The two poses whose perspective is nearest to that of the rays; OpenCV's are wrong where the marker faces the camera
-// all but exactly, so that one is added.
+// Initial guesses: OpenCV's two poses, which are wrong if the marker faces the camera almost exactly, and therefore
+// also the pose that faces it.
 std::vector<Se3> guesses(const Corners& rays, double side) {
   std::vector<cv::Point3d> corners;
   std::vector<cv::Point2d> places;
   for (const auto& corner : cornersOfMarker(side)) corners.emplace_back(corner.x(), corner.y(), corner.z());
   for (const auto& ray : rays) places.emplace_back(ray.x(), ray.y());
-  std::vector<cv::Mat> turns, ways;
-  cv::solvePnPGeneric(corners, places, cv::Matx33d::eye(), cv::noArray(), turns, ways, false, cv::SOLVEPNP_IPPE_SQUARE);
+  std::vector<cv::Mat> rotations, translations;
+  cv::solvePnPGeneric(corners, places, cv::Matx33d::eye(), cv::noArray(), rotations, translations, false,
+                      cv::SOLVEPNP_IPPE_SQUARE);
   std::vector<Se3> poses{facing(rays, side)};
-  for (std::size_t i = 0; i < turns.size(); ++i) {
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
     const auto vectorOf = [](const cv::Mat& m) { return Vector3d(m.at<double>(0), m.at<double>(1), m.at<double>(2)); };
-    poses.push_back({geometry::expSo3(vectorOf(turns[i])), vectorOf(ways[i])});
+    poses.push_back({geometry::expSo3(vectorOf(rotations[i])), vectorOf(translations[i])});
   }
   return poses;
 }
 
-// How well the corners are met at a pose, and what a small motion changes (Se3's tangent).
+// Reprojection errors of the corners at a pose, and their derivative by a small motion (Se3's tangent).
 struct Fit {
   Vector8 off;  // [px]
   Matrix86 by_pose;
@@ -57,9 +58,9 @@ struct Fit {
   Matrix6d information() const { return by_pose.transpose() * by_pose; }
 };
 
-// None where a corner is not before the camera.
+// None if a corner is not in front of the camera.
 std::optional<Fit> fitAt(const Se3& pose, const LensModel& lens, const Corners& in_image, double side) {
-  constexpr double kNearest = 1e-3;  // of the side
+  constexpr double kNearest = 1e-3;  // relative to the side
   const Eigen::Matrix3d turn = pose.rotation.toRotationMatrix();
   Fit fit;
   int row = 0;
@@ -82,10 +83,10 @@ struct Refined {
   Fit fit;
 };
 
-// Levenberg and Marquardt's steps.
+// Refines a pose by the Levenberg-Marquardt method.
 std::optional<Refined> refined(Se3 pose, const LensModel& lens, const Corners& in_image, double side) {
   constexpr int kSteps = 50;
-  constexpr double kSettled = 1e-10;  // part of the squared error
+  constexpr double kSettled = 1e-10;  // relative decrease of the squared error
   constexpr double kMostDamping = 1e6;
   auto fit = fitAt(pose, lens, in_image, side);
   if (!fit) return std::nullopt;
@@ -93,9 +94,9 @@ std::optional<Refined> refined(Se3 pose, const LensModel& lens, const Corners& i
   for (int step = 0; step < kSteps; ++step) {
     Matrix6d damped = fit->information();
     damped.diagonal() *= 1 + damping;
-    const Vector6d way = damped.ldlt().solve(fit->by_pose.transpose() * -fit->off);
-    if (!way.allFinite()) break;
-    const Se3 next = geometry::plus(pose, way);
+    const Vector6d update = damped.ldlt().solve(fit->by_pose.transpose() * -fit->off);
+    if (!update.allFinite()) break;
+    const Se3 next = geometry::plus(pose, update);
     const auto there = fitAt(next, lens, in_image, side);
     const double before = fit->off.squaredNorm();
     if (!there || !(there->off.squaredNorm() < before)) {

@@ -7,15 +7,15 @@
 
 namespace omnimapper::perception::markers {
 
-/// Where a marker is. Its frame: origin in its middle, x to its right, y to its top, z out of its picture.
+/// Pose of a marker. The marker's frame: origin in its centre, x to its right, y to its top, z out of its front.
 struct MarkerPose {
   geometry::Se3 optical_from_marker;
   Eigen::Matrix3d covariance_of_middle;  ///< [m^2] along the axes of the optical frame
 };
 
-/// The pose whose four corners are seen nearest to those in the image, by least squares; of the two that a square seen
-/// from afar may have, the one that fits better (Collins, Bartoli: Infinitesimal plane-based pose estimation, 2014).
-/// `side` [m], `corner_sigma` [px]. None where the corners are of no square before the camera.
+/// Estimates a marker's pose by least squares of the reprojection errors of its four corners. For a square seen from
+/// afar two poses may fit (Collins, Bartoli: Infinitesimal plane-based pose estimation, 2014): the better one is
+/// returned. `side` [m], `corner_sigma` [px]. None if the corners are not those of a square in front of the camera.
 std::optional<MarkerPose> poseOfMarker(const LensModel& lens, const Corners& in_image, double side,
                                        double corner_sigma);
 

@@ -17,14 +17,15 @@ using planes::Lanes;
 
 constexpr int kBlock = 512;  // points that stay in the cache for all surfaces
 
-// Pixels with a depth that are not of the place, and their points [m]; eight zeros behind.
-struct Doubtful {
+// Pixels with a depth that belong to no surface and no other large plane, and their points [m], followed by eight
+// zeros.
+struct UnassignedPoints {
   int count = 0;
   std::unique_ptr<int[]> pixels;
   std::unique_ptr<float[]> x, y, z;
 
-  Doubtful(const std::vector<std::uint16_t>& labels, const OrganisedPoints& points,
-           const std::vector<std::uint8_t>& of_place) {
+  UnassignedPoints(const std::vector<std::uint16_t>& labels, const OrganizedPoints& points,
+                   const std::vector<std::uint8_t>& of_place) {
     pixels.reset(new int[labels.size()]);
     for (auto* of_pixels : {&x, &y, &z}) of_pixels->reset(new float[labels.size() + kLanes]);
     const auto end = static_cast<int>(labels.size());
@@ -40,8 +41,8 @@ struct Doubtful {
   Eigen::Vector3d point(int k) const { return Eigen::Vector3f(x[k], y[k], z[k]).cast<double>(); }
 
  private:
-  // Each is written, and kept by counting it: which pixels are holes no processor foresees.
-  void add(const OrganisedPoints& points, int begin, int end) {
+  // Each point is written, but counted only if it has a depth. This avoids a branch, which holes make unpredictable.
+  void add(const OrganizedPoints& points, int begin, int end) {
     const float *const from_x = points.x.data(), *const from_y = points.y.data(), *const from_z = points.z.data();
     for (int i = begin; i < end; ++i) {
       pixels[count] = i;
@@ -65,7 +66,8 @@ struct BlockTask {
   int count;
 };
 
-// By how much points are farther from the nearest of a surface's pieces than what lies on it may be, 0 if they are [m].
+// Distances [m] of points from the nearest piece of a surface, minus the largest distance of points that belong to it;
+// 0 where that is positive.
 OMNIMAPPER_KERNEL_BODY void excessBody(const BlockTask& task, float* excess) {
   for (int k = 0; k < task.count; k += kLanes) {
     Lanes x, y, z;
@@ -109,26 +111,27 @@ std::vector<PlaneInFloats> piecesOf(const Surface& surface, const PlaneSegmentat
 
 }  // namespace
 
-std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const OrganisedPoints& points,
-                                          const std::vector<Surface>& surfaces,
-                                          const std::vector<std::uint8_t>& of_place, const RemainderBounds& bounds) {
+std::vector<std::uint16_t> assignToSurfaces(const PlaneSegmentation& planes, const OrganizedPoints& points,
+                                            const std::vector<Surface>& surfaces,
+                                            const std::vector<std::uint8_t>& of_place, const SurfaceBounds& bounds) {
   std::vector<std::uint16_t> labels = planes.labels;
   if (surfaces.empty()) return labels;
-  const Doubtful doubtful(labels, points, of_place);
+  const UnassignedPoints unassigned(labels, points, of_place);
   std::vector<std::vector<PlaneInFloats>> pieces;
   for (const Surface& surface : surfaces) pieces.push_back(piecesOf(surface, planes));
   float excess[kBlock];
-  for (int first = 0; first < doubtful.count; first += kBlock) {
-    const int count = std::min(kBlock, doubtful.count - first);
+  for (int first = 0; first < unassigned.count; first += kBlock) {
+    const int count = std::min(kBlock, unassigned.count - first);
     for (std::size_t s = 0; s < surfaces.size(); ++s) {
       const Surface& surface = surfaces[s];
       computeExcess({pieces[s].data(), static_cast<int>(pieces[s].size()), bounds.height, bounds.noise_at_1m,
-                     &doubtful.x[first], &doubtful.y[first], &doubtful.z[first], count},
+                     &unassigned.x[first], &unassigned.y[first], &unassigned.z[first], count},
                     excess);
       for (int k = 0; k < count; ++k) {
         if (excess[k] >= 0) continue;
-        if (surface.hull.holds(surface.across.transpose() * doubtful.point(first + k), bounds.hull_margin))
-          labels[static_cast<std::size_t>(doubtful.pixels[first + k])] = static_cast<std::uint16_t>(surface.plane + 1);
+        if (surface.hull.holds(surface.across.transpose() * unassigned.point(first + k), bounds.hull_margin))
+          labels[static_cast<std::size_t>(unassigned.pixels[first + k])] =
+              static_cast<std::uint16_t>(surface.plane + 1);
       }
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <vector>
 
@@ -8,18 +8,19 @@
 
 namespace omnimapper::perception::objects {
 
-/// What may lie between a thing and the surface that it is on.
-struct RemainderBounds {
-  float height;        ///< [m] what is lower is taken for the surface
-  float noise_at_1m;   ///< [m], times the squared depth; it adds to the height
-  double hull_margin;  ///< [m] beside the surface
+/// How far from a surface a point may be and still belong to it.
+struct SurfaceBounds {
+  float height;        ///< [m] from the surface's planes
+  float noise_at_1m;   ///< [m] at 1 m, times the squared depth; it adds to the height
+  double hull_margin;  ///< [m] beside the hull of the surface
 };
 
-/// Labels in which whatever lies on a surface is of its first piece: where the plane of a thing's side goes on over the
-/// table, pixels are on both, and beside edges some are on neither. `of_place` tells of each label whether its pixels
-/// are of a surface or another large plane already: they keep it.
-std::vector<std::uint16_t> withRemainders(const PlaneSegmentation& planes, const OrganisedPoints& points,
-                                          const std::vector<Surface>& surfaces,
-                                          const std::vector<std::uint8_t>& of_place, const RemainderBounds& bounds);
+/// Returns the labels of `planes`, with the points that lie on a surface assigned to its first piece. They may have
+/// another label: where the plane of an object's side continues over the table, points are on both planes, and beside
+/// edges some are on neither. `of_place`: for each label, whether its pixels are of a surface or another large plane;
+/// such pixels keep their labels.
+std::vector<std::uint16_t> assignToSurfaces(const PlaneSegmentation& planes, const OrganizedPoints& points,
+                                            const std::vector<Surface>& surfaces,
+                                            const std::vector<std::uint8_t>& of_place, const SurfaceBounds& bounds);
 
 }  // namespace omnimapper::perception::objects

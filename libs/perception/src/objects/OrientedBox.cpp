@@ -20,7 +20,7 @@ double crossProduct(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }
 
 struct Rectangle {
-  Eigen::Vector2d x_axis = Eigen::Vector2d::UnitX();                              // unit; y is a left turn after it
+  Eigen::Vector2d x_axis = Eigen::Vector2d::UnitX();                              // unit; y is 90 degrees to its left
   Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = Eigen::Vector2d::Zero();  // along the axes
   double area() const { return (high - low).prod(); }
 };
@@ -73,7 +73,7 @@ OMNIMAPPER_KERNEL_BODY void widen(const SpanTask& task, const float* x, const fl
   high = place > high ? place : high;
 }
 
-// Grows a span by the places of points along an axis.
+// Extends a span by the positions of points along an axis.
 OMNIMAPPER_KERNEL_BODY Span spanBody(const SpanTask& task, const Span& start) {
   Lanes low = Lanes{} + start.low, high = Lanes{} + start.high;
   int i = 0;

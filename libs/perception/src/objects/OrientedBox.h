@@ -8,11 +8,11 @@
 namespace omnimapper::perception::objects {
 
 struct OrientedBox {
-  geometry::Se3 frame_from_box;  ///< middle and axes
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  geometry::Se3 frame_from_box;                    ///< middle and axes
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m] whole length along each axis
 };
 
-/// Points [m], coordinate by coordinate.
+/// Points [m], with one array for each coordinate.
 struct PointList {
   std::vector<float> x, y, z;
 
@@ -25,11 +25,11 @@ struct PointList {
   }
 };
 
-/// The box around the points with one side along the unit vector `axis`, which becomes its z, and of the others the
-/// least area; x is the longer of them. One point at least.
+/// The box around the points whose z axis is the unit vector `axis` and whose base has the least area; x is along the
+/// longer side of the base. There must be at least one point.
 OrientedBox boxAlong(const Eigen::Vector3d& axis, const std::vector<Eigen::Vector3d>& points);
 
-/// The box with the same axes around a box and all of the points.
+/// The smallest box with the axes of `box` that encloses `box` and all of the points.
 OrientedBox extended(const OrientedBox& box, const PointList& points);
 
 }  // namespace omnimapper::perception::objects

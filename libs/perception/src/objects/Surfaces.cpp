@@ -15,10 +15,10 @@ double areaOf(const PlaneRegion& plane) {
   return result;
 }
 
-bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions& options, double bend_at_1m) {
+bool areCoplanar(const PlaneRegion& a, const PlaneRegion& b, const ObjectOptions& options, double distortion_at_1m) {
   if (a.plane_in_sensor.normal.dot(b.plane_in_sensor.normal) < std::cos(options.coplanar_angle)) return false;
   const double depth = std::max(a.centroid.z(), b.centroid.z());
-  const double farthest = options.coplanar_distance + bend_at_1m * depth * depth;
+  const double farthest = options.coplanar_distance + distortion_at_1m * depth * depth;
   return std::abs(signedDistance(a.plane_in_sensor, b.centroid)) <= farthest &&
          std::abs(signedDistance(b.plane_in_sensor, a.centroid)) <= farthest;
 }
@@ -34,8 +34,8 @@ HullNeighbourhood hullOf(const PlaneSegmentation& planes, const Surface& surface
 
 }  // namespace
 
-std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options, double bend_at_1m,
-                                  const Eigen::Vector3d& up) {
+std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options,
+                                  double distortion_at_1m, const Eigen::Vector3d& up) {
   std::vector<Surface> surfaces;
   std::vector<bool> taken(planes.planes.size(), false);
   for (std::size_t i = 0; i < planes.planes.size(); ++i) {
@@ -46,7 +46,7 @@ std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectO
     surface.pieces.push_back(surface.plane);
     double area = areaOf(largest);
     for (std::size_t j = i + 1; j < planes.planes.size(); ++j) {
-      if (taken[j] || !areCoplanar(largest, planes.planes[j], options, bend_at_1m)) continue;
+      if (taken[j] || !areCoplanar(largest, planes.planes[j], options, distortion_at_1m)) continue;
       surface.pieces.push_back(static_cast<int>(j));
       area += areaOf(planes.planes[j]);
     }

@@ -18,14 +18,14 @@ struct CellRegions {
   std::vector<Region> regions;
 };
 
-/// By how much a plane of others may explain n pixels of a cell worse than their own does [1/m^2 squared]: noise of the
-/// cell's three parameters, and flat walls that seem bent by `bend` [1/m].
-double excessAllowed(const DepthNoise& noise, double n, double bend);
+/// Largest sum of squares [1/m^2] by which a shared plane may fit the n pixels of a cell worse than the cell's own
+/// plane does: noise of the three plane parameters, plus a systematic distortion [1/m] of all n pixels.
+double excessAllowed(const DepthNoise& noise, double n, double distortion);
 
-/// Grows regions from the flattest blocks of cells. Each cell that joins is near the plane of those before it.
+/// Grows regions from the flattest blocks of cells. A cell joins if it is near the plane of the cells before it.
 CellRegions growRegions(const CellGrid& grid, const DepthNoise& noise);
 
-/// Joins regions that meet where one plane explains both, and drops those that turn out curved.
+/// Merges adjacent regions that one plane explains, and drops regions that turn out curved.
 CellRegions mergeRegions(const CellGrid& grid, const DepthNoise& noise, CellRegions grown);
 
 }  // namespace omnimapper::perception::planes

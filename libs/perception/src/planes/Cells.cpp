@@ -6,13 +6,15 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// A cell with fewer measured pixels has no plane of its own.
+// A cell with fewer measured pixels does not count as flat.
 constexpr double kFewestPixels = 0.4 * kCell * kCell;
-// Of the variance of a pixel: noise is not the same for all surfaces, and few pixels of a cell err independently.
+// Largest mean squared residual of a flat cell, as a multiple of a pixel's variance. It is generous because surfaces
+// differ in noise and few pixels of a cell have independent errors.
 constexpr double kFlatVariance = 2.5;
 constexpr float kMiddle = 0.5F * (kCell - 1);
 
-// What a column of lanes sums over its rows: weights (1 for a measured pixel), values, and both times the row.
+// Sums of each lane over its rows: weights n (1 for a measured pixel), values q, and their products with the row v and
+// with themselves.
 struct ColumnSums {
   Lanes n{}, nv{}, nvv{}, q{}, vq{}, qq{};
 };
@@ -30,7 +32,7 @@ OMNIMAPPER_KERNEL_BODY void addRow(const Lanes& q, float origin, float v, Column
   sums.qq += value * value;
 }
 
-// Adds lanes that stand in the columns from `first` on.
+// Adds the sums of eight lanes, which are the columns from `first` on.
 OMNIMAPPER_KERNEL_BODY void addColumns(const ColumnSums& sums, int first, PlaneMoments& m) {
   for (int i = 0; i < kLanes; ++i) {
     const double u = static_cast<float>(first + i) - kMiddle, n = sums.n[i], q = sums.q[i];
@@ -47,7 +49,7 @@ OMNIMAPPER_KERNEL_BODY void addColumns(const ColumnSums& sums, int first, PlaneM
   }
 }
 
-// Sums of one cell, counted from its middle and from `origin`.
+// Moments of one cell, with columns and rows counted from its centre and values from `origin`.
 OMNIMAPPER_KERNEL_BODY void sumCellBody(const float* from, int stride, float origin, PlaneMoments& moments) {
   for (int first = 0; first < kCell; first += kLanes) {
     ColumnSums sums;
@@ -60,7 +62,8 @@ OMNIMAPPER_KERNEL_BODY void sumCellBody(const float* from, int stride, float ori
   }
 }
 
-// A value from the middle of a cell, to count from: sums of squares in single precision need one. 0 if there is none.
+// A measured value of the cell, at its centre if possible: the origin that sums of squares in single precision need.
+// Returns 0 if no pixel is measured.
 OMNIMAPPER_KERNEL_BODY float originOf(const float* from, int stride) {
   const float middle = from[kCell / 2 * stride + kCell / 2];
   if (middle > 0) return middle;

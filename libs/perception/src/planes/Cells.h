@@ -11,8 +11,8 @@ namespace omnimapper::perception::planes {
 
 struct Cell {
   PlaneMoments moments;  ///< of its measured pixels, counted from the principal point
-  double squares = 0;    ///< from its own plane [1/m^2]
-  bool flat = false;     ///< one plane explains it
+  double squares = 0;    ///< sum of squared residuals from its own plane [1/m^2]
+  bool flat = false;     ///< whether one plane explains its pixels
 };
 
 struct CellGrid {
@@ -23,7 +23,7 @@ struct CellGrid {
   const Cell& at(int column, int row) const { return cells[static_cast<std::size_t>(index(column, row))]; }
 };
 
-/// The image in cells of kCell x kCell pixels, each with its own plane.
+/// Divides the image into cells of kCell x kCell pixels and fits a plane to each.
 CellGrid fitCells(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise);
 
 }  // namespace omnimapper::perception::planes

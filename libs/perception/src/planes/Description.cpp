@@ -9,7 +9,7 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// Labels of regions of cells become those of the result.
+// Replaces the labels of cell regions by those of the fitted planes, or by 0 where no plane was fitted.
 void relabel(const Components& components, const std::vector<FittedRegion>& fitted, PixelLabels& labels) {
   std::vector<std::uint16_t> of_component(components.pixels.size(), 0);
   for (std::size_t i = 0; i < fitted.size(); ++i) {
@@ -21,7 +21,7 @@ void relabel(const Components& components, const std::vector<FittedRegion>& fitt
   }
 }
 
-// Without the columns and rows of padding.
+// Removes the columns and rows of padding.
 std::vector<std::uint16_t> cropped(PixelLabels labels, int width, int height) {
   const auto stride = static_cast<std::ptrdiff_t>(labels.stride);
   const auto begin = labels.values.begin();

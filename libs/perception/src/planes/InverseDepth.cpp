@@ -14,7 +14,7 @@ struct Bounds {
 };
 
 OMNIMAPPER_KERNEL_BODY void invertLanes(const Lanes& depth, const Bounds& bounds, float* to) {
-  // Not a number fails the comparisons.
+  // NaN fails the comparisons, so it is not valid.
   const LaneMask valid = (depth >= bounds.low) & (depth <= bounds.high);
   const Lanes divisor = valid ? depth : Lanes{} + 1.F;
   store(valid ? bounds.unit / divisor : Lanes{}, to);
@@ -67,7 +67,7 @@ InverseDepth invert(const DepthImage& image, double min_depth, double max_depth)
   inverse.stride = wholeCells(image.width());
   inverse.rows = wholeCells(image.height());
   const auto stride = static_cast<std::size_t>(inverse.stride), width = static_cast<std::size_t>(inverse.width);
-  // Not set to zeros first: that would cost as much as all the rest here.
+  // The values are not zeroed on allocation, which would cost as much as the rest of this function.
   const std::size_t pixels = stride * static_cast<std::size_t>(inverse.rows);
   inverse.values.reset(new float[pixels + kLanes]);
   std::fill(inverse.values.get() + pixels, inverse.values.get() + pixels + kLanes, 0.F);

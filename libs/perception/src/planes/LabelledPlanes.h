@@ -15,11 +15,11 @@ struct LabelledPlanes {
   PixelLabels labels;
 };
 
-/// Of cells that are grown and merged, then decided pixel by pixel. `inverse` is that of `image`.
+/// Finds planes by growing and merging cells, then assigns the pixels to them. `inverse` is made from `image`.
 LabelledPlanes planesOfCells(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options);
 
-/// The thesis's own way (3.4.3, 3.4.4): pixels are connected by their normals and offsets with SmoothComparator; large
-/// components that are flat, not merely smooth, are planes, which grow over the pixels around them that lie on them.
+/// The thesis's method (3.4.3, 3.4.4): SmoothComparator connects pixels by their normals and offsets. Large components
+/// that are flat, not merely smooth, become planes, which then grow over the adjacent pixels that lie on them.
 LabelledPlanes planesOfNormals(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options);
 
 }  // namespace omnimapper::perception::planes

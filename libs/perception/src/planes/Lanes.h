@@ -27,7 +27,7 @@ OMNIMAPPER_KERNEL_BODY void store(const Lanes& lanes, float* to) {
   std::memcpy(to, &lanes, sizeof(lanes));
 }
 
-/// Whether kernels for AVX2 run here.
+/// Whether the AVX2 kernels are used: the CPU has AVX2, and the environment variable OMNIMAPPER_AVX2 is not 0.
 bool hasAvx2();
 
 }  // namespace omnimapper::perception::planes

@@ -8,11 +8,11 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// Directions along the edges of pixels, each a right turn after the one before it.
+// Directions along pixel edges, in the order of right turns.
 enum Direction { up, right, down, left };
 constexpr int kStepX[] = {0, 1, 0, -1};
 constexpr int kStepY[] = {-1, 0, 1, 0};
-// From a corner, the pixel ahead on the right hand and the one on the left hand.
+// For each direction, offsets from a corner to the pixel ahead on the right and to the pixel ahead on the left.
 constexpr int kRightX[] = {0, 0, -1, -1}, kRightY[] = {-1, 0, 0, -1};
 constexpr int kLeftX[] = {-1, 0, 0, -1}, kLeftY[] = {-1, -1, 0, 0};
 
@@ -23,19 +23,19 @@ class Tracer {
 
   bool isTraced(int x, int y) const { return traced_[index(x, y)]; }
 
-  // From the left edge of the pixel, downwards, with the region on the left hand.
+  // Traces a line that starts downwards along the left edge of the pixel and has the region on its left.
   TracedLine trace(int x, int y) {
     TracedLine line;
     line.label = labels_[index(x, y)];
     const PixelCorner start{x, y};
     PixelCorner at = start;
     int direction = down;
-    // The line is closed when it comes to its first edge again: corners may be passed twice.
+    // The line is closed when it returns to its first edge, not to its first corner: it may pass a corner twice.
     do {
       if (direction == down) traced_[index(at.x, at.y)] = true;
       at.x += kStepX[direction];
       at.y += kStepY[direction];
-      line.area -= at.x * kStepY[direction];  // edges that go up on the right enclose what is left of them
+      line.area -= at.x * kStepY[direction];  // upward edges add the pixels to their left, downward ones subtract them
       const int next = turn(at, direction, line.label);
       if (next != direction) line.corners.push_back(at);
       direction = next;
@@ -52,7 +52,7 @@ class Tracer {
     return x >= 0 && y >= 0 && x < width_ && y < height_ && labels_[index(x, y)] == label;
   }
 
-  // Pixels that only touch at a corner are not connected, so a left turn comes first.
+  // Pixels that only touch at a corner are not connected, so a left turn is tried first.
   int turn(const PixelCorner& at, int direction, std::uint16_t label) const {
     if (!has(at.x + kLeftX[direction], at.y + kLeftY[direction], label)) return (direction + 3) % 4;
     if (has(at.x + kRightX[direction], at.y + kRightY[direction], label)) return (direction + 1) % 4;
@@ -61,7 +61,7 @@ class Tracer {
 
   const std::uint16_t* labels_;
   int width_, height_;
-  std::vector<bool> traced_;  // left edges of pixels
+  std::vector<bool> traced_;  // for each pixel, whether its left edge was traced
 };
 
 }  // namespace

@@ -15,12 +15,12 @@ struct TracedLine {
   std::vector<PixelCorner> corners;
 };
 
-/// Traces the edges between labels, 4-connected, for each label but 0. `runs` are the runs of equal labels,
-/// each in one piece or several. Lines around fewer than `min_hole` pixels of a hole are left out.
+/// Traces the edges between labels, 4-connected, for each label but 0. `runs` are the runs of equal labels;
+/// one may be split into several. Holes of fewer than `min_hole` pixels are left out.
 std::vector<TracedLine> traceOutlines(const std::vector<std::uint16_t>& labels, int width, int height,
                                       const std::vector<PixelRun>& runs, int min_hole);
 
-/// Which corners of a closed line are enough for it to within `tolerance` [px]: geometry::keptOfLoop().
+/// Indices of the corners that keep a closed line true to within `tolerance` [px], by geometry::keptOfLoop().
 std::vector<std::size_t> cornersNeeded(const std::vector<PixelCorner>& corners, double tolerance);
 
 }  // namespace omnimapper::perception::planes

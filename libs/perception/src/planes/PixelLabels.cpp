@@ -9,10 +9,11 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// In standard deviations of a pixel. Inside a region nothing competes, and a noisy pixel is no hole.
+// Tolerances in standard deviations of a pixel. Inside a region no other plane competes, so the tolerance is larger
+// there and noisy pixels leave no holes.
 constexpr double kBorderSigmas = 3;
 constexpr double kInsideSigmas = 4.5;
-// A cell without a plane of its own hands the plane of its neighbour on if so many of its pixels lie on it.
+// A cell without a region passes a neighbour's plane on to the next cells if at least this many pixels lie on it.
 constexpr int kEnoughToPassOn = 3 * kCell * kCell / 10;
 
 class PixelLabelling {
@@ -20,7 +21,7 @@ class PixelLabelling {
   PixelLabelling(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise, const CellGrid& grid,
                  const CellRegions& regions)
       : inverse_(inverse), camera_(camera), grid_(grid), regions_(regions), candidates_(grid.cells.size()) {
-    const double sigma = std::sqrt(noise.pixelVariance() + noise.bend * noise.bend);
+    const double sigma = std::sqrt(noise.pixelVariance() + noise.distortion * noise.distortion);
     border_tolerance_ = static_cast<float>(kBorderSigmas * sigma);
     inside_tolerance_ = static_cast<float>(kInsideSigmas * sigma);
     labels_.stride = inverse.stride;
@@ -75,7 +76,9 @@ class PixelLabelling {
   double u(int column) const { return column * kCell - camera_.cx; }
   double v(int row) const { return row * kCell - camera_.cy; }
 
-  // How two planes share the pixels of a cell that both fit; see TileCandidates::nearer_wins.
+  // Decides how two planes share the pixels that fit both, for TileCandidates::nearer_wins: 1 if each plane is nearer
+  // to
+  // the sensor over its own cells, -1 if each is farther, 0 otherwise.
   float nearerWins(int column, int row, int other, int region) const {
     const ImagePlane &p = regions_.regions[static_cast<std::size_t>(region)].plane,
                      &o = regions_.regions[static_cast<std::size_t>(other)].plane;
@@ -127,7 +130,7 @@ class PixelLabelling {
     return count;
   }
 
-  // Planes go on beyond the cells next to them, in cells that are too mixed to be flat.
+  // Extends planes beyond the cells next to them, through cells that are too mixed to be flat.
   void passOn() {
     std::vector<int> queue;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {

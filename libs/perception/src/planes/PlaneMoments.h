@@ -4,7 +4,7 @@
 
 namespace omnimapper::perception::planes {
 
-/// A plane as the image shows it: 1/z = a u + b v + c, with u and v [px] counted from the principal point.
+/// A plane in image coordinates: 1/z = a u + b v + c [1/m], with u and v [px] counted from the principal point.
 struct ImagePlane {
   double a = 0, b = 0, c = 0;
   double at(double u, double v) const { return a * u + b * v + c; }
@@ -13,10 +13,11 @@ struct ImagePlane {
 struct ImagePlaneFit {
   ImagePlane plane;
   double squares = 0;       ///< sum of squared residuals [1/m^2]
-  bool determined = false;  ///< not if the pixels are in one line or fewer than three
+  bool determined = false;  ///< false if the pixels are collinear or fewer than three
 };
 
-/// Sums over pixels at (u, v) with the inverse depth q: all that least squares need. Sums of parts add up.
+/// Sums over pixels at (u, v) with the inverse depth q, from which a plane is fitted by least squares. The moments of a
+/// union are the sum of those of its parts.
 struct PlaneMoments {
   double n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0, q = 0, uq = 0, vq = 0, qq = 0;
 
@@ -25,7 +26,7 @@ struct PlaneMoments {
     return *this;
   }
 
-  /// The sums of the same pixels when (u, v, q) are counted from another origin: each value grows by (du, dv, dq).
+  /// Moments of the same pixels about another origin, where each (u, v, q) is larger by (du, dv, dq).
   PlaneMoments shifted(double du, double dv, double dq) const {
     PlaneMoments s;
     s.n = n;
@@ -41,7 +42,7 @@ struct PlaneMoments {
     return s;
   }
 
-  /// Where it is not determined, its slopes are 0.
+  /// Fits a plane by least squares. If it is not determined, its slopes are 0.
   ImagePlaneFit fit() const {
     if (n < 1) return {};
     const double mu = u / n, mv = v / n, mq = q / n;

@@ -7,8 +7,8 @@
 
 namespace omnimapper::perception::planes {
 
-/// The planes of a depth image as an observation, with stamp and pose of `scan`, mean colours where it sees any, and
-/// outlines that are true to `outline_tolerance` [px].
+/// Makes an observation of the planes of a depth image: stamp and pose are those of `scan`, colours are means where
+/// `colours` has any, and outlines are simplified to within `outline_tolerance` [px].
 std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
                                                  const mrpt::obs::CObservation3DRangeScan& scan, const ScanDepth& depth,
                                                  const ScanColours& colours, double outline_tolerance);

@@ -13,10 +13,10 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// In standard deviations of a pixel: what a plane grows over, and the residuals of what is flat.
+// Largest residual of a pixel that a plane grows over, and RMS residual of a flat component, in standard deviations.
 constexpr double kSigmas = 3, kFlatSigmas = 1.5;
-constexpr int kRadius = 7;                  // [px] of the windows of normals
-constexpr float kMinCosine = 0.9962F;       // of the angle between neighbours' normals: 5 deg
+constexpr int kRadius = 7;                  // [px] of the windows in which normals are fitted
+constexpr float kMinCosine = 0.9962F;       // of the largest angle between neighbours' normals, 5 deg
 constexpr std::size_t kMostPlanes = 65535;  // labels have 16 bits
 
 std::vector<PlaneMoments> momentsOf(const Components& components, const InverseDepth& inverse, const Pinhole& camera) {
@@ -68,9 +68,9 @@ PixelLabels padded(const std::vector<std::int32_t>& labels, const InverseDepth& 
 }  // namespace
 
 LabelledPlanes planesOfNormals(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options) {
-  const OrganisedPoints points = backProject(image, options.min_depth, options.max_depth);
+  const OrganizedPoints points = backProject(image, options.min_depth, options.max_depth);
   const NormalImage normals = NormalEstimator(normalsBy(options, kRadius)).estimate(image);
-  const double variance = options.noise().pixelVariance() + options.bend_at_1m * options.bend_at_1m;
+  const double variance = options.noise().pixelVariance() + options.distortion_at_1m * options.distortion_at_1m;
   const SmoothComparator comparator{points, normals, kMinCosine, static_cast<float>(kSigmas * std::sqrt(variance))};
   const Components components = connectComponents(image.width(), image.height(), comparator);
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int kNone = -1;
 constexpr std::size_t kMostRegions = 65535;
 
-// Sums over a region, of residuals from the plane that its cells have.
+// Sums over a region, of depths and of residuals from the plane of its cells.
 struct RegionSums {
   PlaneMoments residuals;  // q is the residual
   double z = 0, uz = 0, vz = 0;
@@ -44,7 +44,7 @@ void addRun(const PixelRun& run, const InverseDepth& inverse, const Pinhole& cam
   sums.vz += v * s.z;
 }
 
-// Of a, b and c when the image is counted in rays, (u / fx, v / fy, 1): 1/z = w . ray.
+// Covariance from pixel noise of the plane w, given by 1/z = w . ray with rays (u / fx, v / fy, 1).
 Eigen::Matrix3d covarianceOfRayPlane(const PlaneMoments& m, const Pinhole& camera, double variance) {
   const double fx = camera.fx, fy = camera.fy;
   Eigen::Matrix3d information;
@@ -54,7 +54,8 @@ Eigen::Matrix3d covarianceOfRayPlane(const PlaneMoments& m, const Pinhole& camer
   return variance * information.ldlt().solve(Eigen::Matrix3d::Identity());
 }
 
-// Of the same, by what all pixels share: the bend of the image about the middle of the region, and the scale of depths.
+// Covariance of w from errors that all pixels share: systematic distortion about the middle of the region, and the
+// scale of depths.
 Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& w, const PlaneMoments& m, const Pinhole& camera,
                                  const DepthNoise& noise) {
   const Eigen::Vector2d middle(m.u / (m.n * camera.fx), m.v / (m.n * camera.fy));
@@ -62,12 +63,12 @@ Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& w, const PlaneMoments& m
   spread << m.uu / (camera.fx * camera.fx), m.uv / (camera.fx * camera.fy),  //
       m.uv / (camera.fx * camera.fy), m.vv / (camera.fy * camera.fy);
   spread = spread / m.n - middle * middle.transpose();
-  const CommonError bend = commonError(spread);
-  Eigen::Matrix<double, 3, 2> by_slope;  // of w: a slope turns the plane about the middle
+  const CommonError distortion = commonError(spread);
+  Eigen::Matrix<double, 3, 2> by_slope;  // derivative of w: a slope turns the plane about the middle
   by_slope << Eigen::Matrix2d::Identity(), -middle.transpose();
-  Eigen::Matrix3d covariance = by_slope * bend.slope * by_slope.transpose();
-  covariance(2, 2) += bend.offset;
-  return noise.bendVariance() * covariance + noise.scale * noise.scale * w * w.transpose();
+  Eigen::Matrix3d covariance = by_slope * distortion.slope * by_slope.transpose();
+  covariance(2, 2) += distortion.offset;
+  return noise.distortionVariance() * covariance + noise.scale * noise.scale * w * w.transpose();
 }
 
 // n . p + d = 0 for p = z ray gives 1/z = -n . ray / d: w = -n / d.
@@ -77,7 +78,7 @@ void setPlane(const ImagePlane& plane, const PlaneMoments& m, const Pinhole& cam
   const double d = 1 / w.norm();
   const Eigen::Vector3d normal = -d * w;
   region.plane_in_sensor = {normal, d};
-  Eigen::Matrix3d derivative;  // of the tangent of the normal, and of d, by w
+  Eigen::Matrix3d derivative;  // of the normal's tangent and of d, with respect to w
   derivative.topRows<2>() = -d * geometry::tangentBasis(normal).transpose();
   derivative.row(2) = d * d * normal.transpose();
   const Eigen::Matrix3d of_w =
@@ -99,7 +100,8 @@ FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const Image
   return fitted;
 }
 
-// From the planes that were fitted, not those of the cells: the expected ground of a road may be far from it.
+// Adds the RMS distances from the fitted planes, not from the planes of the cells: the expected ground of a road may be
+// far from the ground that was fitted.
 void addRms(const InverseDepth& inverse, const Pinhole& camera, const Components& components,
             const std::vector<int>& place, std::vector<FittedRegion>& fitted) {
   std::vector<double> squares(fitted.size(), 0);

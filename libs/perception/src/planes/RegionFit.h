@@ -11,15 +11,15 @@
 
 namespace omnimapper::perception::planes {
 
-/// A region to the pixel: a connected component of pixels, and the plane fitted to all of them.
+/// A connected component of pixels and the plane fitted to all of them.
 struct FittedRegion {
   int component = 0;
   ImagePlane plane;
   PlaneRegion result;  ///< without contours
 };
 
-/// Fits the plane of each component with at least `min_pixels` that are not all in one line; the one with most pixels
-/// first.
+/// Fits a plane to each component with at least `min_pixels` pixels that are not collinear. The plane with the most
+/// pixels comes first.
 std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
                                      const Components& components, const PixelLabels& labels,
                                      const CellRegions& regions, int min_pixels);

@@ -7,16 +7,16 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-// Blocks of cells that regions grow from, the largest first: a region should start with a good plane.
+// Blocks of cells that regions grow from. The largest come first, so that regions start with a good plane.
 struct Block {
   int columns, rows;
-  double chi2;  // 99.9 % point with 3 degrees of freedom for each cell but one
+  double chi2;  // 99.9 % quantile with 3 degrees of freedom for each cell but one
 };
 constexpr Block kBlocks[] = {{3, 3, 51.18}, {2, 2, 27.88}, {2, 1, 16.27}, {1, 2, 16.27}};
 constexpr double kChi2Cell = 16.27;
 
 struct Seed {
-  double excess;  // per pixel
+  double excess;  // squares beyond those of the cells' own planes, per pixel
   int column, row;
 };
 
@@ -26,7 +26,7 @@ class Growth {
     result_.of_cell.assign(grid.cells.size(), kNoRegion);
   }
 
-  // From blocks of cells of which none has a region yet.
+  // Grows regions from the blocks whose cells are all flat and in no region yet.
   void growFrom(const Block& block) {
     std::vector<Seed> seeds;
     for (int row = 0; row + block.rows <= grid_.rows; ++row) {
@@ -63,7 +63,7 @@ class Growth {
       }
     }
     const double excess = sum.fit().squares - squares;
-    if (excess > block.chi2 * noise_.meanVariance() + sum.n * noise_.bend * noise_.bend) return;
+    if (excess > block.chi2 * noise_.meanVariance() + sum.n * noise_.distortion * noise_.distortion) return;
     seeds.push_back({excess / sum.n, column, row});
   }
 
@@ -88,7 +88,8 @@ class Growth {
   void tryToJoin(int column, int row, int index, CellRegions::Region& region) {
     const Cell& cell = grid_.at(column, row);
     if (!cell.flat || regionOf(column, row) != kNoRegion) return;
-    if (cell.moments.squaresFrom(region.plane) - cell.squares > excessAllowed(noise_, cell.moments.n, noise_.bend))
+    if (cell.moments.squaresFrom(region.plane) - cell.squares >
+        excessAllowed(noise_, cell.moments.n, noise_.distortion))
       return;
     join(column, row, index, region);
     region.plane = region.moments.fit().plane;
@@ -112,8 +113,8 @@ class Growth {
 
 }  // namespace
 
-double excessAllowed(const DepthNoise& noise, double n, double bend) {
-  return kChi2Cell * noise.meanVariance() + n * bend * bend;
+double excessAllowed(const DepthNoise& noise, double n, double distortion) {
+  return kChi2Cell * noise.meanVariance() + n * distortion * distortion;
 }
 
 CellRegions growRegions(const CellGrid& grid, const DepthNoise& noise) {

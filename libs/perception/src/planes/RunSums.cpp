@@ -10,7 +10,7 @@ struct LaneSums {
   Lanes r{}, xr{}, rr{}, z{}, xz{};
 };
 
-// `weight` is 1 or 0; where it is 0, `q` is not.
+// `weight` is 1 or 0; `q` must not be 0, even where the weight is.
 OMNIMAPPER_KERNEL_BODY void add(const Lanes& q, const Lanes& x, const Lanes& plane, const Lanes& weight, LaneSums& s) {
   const Lanes r = (q - plane) * weight, z = weight / q;
   s.r += r;

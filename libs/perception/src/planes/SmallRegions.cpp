@@ -54,7 +54,7 @@ class SmallRegions {
     return explained >= kExplainedShare * measured;
   }
 
-  // Pixels of the cell on planes of larger regions up to two cells away.
+  // Number of the cell's pixels that lie on planes of larger regions up to two cells away.
   int explainedPixels(std::size_t region, int cell) {
     const int column = cell % grid_.columns, row = cell / grid_.columns;
     TileCandidates tile;
@@ -95,7 +95,7 @@ class SmallRegions {
   float tolerance_;
   const CellGrid& grid_;
   CellRegions& r_;
-  std::vector<std::vector<int>> cells_;  // of each region
+  std::vector<std::vector<int>> cells_;  // cell indices of each region
   std::vector<std::uint16_t> labels_;
 };
 

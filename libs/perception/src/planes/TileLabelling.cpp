@@ -14,7 +14,7 @@ OMNIMAPPER_KERNEL_BODY void storeLabels(const LaneMask& labels, std::uint16_t* t
   std::memcpy(to, &narrow, sizeof(narrow));
 }
 
-// What has been decided for eight pixels so far.
+// State of the decision for eight pixels.
 struct Decision {
   LaneMask candidate{};  // index + 1; 0 = none fits
   LaneMask label{};
@@ -39,7 +39,7 @@ OMNIMAPPER_KERNEL_BODY void consider(int k, const Lanes& q, const Lanes& plane, 
   decided.residual = wins ? residual : decided.residual;
 }
 
-// `count` is known when this is compiled, for one and two candidates: most cells have no more.
+// `count` is a compile-time constant for one and two candidates; most cells have no more.
 OMNIMAPPER_KERNEL_BODY void labelPixelsOf(int count, const float* values, int stride, const TileCandidates& c,
                                           float tolerance, std::uint16_t* labels) {
   Lanes columns;

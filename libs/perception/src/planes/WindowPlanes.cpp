@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kLargest = 32767;
 constexpr float kNoPlane = std::numeric_limits<float>::quiet_NaN();
-// One over the square root, to 2 units in the last place, of normal numbers: a first guess from the exponent, then
-// Newton steps. Plain operations, so that it gives the same bits everywhere.
+// Inverse square root of normal numbers, to 2 units in the last place: a first guess from the exponent, then Newton
+// steps. Only plain operations are used, so that the result is the same to the bit on every machine.
 OMNIMAPPER_KERNEL_BODY void inverseRoot(const Lanes& value, Lanes& root) {
   LaneMask bits;
   std::memcpy(&bits, &value, sizeof(bits));
@@ -69,7 +69,7 @@ OMNIMAPPER_KERNEL_BODY void keepNear(const float* row, int x, const Lanes& plane
   flat &= (residual <= tolerance) & (residual >= -tolerance);
 }
 
-// The normals of eight pixels from x on.
+// Normals of the eight pixels from x on.
 OMNIMAPPER_KERNEL_BODY void normalsAt(const RowTask& t, int x, const NormalRow& to) {
   Lanes missing, sum, moment;
   load(missing, t.missing + x);
@@ -114,7 +114,7 @@ OMNIMAPPER_KERNEL_BODY void normalsAt(const RowTask& t, int x, const NormalRow& 
   store(flat ? -wz * scale : none, to.z + x);
 }
 
-// Of all columns whose windows are inside the image; the last eight may be done twice.
+// Normals of all columns whose windows are inside the image. Some of the last columns may be computed twice.
 OMNIMAPPER_KERNEL_BODY void normalsBody(const RowTask& task, int width, const NormalRow& to) {
   const int last = width - task.radius - kLanes;
   for (int x = task.radius; x < last; x += kLanes) normalsAt(task, x, to);

@@ -6,7 +6,7 @@
 
 namespace omnimapper::perception::planes {
 
-/// Where the unit normals of a row of pixels go.
+/// Output arrays for the unit normals of a row of pixels.
 struct NormalRow {
   float* x;
   float* y;
@@ -15,14 +15,15 @@ struct NormalRow {
 
 /// Planes fitted to the square windows around the pixels of an image, row by row from the top.
 /// Inverse depths are rounded to whole numbers of 15 bits. All sums over windows stay below 2^24 for a radius up to 7,
-/// so that they are exact in single precision, however they are added up, and sliding windows gather no error.
+/// so that they are exact in single precision, in any order of summation, and sliding windows accumulate no error.
 class WindowPlanes {
  public:
-  /// `tolerance` [1/m]: how far the pixels of a window may be from its plane.
+  /// `highest` [1/m]: the largest inverse depth. `tolerance` [1/m]: how far the pixels of a window may be from its
+  /// plane.
   WindowPlanes(const InverseDepth& inverse, const Pinhole& camera, int radius, double highest, double tolerance);
 
-  /// Normals of the next row; not a number where the window is not wholly measured or not flat. Images narrower than
-  /// the window and seven pixels have none.
+  /// Writes the normals of the next row, NaN where the window is not fully measured or not flat. Images narrower than
+  /// the window plus seven pixels have none.
   void next(const NormalRow& to);
 
  private:
@@ -32,8 +33,8 @@ class WindowPlanes {
   int width_, stride_, rows_, radius_, y_ = 0;
   Pinhole camera_;
   float tolerance_;
-  std::unique_ptr<float[]> whole_;  // the image in whole numbers
-  // Over the rows of the window, for each column: pixels that were not measured, values, values times their row.
+  std::unique_ptr<float[]> whole_;  // inverse depths, scaled and rounded to whole numbers
+  // Sums over the rows of the window for each column: unmeasured pixels, values, values times their row.
   std::unique_ptr<float[]> missing_, sum_, moment_;
 };
 

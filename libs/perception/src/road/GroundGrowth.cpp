@@ -22,7 +22,7 @@ class WindowSums {
     std::int64_t offs = 0, pixels = 0;
   };
 
-  /// Of the windows around the pixels of the next row.
+  /// Sums of the windows around the pixels of the next row.
   void next(std::vector<Sum>& sums) {
     add(y_ + radius_, 1);
     Sum sum;
@@ -57,7 +57,8 @@ class WindowSums {
   std::vector<Sum> columns_;
 };
 
-// Whether pixels are nearer than the ground: errors average out over as many pixels as err apart.
+// Whether the pixels of a window are on average nearer than the ground by more than the tolerance of their mean. Errors
+// average out only over the number of independent ones, n / correlation_area.
 bool isAboveOnAverage(const WindowSums::Sum& sum, double correlation_area) {
   constexpr double kSteps = LocalGround::kSteps;
   const auto total = static_cast<double>(sum.offs), n = static_cast<double>(sum.pixels);
@@ -74,8 +75,8 @@ planes::PixelLabels growGround(const planes::InverseDepth& inverse, const Pinhol
   labels.rows = inverse.rows;
   labels.values.resize(static_cast<std::size_t>(labels.stride) * static_cast<std::size_t>(labels.rows), 0);
   const LocalGround ground = fitGround(inverse, camera, seeds, limits.tolerance);
-  const double apart = std::min(1.0, limits.correlation_area / 16);  // of the errors in a block
-  const auto steps = findHeightSteps(ground, limits.sigma * std::sqrt(apart), limits.step_sigmas);
+  const double mean_variance = std::min(1.0, limits.correlation_area / 16);  // of a block, relative to a pixel's
+  const auto steps = findHeightSteps(ground, limits.sigma * std::sqrt(mean_variance), limits.step_sigmas);
   WindowSums windows(ground.offs, inverse.width, inverse.height, limits.radius);
   std::vector<WindowSums::Sum> sums(static_cast<std::size_t>(inverse.width));
   std::size_t i = 0;

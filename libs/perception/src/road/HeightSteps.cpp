@@ -9,10 +9,10 @@ namespace omnimapper::perception::road {
 
 namespace {
 
-constexpr double kFaint = 0.6;      // of the threshold: a step that exceeds it somewhere goes on where it exceeds this
-constexpr int kMostTurn = 1;        // directions, from one block of a step to the next
-constexpr double kLeastJump = 0.5;  // of the difference, that is not a slope
-constexpr double kMargin = 1, kMostHalfWidth = 14;  // [px] of a step
+constexpr double kFaint = 0.6;  // of the threshold: a step that exceeds it somewhere continues where it exceeds this
+constexpr int kMostTurn = 1;    // largest change of direction from one block of a step to the next
+constexpr double kLeastDiscontinuity = 0.5;         // share of the difference that is not a slope
+constexpr double kMargin = 1, kMostHalfWidth = 14;  // [px] margin and limit of a step's half width
 constexpr int kBlock = LineDifferences::kBlock;
 
 using Difference = LineDifferences::Difference;
@@ -29,7 +29,7 @@ class Steps {
         size_(static_cast<std::size_t>(blocks_.columns) * static_cast<std::size_t>(blocks_.rows)),
         best_(size_),
         is_ridge_(size_, 0) {
-    marks.resize(ground.offs.size(), 0);
+    mask.resize(ground.offs.size(), 0);
     for (int d = 0; d < LineDirection::kCount; ++d) differences_.push_back(blocks_.across(LineDirection::of(d)));
     for (std::size_t i = 0; i < size_; ++i) best_[i] = bestOf(i);
     const auto threshold = static_cast<float>(deviations * block_sigma / ground.step);
@@ -37,16 +37,16 @@ class Steps {
     for (int y = 0; y < blocks_.rows; ++y) {
       for (int x = 0; x < blocks_.columns; ++x) {
         const std::size_t i = blocks_.index(x, y);
-        if (is_ridge_[i] != 0 && best_[i].size >= threshold) markAlong(x, y);
+        if (is_ridge_[i] != 0 && best_[i].size >= threshold) maskStep(x, y);
       }
     }
   }
 
-  std::vector<std::uint8_t> marks;
+  std::vector<std::uint8_t> mask;
 
  private:
   struct Best {
-    float size = 0;  // of a difference, in steps of the ground if each had the deviation of one block
+    float size = 0;  // of a difference, in steps of the ground, scaled to the deviation of one block
     int direction = 0;
   };
   struct Block {
@@ -75,8 +75,8 @@ class Steps {
     }
   }
 
-  // Whether the difference is the largest across the line, and a jump rather than a slope: planes fitted across a step
-  // or a bend of the ground leave slopes beside it.
+  // Whether the difference is the largest across the line, and a discontinuity rather than a slope: planes fitted
+  // across a step or a bend of the ground leave slopes beside it.
   bool isRidge(int x, int y, const Best& best) const {
     const LineDirection line = LineDirection::of(best.direction);
     const auto dx = static_cast<int>(std::lround(-line.y)), dy = static_cast<int>(std::lround(line.x));
@@ -84,17 +84,17 @@ class Steps {
         sizeOf(differenceAt(x - dx, y - dy, best.direction)) > best.size)
       return false;
     const auto difference = static_cast<double>(differenceAt(x, y, best.direction).mean);
-    return blocks_.jumpAt(x, y, line) / difference >= kLeastJump;
+    return blocks_.discontinuityAt(x, y, line) / difference >= kLeastDiscontinuity;
   }
 
-  // All of the step that has this block; a block is of one step only.
-  void markAlong(int x, int y) {
+  // Masks the whole step that a block is part of; each block is part of one step only.
+  void maskStep(int x, int y) {
     std::vector<Block> left{{x, y}};
     is_ridge_[blocks_.index(x, y)] = 0;
     while (!left.empty()) {
       const Block block = left.back();
       left.pop_back();
-      mark(block);
+      setMask(block);
       // Ridges are never at the border.
       for (int v = block.y - 1; v <= block.y + 1; ++v) {
         for (int u = block.x - 1; u <= block.x + 1; ++u) {
@@ -112,7 +112,7 @@ class Steps {
     return std::min(turn, LineDirection::kCount - turn) <= kMostTurn;
   }
 
-  void mark(const Block& block) {
+  void setMask(const Block& block) {
     const LineDirection line = LineDirection::of(best_[blocks_.index(block.x, block.y)].direction);
     const double half_length = 0.5 * kBlock + 1, half_width = halfWidthOf(block, line);
     const double x0 = LineDifferences::middleOf(block.x), y0 = LineDifferences::middleOf(block.y);
@@ -123,13 +123,13 @@ class Steps {
       for (int x = std::max(0, kBlock * block.x - reach); x < x_end; ++x) {
         const double dx = x - x0, dy = y - y0;
         if (std::abs(dx * line.x + dy * line.y) <= half_length && std::abs(dy * line.x - dx * line.y) <= half_width)
-          marks[static_cast<std::size_t>(y) * static_cast<std::size_t>(ground_.width) + static_cast<std::size_t>(x)] =
-              1;
+          mask[static_cast<std::size_t>(y) * static_cast<std::size_t>(ground_.width) + static_cast<std::size_t>(x)] = 1;
       }
     }
   }
 
-  // [px]. An upright face hides as much ground as 1/z changes by from one of its ends to the other.
+  // Half width [px] of a step at a block. An upright face between both heights hides as many rows as 1/z of the ground
+  // takes to change by the same difference.
   double halfWidthOf(const Block& block, const LineDirection& line) const {
     const auto& plane = ground_.planeAt(kBlock * block.x, kBlock * block.y);
     const double slope = plane ? plane->b : 0;  // of 1/z, per pixel downwards
@@ -143,15 +143,15 @@ class Steps {
   const LocalGround& ground_;
   LineDifferences blocks_;
   std::size_t size_;                                  // in blocks
-  std::vector<std::vector<Difference>> differences_;  // of each direction
+  std::vector<std::vector<Difference>> differences_;  // for each direction
   std::vector<Best> best_;
-  std::vector<std::uint8_t> is_ridge_;  // 1 where a block exceeds those beside it and is not yet marked
+  std::vector<std::uint8_t> is_ridge_;  // 1 where a block exceeds those beside it and is not yet in the mask
 };
 
 }  // namespace
 
 std::vector<std::uint8_t> findHeightSteps(const LocalGround& ground, double block_sigma, double deviations) {
-  return Steps(ground, block_sigma, deviations).marks;
+  return Steps(ground, block_sigma, deviations).mask;
 }
 
 }  // namespace omnimapper::perception::road

@@ -9,19 +9,21 @@ namespace omnimapper::perception::road {
 
 namespace {
 
-constexpr int kFewest = 4;                              // pixels known of a block that counts
+constexpr int kFewest = 4;                              // known pixels of a block that counts
 constexpr int kHalfLength = 9;                          // [blocks] of a line
 constexpr int kFewestBlocks = 5;                        // on each side of a line
-constexpr int kBorder = kHalfLength + 3;                // [blocks] around the image, of nothing known
-constexpr std::array<double, 2> kRowsBeside{1.6, 2.6};  // [blocks] from the line: steps nearby are wider than a block
-constexpr int kFirstOfJump = 2, kJumpReach = 6;         // [blocks] from the line
+constexpr int kBorder = kHalfLength + 3;                // [blocks] around the image, without values
+constexpr std::array<double, 2> kRowsBeside{1.6, 2.6};  // [blocks] from the line: near steps are wider than a block
+constexpr int kNearestFitted = 2, kFarthestFitted = 6;  // [blocks] from the line, of the blocks that are fitted
 constexpr double kMostMore = 4 * LocalGround::kSteps;
-// A block's value is kOne * number + mean: the sums of means stay below half of it.
+// The value of a block that counts is kOne + its mean: a sum of values is kOne times the number of blocks, plus the sum
+// of their means, which stays below half of kOne.
 constexpr int kOneBits = 20;
 constexpr std::int32_t kOne = 1 << kOneBits;
 static_assert(planes::kCell % LineDifferences::kBlock == 0, "a block lies in one cell");
 
-// What is to be added to offs from the plane of one cell: at the borders of cells these jump where the ground does not.
+// Correction of a block's distances from the plane of its cell to distances from the ground between cells. At the
+// borders of cells their planes have a discontinuity where the ground has none.
 std::int32_t fromOneCell(const LocalGround& ground, int column, int row) {
   const double x = LineDifferences::middleOf(column), y = LineDifferences::middleOf(row);
   const auto& plane = ground.planeAt(column * LineDifferences::kBlock, row * LineDifferences::kBlock);
@@ -35,7 +37,7 @@ std::int32_t valueOf(const LocalGround& ground, int column, int row) {
   for (int y = row * kBlock; y < (row + 1) * kBlock; ++y) {
     const std::int16_t* offs = ground.offs.data() + static_cast<std::ptrdiff_t>(y) * ground.width;
     for (int x = column * kBlock; x < (column + 1) * kBlock; ++x) {
-      if (std::abs(offs[x]) >= LocalGround::kFarthest) continue;  // unknown, or of something else
+      if (std::abs(offs[x]) >= LocalGround::kFarthest) continue;  // unknown, or not ground
       sum += offs[x];
       ++known;
     }
@@ -85,20 +87,20 @@ std::vector<LineDifferences::Difference> LineDifferences::across(const LineDirec
   return differences;
 }
 
-double LineDifferences::jumpAt(int x, int y, const LineDirection& line) const {
+double LineDifferences::discontinuityAt(int x, int y, const LineDirection& line) const {
   Eigen::Matrix4d squares = Eigen::Matrix4d::Zero();
   Eigen::Vector4d products = Eigen::Vector4d::Zero();
-  for (int across = -kJumpReach; across <= kJumpReach; ++across) {
-    if (std::abs(across) < kFirstOfJump) continue;
+  for (int across = -kFarthestFitted; across <= kFarthestFitted; ++across) {
+    if (std::abs(across) < kNearestFitted) continue;
     for (int along = -kHalfLength; along <= kHalfLength; ++along) {
       const std::int32_t value = values_[at(x, y) + static_cast<std::size_t>(place(line, along, across))];
       if (value == 0) continue;
-      const Eigen::Vector4d unknowns(1, along, across, across > 0 ? 0.5 : -0.5);  // level, slopes, jump
+      const Eigen::Vector4d unknowns(1, along, across, across > 0 ? 0.5 : -0.5);  // level, slopes, discontinuity
       squares += unknowns * unknowns.transpose();
       products += static_cast<double>(value - kOne) * unknowns;
     }
   }
-  // Where one row of blocks is known on either side, a jump and a slope are one.
+  // If only one row of blocks is known on each side, a discontinuity cannot be distinguished from a slope.
   constexpr double kNothing = 1e-6;
   const Eigen::LDLT<Eigen::Matrix4d> root(squares);
   return root.vectorD().minCoeff() > kNothing ? root.solve(products).w() : 0;
@@ -108,13 +110,13 @@ std::size_t LineDifferences::at(int x, int y) const {
   return static_cast<std::size_t>((y + kBorder) * stride_ + x + kBorder);
 }
 
-// Of a block, from the middle of a line, in values_.
+// Offset in values_ of a block from the middle of a line.
 std::ptrdiff_t LineDifferences::place(const LineDirection& line, int along, double across) const {
   const auto x = std::lround(along * line.x - across * line.y), y = std::lround(along * line.y + across * line.x);
   return y * stride_ + x;
 }
 
-// Of all blocks on one side.
+// Offsets of all blocks on one side of a line.
 std::vector<std::ptrdiff_t> LineDifferences::places(const LineDirection& line, int side) const {
   std::vector<std::ptrdiff_t> all;
   for (int along = -kHalfLength; along <= kHalfLength; ++along) {

@@ -10,9 +10,10 @@ namespace {
 using planes::kCell;
 using planes::PlaneMoments;
 
-// Cells around one whose ground counts for it: a plane fitted across a step tilts, and the less the wider it is.
+// Distance [cells] up to which ground is used for the plane of a cell: a plane fitted across a step is tilted, but less
+// so over a wider area.
 constexpr int kReach = 6;
-constexpr double kEnough = 300;  // pixels of ground there
+constexpr double kEnough = 300;  // ground pixels for a plane
 
 class Fitting {
  public:
@@ -39,7 +40,7 @@ class Fitting {
     ground.planes.resize(moments_.size());
     ground.offs.resize(static_cast<std::size_t>(inverse_.width) * static_cast<std::size_t>(inverse_.height),
                        LocalGround::kUnknown);
-    ground.step = std::max(reach, 1e-9) / LocalGround::kSteps;  // of a reach of 0 nothing is near
+    ground.step = std::max(reach, 1e-9) / LocalGround::kSteps;  // with a reach of 0 no pixel is near
     const auto around = momentsAround();
     for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
@@ -65,7 +66,7 @@ class Fitting {
     m += {1, u, v, u * u, u * v, v * v, q, u * q, v * q, q * q};
   }
 
-  // Of the cells around each.
+  // Sums of the moments of the cells around each cell.
   std::vector<PlaneMoments> momentsAround() const {
     std::vector<PlaneMoments> of_rows(moments_.size()), around(moments_.size());
     for (int y = 0; y < rows_; ++y) {

@@ -14,7 +14,7 @@ constexpr double kPast = 1e-3;        // [m] distance behind a pane from which t
 constexpr double kSpeckle = 0.15;     // standard deviation of the power's logarithm
 constexpr double kGlassIndex = 1.52;  // window glass
 
-// Part of the light a pane reflects (two faces, unpolarised), by Fresnel's law: 0.08 face-on, 0.46 at 75 degrees.
+// Part of the light a pane reflects (two faces, unpolarized), by Fresnel's law: 0.08 face-on, 0.46 at 75 degrees.
 double paneReflection(double cosine) {
   const double sine_inside = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / kGlassIndex;
   const double inside = std::sqrt(1 - sine_inside * sine_inside);

@@ -11,7 +11,7 @@ namespace omnimapper::graph {
 
 /// Options of the test that decides which hypotheses act. A hypothesis is a factor with tags.hypothesis; with weight 0
 /// the solver ignores it, with weight 1 it acts. The test trusts every other factor of the graph.
-/// Sources: Mangelson et al., ICRA 2018 (pairwise consistency maximisation); Yang et al., RA-L 2020 (graduated
+/// Sources: Mangelson et al., ICRA 2018 (pairwise consistency maximization); Yang et al., RA-L 2020 (graduated
 /// non-convexity); Latif et al., IJRR 2013 (RRR: revising earlier decisions); Suenderhauf and Protzel, IROS 2012
 /// (Vertigo: how such tests are evaluated).
 struct ConsistencyOptions {

@@ -65,7 +65,7 @@ class Graph {
   Eigen::VectorXd whitenedResidual(base::FactorId id) const;
   /// Sum of weight |whitened residual|^2; losses are not applied.
   double chi2() const;
-  /// Sum of 1/2 weight loss(|whitened residual|^2): what solve() minimises.
+  /// Sum of 1/2 weight loss(|whitened residual|^2): what solve() minimizes.
   double cost() const;
 
  private:

@@ -9,7 +9,7 @@ namespace omnimapper::graph {
 
 struct SolveOptions {
   enum class Method { levenberg_marquardt, dogleg };
-  /// Dogleg needs fewer factorisations where the minimum lies in a curved valley; see doc/results/graph.md.
+  /// Dogleg needs fewer factorizations where the minimum lies in a curved valley; see doc/results/graph.md.
   Method method = Method::dogleg;
   int max_iterations = 100;
   /// The solver has converged when a step lowers the cost by less than this fraction of it.

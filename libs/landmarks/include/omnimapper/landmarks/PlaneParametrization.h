@@ -11,7 +11,7 @@
 
 namespace omnimapper::landmarks {
 
-/// How a flat surface is optimised: as a plane in space, or, if it is upright, as a line on the floor.
+/// How a flat surface is optimized: as a plane in space, or, if it is upright, as a line on the floor.
 class PlaneParametrization {
  public:
   enum class Kind : std::uint8_t {

@@ -14,7 +14,7 @@ struct StampedPose {
 };
 
 /// One pose for each observation of the reference sensor, a key frame or a dependent frame, in the order of key frames.
-/// Between two key frames the disagreement of the continuous source with the optimised poses is spread evenly in time,
+/// Between two key frames the disagreement of the continuous source with the optimized poses is spread evenly in time,
 /// so that the path has no steps.
 std::vector<StampedPose> denseTrajectory(const Map& map);
 

@@ -16,7 +16,7 @@ struct DependentFrame {
   mrpt::poses::CPose3D keyframe_from_base;  ///< motion since the key frame, by the continuous pose source
 };
 
-/// A pose of the base that the graph optimises, with what was seen from there.
+/// A pose of the base that the graph optimizes, with what was seen from there.
 struct KeyFrame {
   base::KeyFrameId id;
   base::Stamp stamp;

@@ -51,7 +51,7 @@ struct LandmarkShape {
 /// a hole and have holes itself.
 std::vector<geometry::Polygon3> holesIn(const LandmarkShape& shape, std::size_t surface);
 
-/// The part of a landmark that is not optimised: a plane's extent, a sign's text, an object's model. It is immutable;
+/// The part of a landmark that is not optimized: a plane's extent, a sign's text, an object's model. It is immutable;
 /// a plugin that learns more makes a new one. Its points are in the base frame of the key frame that saw them.
 class LandmarkPayload {
  public:

@@ -6,7 +6,7 @@
 
 namespace omnimapper::matching {
 
-/// Residual that a registration of clouds minimises.
+/// Residual that a registration of clouds minimizes.
 enum class CloudMethod {
   point_to_point,  ///< distances of points (Besl, McKay: A method for registration of 3-D shapes, PAMI 14(2), 1992)
   point_to_plane,  ///< distances across the target's surfaces (Chen, Medioni: Object modelling by registration, 1992)

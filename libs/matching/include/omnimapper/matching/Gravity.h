@@ -58,7 +58,7 @@ struct Gravity {
 
 /// Estimates gravity in the map and the sensor's constant bias by least squares with Cauchy's loss. Only a base that
 /// turns separates the two, so the bias has a prior of 0.1 m/s^2 standard deviation, 0.6 deg. Accelerations in g are
-/// recognised. `up` is none if there are fewer than four spans, or if the accelerations are not those of gravity.
+/// recognized. `up` is none if there are fewer than four spans, or if the accelerations are not those of gravity.
 Gravity gravityOf(const std::vector<RotatedSpan>& spans);
 
 }  // namespace omnimapper::matching

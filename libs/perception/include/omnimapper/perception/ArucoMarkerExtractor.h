@@ -34,32 +34,34 @@ struct ArucoMarkerOptions {
   };
   enum class Refinement { none, gradients, edges };
   Dictionary dictionary = Dictionary::dict_4x4_50;
-  double side = 0.16;                         ///< [m] of the black square
-  double corner_sigma = 0.3;                  ///< [px] of a corner along each axis of the image
-  double min_side = 16;                       ///< [px]; a marker with a shorter side is left out
-  Refinement refinement = Refinement::edges;  ///< of the corners
+  double side = 0.16;                         ///< [m] side of the black square
+  double corner_sigma = 0.3;                  ///< [px] standard deviation of a corner along each image axis
+  double min_side = 16;                       ///< [px] markers with a shorter side are left out
+  Refinement refinement = Refinement::edges;  ///< how corners are refined
 
   static const base::OptionTable<ArucoMarkerOptions>& table();
 };
 
-/// What the label of a picture's markers has behind the picture's own.
+/// Suffix of the label of a picture's markers, after the picture's label.
 inline constexpr char kMarkersSuffix[] = ".markers";
 
-/// The square markers that a picture shows, as points with numbers (thesis 4.6.3 has ARToolKit Plus markers taken for
-/// ranges and bearings). Found by OpenCV's ArUco (Garrido-Jurado et al.: Automatic generation and detection of highly
-/// reliable fiducial markers under occlusion, 2014); the marker's pose is that of least squares of its four corners.
+/// Extracts the square markers in a picture as points with numbers (thesis 4.6.3, where ranges and bearings are those
+/// of ARToolKit Plus markers). Markers are detected by OpenCV's ArUco (Garrido-Jurado et al.: Automatic generation and
+/// detection of highly reliable fiducial markers under occlusion, 2014), and a marker's pose is fitted to its four
+/// corners by least squares.
 ///
-/// Each makes one observation, markers in order of their ids: stamp of the picture, label "<label>.markers", its
-/// sensorLocationOnRobot is the camera's place turned to MRPT's axes (x forward, y left, z up). A measurement is the
-/// middle of the marker: range [m], yaw to the left and pitch down [rad], landmarkID the marker's id, covariance of
-/// range, yaw, pitch from `corner_sigma` to first order, with the marker's turn unknown. For a marker that faces the
-/// camera, where noise makes only lean, squared errors are about a third larger than that tells.
-/// Pictures of 8 bits with 1 or 3 channels; others show nothing. Lenses as MRPT's TCamera has them: none, plumb_bob,
-/// kannala_brandt.
+/// Each picture gives one observation, with markers in the order of their ids. It has the picture's stamp and the label
+/// "<label>.markers"; its sensorLocationOnRobot is the camera's pose, rotated to MRPT's axes (x forward, y left, z up).
+/// A measurement is that of the marker's centre: range [m], yaw to the left and pitch down [rad], with the marker's id
+/// as landmarkID. The covariance of range, yaw and pitch follows from `corner_sigma` to first order, with the marker's
+/// orientation unknown. For a marker that faces the camera, which noise can only make seem tilted, squared errors are
+/// about a third larger than this covariance says.
+/// Pictures must have 8 bits and 1 or 3 channels; others give no markers. Lens models are those of MRPT's TCamera:
+/// none, plumb_bob, kannala_brandt.
 ///
-/// markersIn() throws Error(missing_images) for a picture that is in a file and was not loaded; sources load them; and
-/// Error(unreadable_input) for a camera whose focal length is below 1 px, or a parameter not finite or beyond 10^6 px,
-/// unless the picture has no pixels. Thread-safe; the same picture gives the same bits.
+/// markersIn() throws Error(missing_images) for a picture in a file that was not loaded (sources load them), and
+/// Error(unreadable_input) for a camera with a focal length below 1 px or a parameter that is not finite or beyond
+/// 10^6 px, unless the picture has no pixels. Thread-safe; the same picture gives the same bits.
 class ArucoMarkerExtractor : public Extractor {
  public:
   static constexpr const char* kName = "ArucoMarkerExtractor";
@@ -67,7 +69,7 @@ class ArucoMarkerExtractor : public Extractor {
 
   explicit ArucoMarkerExtractor(const ArucoMarkerOptions& options) : options_(options) {}
 
-  /// Of the picture that it brings (pictureOf()); without one there are no markers.
+  /// The markers in the observation's picture (pictureOf()); none without a picture.
   mrpt::obs::CObservationBearingRange::Ptr markersIn(const mrpt::obs::CObservation& raw) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

@@ -12,48 +12,50 @@
 
 namespace omnimapper::perception {
 
-/// Section [calibration] of an INI file: what holds of a camera with depths instead of what its observations say. A
-/// number that the section does not name stays as the log has it.
+/// Section [calibration] of an INI file: calibration of a depth camera that replaces the one in its observations. A
+/// number that the section does not give stays as it is in the log.
 struct CameraCalibrationOptions {
   using Number = std::optional<double>;
-  std::string label;  ///< of the observations; empty: of every camera with depths
+  std::string label;  ///< of the camera's observations; empty: every depth camera
 
   Number depth_fx, depth_fy, depth_cx, depth_cy;                      ///< [px]
   Number depth_k1, depth_k2, depth_p1, depth_p2, depth_k3;            ///< lens, as OpenCV and MRPT's plumb_bob have it
   Number picture_fx, picture_fy, picture_cx, picture_cy;              ///< [px]
   Number picture_k1, picture_k2, picture_p1, picture_p2, picture_k3;  ///< lens
-  Number depth_scale;                                                 ///< true depth over the log's
-  std::vector<std::string> depth_distortion;  ///< coefficients of DepthDistortion [1/m], in numbers as they are written
-  /// depth_from_picture as MRPT has it in relativePoseIntensityWRTDepth, whose picture's frame is optical (x right, y
-  /// down, z forward) while the depth camera's is not (x forward, y left, z up). [m] [rad], about z, then y, then x.
+  Number depth_scale;                                                 ///< true depth over the depth in the log
+  std::vector<std::string> depth_distortion;  ///< coefficients of DepthDistortion [1/m], each as text
+  /// The pose depth_from_picture, defined as MRPT's relativePoseIntensityWRTDepth: the picture's frame is optical (x
+  /// right, y down, z forward) while the depth camera's frame is not (x forward, y left, z up). [m] and [rad],
+  /// rotations about z, then y, then x.
   Number picture_x, picture_y, picture_z, picture_yaw, picture_pitch, picture_roll;
 
   static const base::OptionTable<CameraCalibrationOptions>& table();
 };
 
-/// A calibration of a camera with depths in the place of that which a log brings.
+/// A calibration that replaces that of a depth camera in a log.
 class CameraCalibration {
  public:
   /// Changes nothing.
   CameraCalibration() = default;
-  /// Throws Error(out_of_range) for a pose of the picture of which only a part is told, and for a distortion of the
-  /// depths that DepthDistortion refuses, Error(wrong_type) for one that is no numbers.
+  /// Throws Error(out_of_range) for a pose of the picture that is given only in part and for coefficients that
+  /// DepthDistortion refuses, and Error(wrong_type) for coefficients that are not numbers.
   explicit CameraCalibration(const CameraCalibrationOptions& options);
-  /// Of [calibration] of `config`; without that section it changes nothing.
+  /// Reads the section [calibration] of `config`; without that section the calibration changes nothing.
   static CameraCalibration read(const base::Config& config);
 
-  /// Whether it changes observations of that label.
-  bool isOf(const std::string& label) const { return tells_ && (options_.label.empty() || options_.label == label); }
+  /// Whether it changes observations with that label.
+  bool isOf(const std::string& label) const { return is_set_ && (options_.label.empty() || options_.label == label); }
   const std::string& label() const { return options_.label; }
   const DepthDistortion& depthDistortion() const { return depth_distortion_; }
-  /// Changes the cameras, their places and the units of the depths. The depth image stays as it is without a
-  /// distortion of the depths; with one it is corrected first, as the log tells it, and then scaled. Thread-safe.
+  /// Replaces the intrinsics of the cameras, their relative pose and the unit of the depths. If there is a depth
+  /// distortion, the depth image is corrected first, in the log's units, and then scaled; else the image itself stays
+  /// as it is. Thread-safe.
   void applyTo(mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:
   CameraCalibrationOptions options_;
   DepthDistortion depth_distortion_;
-  bool tells_ = false;
+  bool is_set_ = false;
 };
 
 }  // namespace omnimapper::perception

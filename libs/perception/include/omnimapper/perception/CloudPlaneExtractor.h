@@ -13,13 +13,13 @@
 namespace omnimapper::perception {
 
 struct CloudSensorOptions {
-  std::vector<std::string> sensor_labels;  ///< of clouds that count; none: all but those of other extractors
+  std::vector<std::string> sensor_labels;  ///< of the clouds to use; empty: all but those of other extractors
 
   static const base::OptionTable<CloudSensorOptions>& table();
 };
 
-/// The planes of point clouds without order (thesis 3.3), as CloudPlaneFinder finds them: of 3D lasers, of lasers that
-/// tilt, of views that were merged.
+/// Extracts the planes of point clouds without order (thesis 3.3), such as those of 3D lasers, of tilting lasers and of
+/// merged views, as CloudPlaneFinder finds them.
 class CloudPlaneExtractor : public Extractor {
  public:
   static constexpr const char* kName = "CloudPlaneExtractor";
@@ -30,14 +30,14 @@ class CloudPlaneExtractor : public Extractor {
   CloudPlaneExtractor(const CloudPlaneOptions& planes, const CloudSensorOptions& sensors)
       : options_(planes), finder_(planes), sensors_(sensors) {}
 
-  /// Planes with the observation's stamp and sensorPose, in the frame of that pose, label "<its label>.planes". Of a
-  /// Velodyne scan without points these are made of its packets, as if the sensor stood still. Throws
+  /// Planes with the observation's stamp and sensorPose, in the frame of that pose, label "<its label>.planes". The
+  /// points of a Velodyne scan that has none are computed from its packets, as if the sensor stood still. Throws
   /// Error(unreadable_input) for packets that do not fit their calibration, Error(missing_images) for clouds that are
   /// in files and were not loaded (sources load them), and Error(internal) for other observations. Thread-safe; the
   /// same cloud gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> planesOf(const mrpt::obs::CObservation& raw) const;
 
-  /// Clouds and Velodyne scans of the sensors that count.
+  /// True for clouds and Velodyne scans of the sensors to use.
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/perception/ConnectedComponents.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <cmath>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours close together in space and on no masked surface (thesis 3.4.6): things on a table, once its
-/// plane is masked.
+/// Comparator: neighbours close together in space and on no masked surface (thesis 3.4.6), such as those of one object
+/// on a table whose plane is masked.
 struct ClusterComparator {
-  const OrganisedPoints& points;
+  const OrganizedPoints& points;
   const std::vector<std::uint16_t>& labels;  ///< of each pixel, such as those of PlaneSegmentation
   const std::vector<std::uint8_t>& masked;   ///< for each label, 0 included, whether its pixels are left out
   float max_gap = 0.02F;                     ///< [m]
-  float max_gap_at_1m = 0.0069F;             ///< [m] of noise, times the squared depth; it adds to max_gap
+  float max_gap_at_1m = 0.0069F;             ///< [m] noise at 1 m; times the squared depth, it adds to max_gap
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);

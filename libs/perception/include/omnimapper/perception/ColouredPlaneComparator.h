@@ -5,9 +5,9 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on one plane and of one colour (thesis 3.4.5): sheets of paper on a table. In a picture the
-/// edge between two colours is some pixels wide, so that neighbours there differ by little: pixels across which the
-/// colour changes within `reach` belong to no component. Light that changes slowly parts nothing.
+/// Comparator: neighbours on one plane and of one colour (thesis 3.4.5), such as those of a sheet of paper on a table.
+/// The edge between two colours is some pixels wide in a picture, so that neighbours there differ by little: pixels
+/// across which the colour changes within `reach` belong to no component. Light that changes slowly separates nothing.
 struct ColouredPlaneComparator {
   PlanePixels pixels;
   double max_distance = 30;  ///< Euclidean in RGB, in the 256 steps of a channel
@@ -28,13 +28,14 @@ struct ColouredPlaneComparator {
     return red * red + green * green + blue * blue <= max_distance * max_distance;
   }
 
-  // With so many pixels before and behind it along the row (step 1) or the column.
+  // Whether the colour does not change across a pixel, along the row (step 1) or the column (step width). There are
+  // `before` and `behind` pixels on its two sides.
   bool isPlain(int pixel, int step, int before, int behind) const {
     const int one = onPlane(pixel, -step, before), other = onPlane(pixel, step, behind);
     return isAlike(one, other) && isAlike(pixel, one);
   }
 
-  // The farthest within reach that is on the same plane; a step leads to the next.
+  // The farthest pixel within reach on the same plane; `step` leads from one pixel to the next.
   int onPlane(int pixel, int step, int room) const {
     int other = pixel + step * (reach < room ? reach : room);
     while (pixels.planes[other] != pixels.planes[pixel]) other -= step;

@@ -24,7 +24,7 @@ namespace detail {
 
 constexpr int kNoSet = -1;
 
-/// Sets of numbers that grow together. The least number stands for its set.
+/// Disjoint sets of numbers, which can be united. The least number of a set represents it.
 class UnionFind {
  public:
   int add() {
@@ -48,13 +48,13 @@ class UnionFind {
   std::vector<int> parent_;
 };
 
-/// Second pass: provisional numbers become those of components.
+/// Second pass: replaces provisional numbers by those of components.
 void numberComponents(UnionFind& sets, Components& components);
 
 }  // namespace detail
 
-/// What connectComponents() asks of a row. A comparator that can answer for many pixels at once, such as one of equal
-/// labels, brings overloads of its own.
+/// The functions that connectComponents() calls for a row are below. A comparator that can answer for many pixels at
+/// once, such as one of equal labels, has its own overloads of them.
 
 /// The first valid pixel from `begin` on, or `end_of_row`.
 template <class Comparator>
@@ -71,8 +71,8 @@ int endOfRun(const Comparator& comparator, int begin, int end_of_row) {
   return end;
 }
 
-/// Whether any of `n` pixels from `below` on is similar to the one above it; the upper ones are of one run, and the
-/// lower ones too.
+/// Whether any of `n` pixels from `below` on is similar to the one above it; the upper pixels are of one run, and so
+/// are the lower ones.
 template <class Comparator>
 bool touch(const Comparator& comparator, int above, int below, int n) {
   for (int i = 0; i < n; ++i) {
@@ -81,8 +81,8 @@ bool touch(const Comparator& comparator, int above, int below, int n) {
   return false;
 }
 
-/// Connected components of an image in two passes with union-find, 4-connected (thesis 3.4.2). What belongs together is
-/// the comparator's to say; pixels are numbered row by row:
+/// Finds the 4-connected components of an image in two passes with union-find (thesis 3.4.2). The comparator decides
+/// which pixels belong together; pixels are numbered row by row:
 ///   bool valid(int pixel) const;           whether it may belong to a component
 ///   bool similar(int a, int b) const;      for valid neighbours, b right of a or below it
 template <class Comparator>

@@ -7,18 +7,18 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours close together in space, unless the surface has a furrow between them: things that touch meet
-/// in furrows, and most things have none of their own. Source of the idea: S. Stein et al., Object
+/// Comparator: neighbours close together in space, unless the boundary between them is concave: objects that touch meet
+/// at concave boundaries, and most objects have none themselves. Source of the idea: S. Stein et al., Object
 /// partitioning using local convexity, CVPR 2014.
 struct ConvexClusterComparator {
   ClusterComparator cluster;
   const NormalImage& normals;
-  int reach = 6;               ///< [px]; as far from a furrow normals are those of its sides
-  float max_cosine = 0.9397F;  ///< of the angle between them: 20 deg
+  int reach = 6;               ///< [px] from a boundary, where the normals are those of its sides
+  float max_cosine = 0.9397F;  ///< of the angle between the sides' normals: 20 deg
 
   bool valid(int pixel) const { return cluster.valid(pixel); }
 
-  bool similar(int a, int b) const { return cluster.similar(a, b) && !isFurrow(a, b); }
+  bool similar(int a, int b) const { return cluster.similar(a, b) && !isConcave(a, b); }
 
  private:
   struct Vector {
@@ -35,12 +35,13 @@ struct ConvexClusterComparator {
     const auto i = static_cast<std::size_t>(pixel);
     return {normals.x()[i], normals.y()[i], normals.z()[i]};
   }
-  /// From `from` along the surface there to the ray through `to`: free of the noise of either depth.
+  /// Vector from `from`, along the surface with the normal `surface` there, to the ray through `to`. Its direction does
+  /// not depend on the two depths, so that their noise does not matter.
   static Vector step(const Vector& from, const Vector& surface, const Vector& to) {
     return to * (surface.dot(from) / surface.dot(to)) - from;
   }
 
-  // The pixel `reach` beyond `to`, coming from its neighbour `from`, or the last before the image's border.
+  // The pixel `reach` steps beyond `to`, coming from its neighbour `from`, or the last one before the image's border.
   int beyond(int from, int to) const {
     const int step = to - from, width = cluster.points.width;
     const int row = to / width, column = to % width;
@@ -51,13 +52,14 @@ struct ConvexClusterComparator {
     return to + step * (reach < room ? reach : room);
   }
 
-  // Normals turn towards one another. Nothing measured fails the comparisons.
-  bool isFurrow(int a, int b) const {
+  // Whether the normals of the two sides point towards each other. NaN, where nothing was measured, fails the
+  // comparisons.
+  bool isConcave(int a, int b) const {
     const int before = beyond(b, a), behind = beyond(a, b);
     const Vector na = normal(before), nb = normal(behind);
     if (!(na.dot(nb) < max_cosine)) return false;
-    const Vector pa = point(before), pb = point(behind), way = step(pa, na, pb) - step(pb, nb, pa);
-    return (nb - na).dot(way) < 0;
+    const Vector pa = point(before), pb = point(behind), between = step(pa, na, pb) - step(pb, nb, pa);
+    return (nb - na).dot(between) < 0;
   }
 };
 

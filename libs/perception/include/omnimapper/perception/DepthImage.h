@@ -5,14 +5,15 @@
 
 namespace omnimapper::perception {
 
-/// How a camera sees, in pixels. The centre of the pixel in column u and row v has the image point (u, v); the ray
+/// A pinhole camera, in pixels. The centre of the pixel in column u and row v has the image point (u, v); the ray
 /// through it is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x right, y down, z forward.
 struct Pinhole {
   double fx = 525, fy = 525, cx = 319.5, cy = 239.5;
 };
 
-/// A depth image somebody else owns: rows from the top without gaps, the z coordinate of what each pixel sees. Zero,
-/// negative and not finite depths are no measurement; so is 65535, at which 16-bit depths are saturated.
+/// A depth image that somebody else owns: rows from the top without gaps, the z coordinate of what each pixel sees.
+/// Depths that are zero, negative or not finite are no measurements, nor is 65535, at which 16-bit depths are
+/// saturated.
 class DepthImage {
  public:
   static constexpr std::uint16_t kSaturated = 65535;

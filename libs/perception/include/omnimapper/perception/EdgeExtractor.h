@@ -10,10 +10,10 @@
 
 namespace omnimapper::perception {
 
-/// What the label of a scan's edges has behind the scan's own, before the name of their kind.
+/// Suffix of the labels of a scan's edges, after the scan's label and before the name of the kind of edges.
 inline constexpr char kEdgesSuffix[] = ".edges.";
 
-/// The 3D edges that a range camera's depth image and picture show (thesis 3.1), as EdgeDetector finds them.
+/// Extracts the 3D edges of a range camera's depth image and picture (thesis 3.1), as EdgeDetector finds them.
 class EdgeExtractor : public Extractor {
  public:
   static constexpr const char* kName = "EdgeExtractor";
@@ -23,14 +23,14 @@ class EdgeExtractor : public Extractor {
   /// Throws as EdgeDetector.
   explicit EdgeExtractor(const EdgeOptions& options) : options_(options), detector_(options) {}
 
-  /// A cloud for each kind that the options want, RGB only of scans with a picture: stamp and sensorPose of the scan,
-  /// points [m] in the frame of that pose (x forward, y left, z up), label "<scan label>.edges.<nameOf(kind)>". Where
-  /// the picture is not of the depth image's view, its edges are those depth pixels that it sees an edge at, by the two
-  /// cameras' calibrations. Throws Error(unreadable_input) for a camera whose focal length is unknown and
-  /// Error(missing_images) for images that are in files and were not loaded; sources load them. Thread-safe; the same
-  /// scan gives the same bits.
+  /// One cloud for each kind that the options want, RGB only for scans with a picture: stamp and sensorPose of the
+  /// scan, points [m] in the frame of that pose (x forward, y left, z up), label "<scan label>.edges.<nameOf(kind)>".
+  /// If the picture has another view than the depth image, RGB edges are the depth pixels at which the picture shows an
+  /// edge, by the two cameras' calibrations. Throws Error(unreadable_input) for a camera whose focal length is unknown
+  /// and Error(missing_images) for images that are in files and were not loaded; sources load them. Thread-safe; the
+  /// same scan gives the same bits.
   std::vector<mrpt::obs::CObservationPointCloud::Ptr> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
-  /// Of the clouds that extract() makes of the scan. Throws where its picture was not loaded.
+  /// Labels of the clouds that extract() makes of the scan. Throws if its picture was not loaded.
   std::vector<std::string> labelsOf(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

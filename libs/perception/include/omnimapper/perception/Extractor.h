@@ -8,18 +8,19 @@
 
 namespace omnimapper::perception {
 
-/// What tells derived observations of one stamp apart.
+/// Type and label, which distinguish derived observations of one stamp.
 struct DerivedName {
   const mrpt::rtti::TRuntimeClassId* type;
   std::string label;
 };
 
-/// Tells what is worth an extractor's time from what shows nothing new. One thread asks it, in the order of the log.
+/// Decides which observations show something new, so that extracting from them is worth the time. It is asked by one
+/// thread, in the order of the log.
 class Novelty {
  public:
   virtual ~Novelty() = default;
-  /// False if `raw` shows what the last observation of its sensor showed for which this was true, so that what was
-  /// derived of that one holds for `raw`, but for the stamp. `raw` is one that the extractor wants.
+  /// False if `raw` shows the same as the last new observation of its sensor, so that what was derived from that one
+  /// holds for `raw` except for the stamp. `raw` is an observation that the extractor wants.
   virtual bool isNew(const mrpt::obs::CObservation& raw) = 0;
 };
 
@@ -30,12 +31,13 @@ class Extractor {
   virtual bool wants(const mrpt::obs::CObservation& raw) const = 0;
   /// Derived observations with the stamp of `raw`, in their own sensor frame. `raw` has its final sensorPose.
   virtual std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const = 0;
-  /// What extract() would make of `raw`, without making it. Where a log brings all of that, it is not made anew; of
-  /// what names nothing, everything is.
+  /// Names of what extract() would make of `raw`, without making it. If the log has all of these observations already,
+  /// extract() is not called; if there are no names, it always is.
   virtual std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& /*raw*/) const { return {}; }
-  /// For one log; none if every observation is worth its time. A mapper has its trigger instead.
+  /// Decides for one log what is new; none if every observation is to be extracted from. The mapper has its trigger
+  /// instead.
   virtual std::unique_ptr<Novelty> novelty() const { return nullptr; }
-  /// At the end: what a user should know of all that was extracted. Does not depend on the order.
+  /// What a user should know, at the end, about all that was extracted. Does not depend on the order of extraction.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 

@@ -18,7 +18,8 @@ struct LaserPointsOptions {
   static const base::OptionTable<LaserPointsOptions>& table();
 };
 
-/// The valid beams of a 2D scan as points, evenly spaced along the walls: near walls would otherwise outweigh far ones.
+/// Extracts the valid beams of a 2D scan as points that are evenly spaced along the walls: near walls would otherwise
+/// outweigh far ones.
 class LaserPointsExtractor : public Extractor {
  public:
   static constexpr const char* kName = "LaserPointsExtractor";
@@ -26,9 +27,9 @@ class LaserPointsExtractor : public Extractor {
 
   explicit LaserPointsExtractor(const LaserPointsOptions& options) : options_(options) {}
 
-  /// Label of what this extractor makes of the scans with that label.
+  /// Label of the points that are made of scans with the label `scan_label`.
   static std::string labelOf(const std::string& scan_label) { return scan_label + ".points"; }
-  /// Whether it made that observation, in this run or for a log of what was perceived.
+  /// Whether the observation was made by such an extractor, in this run or in an earlier one that wrote it to a log.
   static bool made(const mrpt::obs::CObservation& observation);
 
   /// A CObservationPointCloud with the scan's stamp and sensorPose, points in the sensor frame [m], label

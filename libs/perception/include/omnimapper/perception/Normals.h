@@ -15,11 +15,11 @@ struct NormalOptions {
   int radius = 4;                           ///< [px] of the square window, of 2 radius + 1 pixels a side; 1 to 7
 };
 
-/// Unit normals in the order of an image's pixels, towards the sensor, in its optical frame. Not a number where none
-/// could be told.
+/// Unit normals in the order of an image's pixels, towards the sensor, in its optical frame; NaN where none could be
+/// determined.
 struct NormalImage {
   int width = 0, height = 0;
-  /// All x, all y, all z.
+  /// All x, then all y, then all z.
   std::unique_ptr<float[]> values;
 
   std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
@@ -28,10 +28,10 @@ struct NormalImage {
   const float* z() const { return values.get() + 2 * size(); }
 };
 
-/// The normal of each pixel, from the plane fitted in inverse depth to the window around it (see PlaneSegmenter on why
-/// there). Where the window reaches over an edge, over pixels that were not measured or over the image's border, the
-/// normal is that of a neighbour on whose plane the pixel lies, up to
-/// 2 radius steps away. Images narrower than the window and seven pixels have none.
+/// Estimates the normal of each pixel from the plane fitted to the window around it, in inverse depth for the reasons
+/// given at PlaneSegmenter. Where the window reaches over an edge, over pixels that were not measured or over the
+/// image's border, the normal is that of a neighbour on whose plane the pixel lies, up to 2 radius steps away. Images
+/// narrower than the window plus seven pixels have no normals.
 class NormalEstimator {
  public:
   /// Throws Error(out_of_range) for a radius out of 1 to 7, a noise that is not positive, a negative step, or depths

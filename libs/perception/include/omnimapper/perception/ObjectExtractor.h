@@ -10,22 +10,22 @@
 namespace omnimapper::perception {
 
 struct ObjectPointOptions {
-  int max_points = 1000;  ///< of an object that are handed on
+  int max_points = 1000;  ///< largest number of points that are kept of an object
 
   static const base::OptionTable<ObjectPointOptions>& table();
 };
 
-/// What the label of a scan's objects has behind the scan's own.
+/// Suffix of the label of a scan's objects, after the scan's label.
 inline constexpr char kObjectsSuffix[] = ".objects";
 
-/// The planes that a range camera's depth image shows and the things that stand on them, as ObjectFinder finds them
-/// (thesis 3.4.6, 3.5.1.2). It does what a PlaneExtractor with the same options does, too: things name their plane by
-/// its index.
+/// Extracts the planes of a range camera's depth image and the objects that stand on them, as ObjectFinder finds them
+/// (thesis 3.4.6, 3.5.1.2). Since objects refer to their plane by its index, it also gives the planes that a
+/// PlaneExtractor with the same options gives.
 class ObjectExtractor : public Extractor {
  public:
   static constexpr const char* kName = "ObjectExtractor";
   static constexpr const char* kSummary =
-      "Planes of depth images as PlaneExtractor has them, and the things that stand on them.";
+      "Planes of depth images as PlaneExtractor has them, and the objects that stand on them.";
 
   struct Options {
     PlaneOptions planes;
@@ -36,7 +36,7 @@ class ObjectExtractor : public Extractor {
   struct Found {
     std::shared_ptr<obs::CObservationPlanes> planes;
     std::shared_ptr<obs::CObservationObjects> objects;
-    bool has_surface = false;  ///< whether the scan shows a level surface that things may stand on
+    bool has_surface = false;  ///< whether the scan shows a level surface that objects may stand on
   };
 
   /// Throws as PlaneSegmenter and ObjectFinder.
@@ -47,22 +47,22 @@ class ObjectExtractor : public Extractor {
       : ObjectExtractor(Options{planes, outlines, objects, points}) {}
 
   /// Both with the scan's stamp and sensorPose, in the frame of that pose, labels "<scan label>.planes" and
-  /// "<scan label>.objects"; which way is up is told by sensorPose. Of an object's points every so manieth is kept,
-  /// with its colour where the scan has one for each. Throws as PlaneExtractor. Thread-safe; the same scan gives the
-  /// same bits.
+  /// "<scan label>.objects". The scan's sensorPose determines which direction is up. An object's points are thinned
+  /// evenly to at most `max_points`; they have colours if the scan has one for each of them. Throws as PlaneExtractor.
+  /// Thread-safe; the same scan gives the same bits.
   Found extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
-  /// If no scan showed a level surface.
+  /// A warning if no scan showed a level surface, and only objects on surfaces were asked for.
   std::vector<std::string> warnings() const override;
 
  private:
   Options options_;
   PlaneSegmenter segmenter_;
   ObjectFinder finder_;
-  mutable std::atomic<std::size_t> scans_{0}, with_surface_{0};  // that extract(raw) was given
+  mutable std::atomic<std::size_t> scans_{0}, with_surface_{0};  // of the scans that extract(raw) was given
 };
 
 }  // namespace omnimapper::perception

@@ -11,27 +11,29 @@
 
 namespace omnimapper::perception {
 
-/// The picture that an observation brings, and the camera that took it.
+/// The picture of an observation, and the camera that took it.
 struct Picture {
-  const mrpt::img::CImage* image;  ///< of the observation; none if it brings no picture, or one without pixels
+  const mrpt::img::CImage* image;  ///< owned by the observation; null if it has no picture, or one without pixels
   const mrpt::img::TCamera* camera;
   mrpt::poses::CPose3D pose;  ///< of the optical frame (x right, y down, z forward) on the base
 };
 
-/// Whether it is of a camera, or of a range camera with a picture, which may be in a file.
+/// Whether the observation is of a camera, or of a range camera with a picture; the picture may be in a file.
 bool bringsPicture(const mrpt::obs::CObservation& observation);
 
-/// Of a range camera that with the calibration of the picture, or of the depth image where both have one view, since
-/// that of the picture may be missing then. Throws Error(missing_images) for a picture in a file that is not there.
+/// The picture of an observation. A range camera's picture comes with its own calibration, or with that of the depth
+/// image if both have the same view, since the picture's may be missing then. Throws Error(missing_images) for a
+/// picture in a file that does not exist.
 Picture pictureOf(const mrpt::obs::CObservation& observation);
 
-/// Whether the picture of a range camera shows in each pixel what the depth image has there: the size is the same, the
-/// place and turn, the focal lengths and the centre. A picture whose camera is not calibrated (focal length 0) counts
-/// as taken with the depth image's.
+/// Whether each pixel of a range camera's picture shows what the same pixel of the depth image shows: size, pose, focal
+/// lengths and centre are the same. A picture whose camera is not calibrated (focal length 0) counts as taken with the
+/// intrinsics of the depth image.
 bool isPictureOfDepthView(const mrpt::obs::CObservation3DRangeScan& scan);
 
-/// Column and row [px] where a camera shows a point of its frame (x forward, y left, z up) [m], by its lens; the centre
-/// of a pixel has whole numbers. None for what is not before it, and of a camera without a calibration to be used.
+/// Column and row [px] at which a camera with its lens shows a point [m], given in its frame (x forward, y left, z up);
+/// the centre of a pixel has whole numbers. None for a point that is not in front of the camera, and for a camera
+/// without a valid calibration.
 std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const Eigen::Vector3d& point_in_sensor);
 
 /// Throws Error(missing_images): an image ("depth", "colour") of that sensor is in a file that was not loaded.

@@ -17,31 +17,31 @@ struct LabelledPlanes;
 }  // namespace planes
 
 struct PlaneComparisonOptions {
-  const PlaneComparison* comparison;  ///< never null; kSamePlane to begin with
+  const PlaneComparison* comparison;  ///< never null; kSamePlane by default
   double max_colour_distance = 30;    ///< Euclidean in RGB, in the 256 steps of a channel
 
   PlaneComparisonOptions();
   static const base::OptionTable<PlaneComparisonOptions>& table();
 };
 
-/// A way to tell which neighbouring pixels are of one plane: what `comparator = ...` of an INI means. What is called
-/// is called once for an image; the comparators in it are inlined.
+/// A criterion for which neighbouring pixels are of one plane; an INI chooses it by `comparator = ...`. Its functions
+/// are called once for an image; the comparators in them are inlined.
 struct PlaneComparison {
-  /// The planes of an image and which pixels lie on each: planes/LabelledPlanes.h.
+  /// Finds the planes of an image and which pixels lie on each; see planes/LabelledPlanes.h.
   planes::LabelledPlanes (*find)(const DepthImage& image, const planes::InverseDepth& inverse,
                                  const PlaneOptions& options);
-  /// Which of a plane's pixels belong together; those of no component are left out.
+  /// Finds which of a plane's pixels belong together; pixels of no component are left out.
   Components (*connect)(const PlanePixels& pixels, const PlaneComparisonOptions& options);
   bool needs_colours = false;
 };
 
-extern const PlaneComparison kSamePlane;           ///< what is connected and lies on one plane
-extern const PlaneComparison kSamePlaneAndColour;  ///< and has one colour: ColouredPlaneComparator
-extern const PlaneComparison kSimilarNormals;      ///< flat surfaces by the normals of pixels: SmoothComparator
+extern const PlaneComparison kSamePlane;           ///< connected pixels on one plane
+extern const PlaneComparison kSamePlaneAndColour;  ///< the same, and of one colour: ColouredPlaneComparator
+extern const PlaneComparison kSimilarNormals;      ///< flat surfaces, by the normals of pixels: SmoothComparator
 
 namespace detail {
 
-/// Whatever lies on a plane may take part where it is similar.
+/// A comparator for which all pixels on planes are valid; which ones are similar, `comparator` decides.
 template <class Comparator>
 struct OnPlane {
   const Comparator& comparator;
@@ -52,9 +52,9 @@ struct OnPlane {
 
 }  // namespace detail
 
-/// The pieces into which planes fall by a comparator. Its components are where they begin: pixels of a plane that are
-/// in none, or in a speck of one, then join the piece beside them that they are similar to, or else any, if it is at
-/// most four pixels away (thesis 3.4.4): noise and thin print leave no holes.
+/// Splits planes into pieces by a comparator. Each of its components is the start of a piece, except for specks. The
+/// other pixels of a plane then join a piece beside them that they are similar to, or else any piece, if it is at most
+/// four pixels away (thesis 3.4.4), so that noise and thin print leave no holes.
 template <class Comparator>
 Components connectPieces(const PlanePixels& pixels, const Comparator& comparator) {
   constexpr int kFewest = 16, kRings = 4;

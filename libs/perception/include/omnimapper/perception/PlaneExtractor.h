@@ -16,10 +16,10 @@ struct OutlineOptions {
   static const base::OptionTable<OutlineOptions>& table();
 };
 
-/// What the label of a scan's planes has behind the scan's own.
+/// Suffix of the label of a scan's planes, after the scan's label.
 inline constexpr char kPlanesSuffix[] = ".planes";
 
-/// The planes that a range camera's depth image shows (thesis 3.4), as PlaneSegmenter finds them.
+/// Extracts the planes of a range camera's depth image (thesis 3.4), as PlaneSegmenter finds them.
 class PlaneExtractor : public Extractor {
  public:
   static constexpr const char* kName = "PlaneExtractor";
@@ -31,8 +31,8 @@ class PlaneExtractor : public Extractor {
       : segmenter_(planes, comparison), outlines_(outlines) {}
 
   /// Planes with the scan's stamp and sensorPose, in the frame of that pose (x forward, y left, z up), label
-  /// "<scan label>.planes". Colours are those of the scan's image, seen through the two cameras' calibrations where its
-  /// view is another. Depth of 0 or 65535 units is none; distortion of the lens is not taken out. A scan without depths
+  /// "<scan label>.planes". Colours are those of the scan's picture, by the two cameras' calibrations if its view is
+  /// another one. Depths of 0 or 65535 units are no measurements; lens distortion is not removed. A scan without depths
   /// has no planes. Throws Error(unreadable_input) for a camera whose focal length is unknown, or where a comparison
   /// needs colours and the scan has none, and Error(missing_images) for images that are in files and were not loaded;
   /// sources load them. Thread-safe; the same scan gives the same bits.

@@ -19,26 +19,27 @@ struct PixelCorner {
 /// lies on its left as the image is seen: outer lines run counter-clockwise, those around holes clockwise.
 struct Contour {
   std::vector<PixelCorner> corners;
-  /// [m], a vertex for each corner: where the ray through it meets the region's plane. Where it meets it beyond twice
-  /// the largest depth, or never, since the pixel sees the plane edge-on, the vertex is that far along the ray, off the
-  /// plane.
+  /// [m] One vertex for each corner: where the ray through the corner meets the region's plane. If that is beyond twice
+  /// the largest depth, or nowhere because the pixel sees the plane edge-on, the vertex is at twice the largest depth
+  /// along the ray, off the plane.
   geometry::Polygon3 polygon_in_sensor;
 };
 
-/// A connected part of the image that is flat to what the sensor can tell.
+/// A connected part of the image that is flat within the accuracy of the sensor.
 /// Frame: the camera's optical frame, x right, y down, z forward.
 struct PlaneRegion {
   geometry::Plane3 plane_in_sensor;  ///< normal towards the sensor, distance > 0
-  /// Of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines them.
-  /// Positive definite. It counts the noise of pixels, correlated among neighbours, the steps of the sensor, and what
-  /// does not shrink with the number of pixels: DepthNoise::bend, which moves and turns the plane, and scale. These are
-  /// alike in all views of one sensor: planes of several images agree better with one another than it says.
+  /// Covariance of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines
+  /// them. Positive definite. It includes the noise of pixels, correlated among neighbours, the steps of the sensor,
+  /// and two errors that do not shrink with the number of pixels: DepthNoise::distortion, which moves and rotates the
+  /// plane, and DepthNoise::scale. These two are alike in all views of one sensor, so that planes of several images
+  /// agree better with one another than the covariance says.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m], mean of the inliers, put on the plane
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m] mean of the inliers, projected onto the plane
   int inliers = 0;                                     ///< pixels
-  double rms = 0;                                      ///< [m], distance of the inliers from the plane
-  /// By how many times more than the sensor's noise the inliers scatter about the plane, in inverse depth [-]; 0 for a
-  /// sensor without noise.
+  double rms = 0;                                      ///< [m] distance of the inliers from the plane
+  /// Scatter of the inliers about the plane in inverse depth, relative to the sensor's noise [-]; 0 for a sensor
+  /// without noise.
   double roughness = 0;
   Contour outline;
   std::vector<Contour> holes;

@@ -14,33 +14,34 @@ namespace omnimapper::perception {
 struct PlaneOptions {
   double noise_at_1m = DepthNoise().sigma;             ///< [m]
   double step_at_1m = DepthNoise().step;               ///< [m]
-  double bend_at_1m = DepthNoise().bend;               ///< [m]
+  double distortion_at_1m = DepthNoise().distortion;   ///< [m]
   double correlation_area = DepthNoise().correlation;  ///< [px^2]
   double scale_sigma = DepthNoise().scale;             ///< [-]
   double min_depth = 0.2;                              ///< [m]
   double max_depth = 12;                               ///< [m]
-  int min_pixels = 1000;                               ///< of a plane
+  int min_pixels = 1000;                               ///< least number of a plane's pixels
   int min_hole_pixels = 30;                            ///< smaller holes are not outlined
 
-  DepthNoise noise() const { return {noise_at_1m, step_at_1m, bend_at_1m, correlation_area, scale_sigma}; }
+  DepthNoise noise() const { return {noise_at_1m, step_at_1m, distortion_at_1m, correlation_area, scale_sigma}; }
   static const base::OptionTable<PlaneOptions>& table();
 };
 
-/// Finds all planes of an organised depth image (thesis 3.4.3 and 3.4.4), to the pixel.
+/// Finds all planes of an organized depth image (thesis 3.4.3 and 3.4.4), to the pixel.
 /// A plane is linear in inverse depth, 1/z = a u + b v + c, and the noise of triangulating sensors is the same
 /// everywhere in inverse depth: least squares there are exact for planes, and each threshold is one number of the noise
 /// model, near and far. Cells of 16 x 16 pixels are fitted and grown to regions, regions that one plane explains are
-/// merged, borders are decided pixel by pixel, and what remains is fitted again and traced. The comparison may ask for
-/// more than one plane, or find planes another way. The same bits on every x86-64, with AVX2 and without.
+/// merged, borders are decided pixel by pixel, and the resulting regions are fitted again and outlined. A comparison
+/// may have further criteria than lying on one plane, or find planes by another method. The result has the same bits on
+/// every x86-64, with AVX2 and without.
 class PlaneSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.
   explicit PlaneSegmenter(const PlaneOptions& options, const PlaneComparisonOptions& comparison = {});
 
-  /// Thread-safe. An image without a plane, of whatever size, gives none.
+  /// Thread-safe. An image without a plane gives none, whatever its size.
   PlaneSegmentation segment(const DepthImage& image) const { return segment(image, {}); }
-  /// With the colour of each pixel, row by row, black where it is not known. A comparison that needs colours throws
-  /// Error(unreadable_input) where there are not as many as pixels.
+  /// `colours` has the colour of each pixel, row by row, black where it is not known. A comparison that needs colours
+  /// throws Error(unreadable_input) if there are not as many as pixels.
   PlaneSegmentation segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const;
   bool needsColours() const { return comparison_.comparison->needs_colours; }
 

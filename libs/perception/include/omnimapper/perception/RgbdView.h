@@ -8,8 +8,7 @@
 
 namespace omnimapper::perception {
 
-/// The depth image of a range camera's observation, in its optical frame, and what its picture shows in each pixel of
-/// it.
+/// The depth image of a range camera's observation, in its optical frame, and the colour of each of its pixels.
 class RgbdView {
  public:
   /// The observation must outlive it. Throws Error(missing_images) for images in files that were not loaded, and
@@ -20,8 +19,8 @@ class RgbdView {
   RgbdView& operator=(const RgbdView&) = delete;
 
   const DepthImage& depth() const;
-  /// Null without a picture of 8 bits. One of another view is turned into that of the depths; what it does not show is
-  /// black there.
+  /// Null without a picture of 8 bits. A picture of another view is converted to the view of the depths, where pixels
+  /// that it does not show are black.
   const ColourImage* colour() const;
 
  private:

@@ -3,27 +3,26 @@
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/perception/ConnectedComponents.h>
 #include <omnimapper/perception/Normals.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <cmath>
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on ground that may rise and fall, but smoothly, near the ground that is expected (thesis
-/// 3.4.7).
+/// Comparator: neighbours on ground that may rise and fall smoothly and is near the expected ground (thesis 3.4.7).
 struct RoadComparator {
-  const OrganisedPoints& points;
+  const OrganizedPoints& points;
   const NormalImage& normals;
   Eigen::Vector3f up = -Eigen::Vector3f::UnitY();  ///< of the expected ground, in the optical frame
   float height = 0;                                ///< [m] of the sensor above it
   float min_cosine = 0.94F;                        ///< of the angle between a normal and `up`: 20 deg
-  float max_off = 0.3F;                            ///< [m] from the expected ground
-  float max_slope = 0.1F;                          ///< what adds to max_off with each metre of depth
+  float max_off = 0.3F;                            ///< [m] largest distance from the expected ground
+  float max_slope = 0.1F;                          ///< [-] increase of max_off with each metre of depth
   float min_cosine_between = 0.98F;                ///< of the angle between neighbours' normals
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);
-    // Not a number fails each.
+    // NaN fails every comparison.
     return normals.x()[i] * up.x() + normals.y()[i] * up.y() + normals.z()[i] * up.z() >= min_cosine && isNear(i);
   }
 
@@ -33,7 +32,7 @@ struct RoadComparator {
            min_cosine_between;
   }
 
-  /// Whether the point is in the range where ground may be.
+  /// Whether the point is near enough to the expected ground to be ground.
   bool isNear(std::size_t i) const {
     const float above = points.x[i] * up.x() + points.y[i] * up.y() + points.z[i] * up.z() + height;
     return std::abs(above) <= max_off + max_slope * points.z[i];

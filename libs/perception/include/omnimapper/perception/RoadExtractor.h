@@ -14,14 +14,14 @@ struct RoadPoseOptions {
   static const base::OptionTable<RoadPoseOptions>& table();
 };
 
-/// What the label of a scan's ground has behind the scan's own.
+/// Suffix of the label of a scan's ground, after the scan's label.
 inline constexpr char kRoadSuffix[] = ".road";
 
-/// The ground that the wheels stand on, at that height in the base's frame, in the camera's optical frame, as
-/// `sensorPose` of the scan tells it.
+/// The ground that the wheels stand on, at `ground_height` [m] in the base's frame, as a plane in the camera's optical
+/// frame, by the scan's sensorPose.
 geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, double ground_height);
 
-/// The ground that a depth camera sees, as RoadSegmenter finds it (thesis 3.4.7).
+/// Extracts the ground that a depth camera sees, as RoadSegmenter finds it (thesis 3.4.7).
 class RoadExtractor : public Extractor {
  public:
   static constexpr const char* kName = "RoadExtractor";
@@ -32,7 +32,7 @@ class RoadExtractor : public Extractor {
   RoadExtractor(const RoadOptions& road, const OutlineOptions& outlines, const RoadPoseOptions& pose)
       : segmenter_(road), outlines_(outlines), pose_(pose) {}
 
-  /// The pieces of ground, each with the plane that fits it best, as PlaneExtractor tells planes, label
+  /// The pieces of ground, each with the plane that fits it best, in the form of PlaneExtractor's planes, label
   /// "<scan label>.road". Throws as PlaneExtractor. Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 

@@ -7,8 +7,8 @@
 
 namespace omnimapper::perception {
 
-/// The defaults of the noise are those of a stereo camera with 60 px m of focal length times baseline, a quarter of a
-/// pixel of noise and steps of 1/16 px.
+/// The default noise is that of a stereo camera with 60 px m of focal length times baseline, a quarter of a pixel of
+/// noise and steps of 1/16 px.
 struct RoadOptions {
   double noise_at_1m = 0.0042;                                  ///< [m]
   double step_at_1m = 0.001;                                    ///< [m]
@@ -17,13 +17,13 @@ struct RoadOptions {
   double min_depth = 0.4;                                       ///< [m]
   double max_depth = 20;                                        ///< [m]
   int window_radius = 7;                                        ///< [px] of the windows of normals
-  double max_tilt = 25 * base::option_text::kRadiansPerDegree;  ///< [rad] of the ground from the expected one
-  double max_turn = 8 * base::option_text::kRadiansPerDegree;   ///< [rad] from one pixel to the next
-  double max_off = 0.3;                                         ///< [m] of the ground from the expected one
-  double max_slope = 4 * base::option_text::kRadiansPerDegree;  ///< [rad] by which that grows with the depth
-  double grow_sigmas = 4.5;  ///< deviations from the ground around it within which a pixel without its normal is ground
-  double step_sigmas = 9;    ///< deviations of a step in height, such as a kerb, that is no ground
-  int min_pixels = 200;      ///< of a piece of ground
+  double max_tilt = 25 * base::option_text::kRadiansPerDegree;  ///< [rad] from the normal of the expected ground
+  double max_turn = 8 * base::option_text::kRadiansPerDegree;   ///< [rad] between the normals of neighbours
+  double max_off = 0.3;                                         ///< [m] from the expected ground, near the sensor
+  double max_slope = 4 * base::option_text::kRadiansPerDegree;  ///< [rad] angle at which max_off widens with the depth
+  double grow_sigmas = 4.5;   ///< largest distance of added pixels from the ground around them, in standard deviations
+  double step_sigmas = 9;     ///< smallest step in height, such as a kerb, that is no ground, in standard deviations
+  int min_pixels = 200;       ///< least number of pixels of a piece of ground
   int min_hole_pixels = 100;  ///< smaller holes are not outlined
 
   DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area, scale_sigma}; }
@@ -32,16 +32,17 @@ struct RoadOptions {
 
 struct RoadSegmentation {
   PlaneSegmentation ground;  ///< its connected pieces, with the planes that fit them best; the largest first
-  /// Of each pixel, row by row: 1 where its own normal says that it is ground, before the second pass; else 0. Of the
-  /// size of the image, 1 pixel or none too.
+  /// For each pixel, row by row: 1 where its own normal shows that it is ground, before the second pass; else 0. It has
+  /// the size of the image, even if that is one pixel or none.
   std::vector<std::uint8_t> sure;
 };
 
-/// Finds the ground that can be driven on, which need not be flat (thesis 3.4.7): connected parts of the image whose
-/// normals are near that of the ground expected from the sensor's pose and change smoothly, and which are near it
-/// themselves. Stereo's normals are noisy and have holes: a second pass adds the pixels that lie on the ground around
-/// them, by planes fitted to what was found, but for what is above it on average over a window, and for what stands on
-/// it, as normals tell, and its foot; and takes away the steps between two heights of it, such as the sides of kerbs.
+/// Finds the ground that can be driven on, which need not be flat (thesis 3.4.7): connected parts of the image that are
+/// near the ground expected from the sensor's pose, and whose normals are near that ground's normal and change
+/// smoothly. The normals of stereo cameras are noisy and have holes. A second pass therefore adds pixels that lie on
+/// planes fitted to the ground around them. It leaves out pixels that are above that ground on average over a window,
+/// and objects that by their normals stand on the ground, with their feet. It also removes steps between two heights of
+/// the ground, such as the sides of kerbs.
 class RoadSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.

@@ -2,15 +2,15 @@
 
 #include <omnimapper/perception/ConnectedComponents.h>
 #include <omnimapper/perception/Normals.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <cmath>
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on one smooth surface, as the planes through them say (thesis 3.4.3).
+/// Comparator: neighbours on one smooth surface, by the planes through their points (thesis 3.4.3).
 struct SmoothComparator {
-  const OrganisedPoints& points;
+  const OrganizedPoints& points;
   const NormalImage& normals;
   float min_cosine = 0.9986F;        ///< of the angle between the normals: 3 deg
   float max_offset_at_1m = 0.0069F;  ///< [m] between the planes' distances, times the squared depth: 3 sigma of noise
@@ -27,7 +27,7 @@ struct SmoothComparator {
     return cosine >= min_cosine && std::abs(offset(i) - offset(j)) <= max_offset_at_1m * points.z[j] * points.z[j];
   }
 
-  /// [m], of the plane through a pixel's point, along its normal.
+  /// Distance [m] along its normal of the plane through a pixel's point.
   float offset(std::size_t i) const {
     return normals.x()[i] * points.x[i] + normals.y()[i] * points.y[i] + normals.z()[i] * points.z[i];
   }

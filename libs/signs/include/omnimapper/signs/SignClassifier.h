@@ -17,7 +17,7 @@ namespace omnimapper::signs {
 struct HogOptions {
   int columns = 4, rows = 4;  ///< number of cells in the window
   int cell = 8;               ///< side of a cell [px]
-  int block = 4;              ///< side of a block, over which contrast is normalised [cells]
+  int block = 4;              ///< side of a block, over which contrast is normalized [cells]
   int orientations = 9;       ///< number over half a turn, so that dark on bright equals bright on dark
   double margin = 0.0625;     ///< share of the window on each side that shows the region's surroundings
 

@@ -6,7 +6,7 @@
 
 namespace omnimapper::source {
 
-/// The points of a PCD file (version 0.7 of PCL's format): coordinates, colours and labels. An organised cloud has its
+/// The points of a PCD file (version 0.7 of PCL's format): coordinates, colours and labels. An organized cloud has its
 /// points row by row from the top, as the camera saw them; any other cloud has one row.
 struct PcdCloud {
   int width = 0, height = 0;

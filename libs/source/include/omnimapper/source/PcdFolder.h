@@ -13,7 +13,7 @@ struct PcdFolderOptions {
   double rate = 30;  ///< clouds per second, if their names are no Unix times [1/s]
 };
 
-/// Converts an organised cloud in a camera's optical frame (x right, y down, z forward) to a depth image, with colours
+/// Converts an organized cloud in a camera's optical frame (x right, y down, z forward) to a depth image, with colours
 /// if the cloud has them. The intrinsics are fitted to the points. Depth is kept in steps of 0.1 mm, up to 6.5 m.
 /// Throws Error(unreadable_input), with `name` in it, if the points do not lie on the rays of a pinhole camera.
 mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name);
@@ -21,20 +21,20 @@ mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, cons
 /// Converts any other cloud to a CObservationPointCloud in the frame of its points, without colours.
 mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud);
 
-/// Streams the PCD files of a folder: organised clouds by depthImageOf(), others by cloudOf(), with sensorPose at the
-/// base (x forward, z up). Files that are no cloud, and organised clouds that depthImageOf() refuses, are left out.
+/// Streams the PCD files of a folder: organized clouds by depthImageOf(), others by cloudOf(), with sensorPose at the
+/// base (x forward, z up). Files that are no cloud, and organized clouds that depthImageOf() refuses, are left out.
 class PcdFolder : public FolderSource {
  public:
   /// Throws Error(unreadable_input) for a folder without PCD files.
   explicit PcdFolder(const std::string& folder, const PcdFolderOptions& options = {});
 
-  /// Number of clouds handed out that are not organised in rows and columns.
-  std::size_t unorganised() const { return unorganised_; }
+  /// Number of clouds handed out that are not organized in rows and columns.
+  std::size_t unorganized() const { return unorganized_; }
 
  private:
   mrpt::obs::CObservation::Ptr read(const std::string& file) override;
 
-  std::size_t unorganised_ = 0;
+  std::size_t unorganized_ = 0;
 };
 
 }  // namespace omnimapper::source

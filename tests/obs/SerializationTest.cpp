@@ -15,7 +15,7 @@
 
 #include "FilledObjects.h"
 
-namespace omnimapper::obs::serialisation_test {
+namespace omnimapper::obs::serialization_test {
 namespace {
 
 using mrpt::serialization::archiveFrom;
@@ -33,14 +33,14 @@ CSerializable::Ptr objectFrom(const std::vector<char>& bytes) {
   return archiveFrom(stream).ReadObject();
 }
 
-TEST(Serialisation, everyClassIsRegisteredUnderItsQualifiedName) {
+TEST(Serialization, everyClassIsRegisteredUnderItsQualifiedName) {
   registerClasses();
   registerClasses();
   ASSERT_FALSE(allClasses().empty());
   for (const auto* id : allClasses()) EXPECT_EQ(mrpt::rtti::findRegisteredClass(id->className), id);
 }
 
-TEST(Serialisation, everyClassComesBackAsTheSameBytes) {
+TEST(Serialization, everyClassComesBackAsTheSameBytes) {
   const auto filled = filledObjects();
   for (const auto* id : allClasses()) {
     SCOPED_TRACE(id->className);
@@ -64,7 +64,7 @@ std::vector<char> contentOf(const std::string& path) {
 
 // tests/obs/version_0 keeps filledObjects() as the first versions wrote them, and their text export. These files are
 // never replaced; a later version of a class adds its own files.
-TEST(Serialisation, bytesOfVersion0AreReadAsWhatTheyWere) {
+TEST(Serialization, bytesOfVersion0AreReadAsWhatTheyWere) {
   registerClasses();
   for (const auto* id : allClasses()) {
     SCOPED_TRACE(id->className);
@@ -88,7 +88,7 @@ TEST(Serialisation, bytesOfVersion0AreReadAsWhatTheyWere) {
 }
 
 // Planes of version 1 have a roughness.
-TEST(Serialisation, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
+TEST(Serialization, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
   const auto bytes = contentOf(testing::sourceFile("tests/obs/version_1/CObservationPlanes.bin"));
   const auto object = objectFrom(bytes);
   ASSERT_TRUE(object);
@@ -100,7 +100,7 @@ TEST(Serialisation, bytesOfPlanesOfVersion1AreReadAsWhatTheyWere) {
 }
 
 // Signs of version 1 state whether the edge of the image cuts them.
-TEST(Serialisation, bytesOfSignsOfVersion1AreReadAsWhatTheyWere) {
+TEST(Serialization, bytesOfSignsOfVersion1AreReadAsWhatTheyWere) {
   const auto bytes = contentOf(testing::sourceFile("tests/obs/version_1/CObservationDoorSigns.bin"));
   const auto object = objectFrom(bytes);
   ASSERT_TRUE(object);
@@ -113,7 +113,7 @@ TEST(Serialisation, bytesOfSignsOfVersion1AreReadAsWhatTheyWere) {
 }
 
 // A ray so long or so short that no picture can lie square to it.
-TEST(Serialisation, signsOfHopelessRaysAreDrawnWithoutTheirPatches) {
+TEST(Serialization, signsOfHopelessRaysAreDrawnWithoutTheirPatches) {
   const auto signs = filledSigns();
   for (const double scale : {1e300, 1e-300, 1e38, 1e-5, std::numeric_limits<double>::infinity()}) {
     for (auto& sign : signs->signs) sign.ray = Eigen::Vector3d(0.3, 0.1, 1) * scale;
@@ -122,7 +122,7 @@ TEST(Serialisation, signsOfHopelessRaysAreDrawnWithoutTheirPatches) {
   }
 }
 
-TEST(Serialisation, everyClassThrowsOnEveryTruncation) {
+TEST(Serialization, everyClassThrowsOnEveryTruncation) {
   for (const auto& [name, make] : filledObjects()) {
     const auto bytes = bytesOf(*make());
     for (std::size_t length = 0; length < bytes.size(); ++length)
@@ -130,7 +130,7 @@ TEST(Serialisation, everyClassThrowsOnEveryTruncation) {
   }
 }
 
-TEST(Serialisation, everyClassRefusesAVersionFromTheFuture) {
+TEST(Serialization, everyClassRefusesAVersionFromTheFuture) {
   for (const auto& [name, make] : filledObjects()) {
     auto bytes = bytesOf(*make());
     // MRPT's header: length of the name with its top bit set, the name, the version.
@@ -147,7 +147,7 @@ void useAsStockToolsDo(const CSerializable& object) {
   EXPECT_TRUE(dynamic_cast<const mrpt::opengl::Visualizable&>(object).getVisualization());
 }
 
-TEST(Serialisation, damagedBytesAreRefusedOrReadAndNeverTakeMoreMemoryThanThereIsData) {
+TEST(Serialization, damagedBytesAreRefusedOrReadAndNeverTakeMoreMemoryThanThereIsData) {
   std::mt19937_64 engine(11);
   for (const auto& [name, make] : filledObjects()) {
     const auto bytes = bytesOf(*make());
@@ -178,7 +178,7 @@ TEST(Serialisation, damagedBytesAreRefusedOrReadAndNeverTakeMoreMemoryThanThereI
   }
 }
 
-TEST(Serialisation, whatIsReadCanBeUsedAsWhatWasWritten) {
+TEST(Serialization, whatIsReadCanBeUsedAsWhatWasWritten) {
   for (const auto& [name, make] : filledObjects()) {
     const auto object = make();
     const auto copy = objectFrom(bytesOf(*object));
@@ -190,7 +190,7 @@ TEST(Serialisation, whatIsReadCanBeUsedAsWhatWasWritten) {
   }
 }
 
-TEST(Serialisation, relativeMotionKeepsEveryNumber) {
+TEST(Serialization, relativeMotionKeepsEveryNumber) {
   const auto object = std::dynamic_pointer_cast<CObservationRelativeMotion>(
       filledObjects().at("omnimapper::obs::CObservationRelativeMotion")());
   const auto copy = std::dynamic_pointer_cast<CObservationRelativeMotion>(objectFrom(bytesOf(*object)));
@@ -204,4 +204,4 @@ TEST(Serialisation, relativeMotionKeepsEveryNumber) {
 }
 
 }  // namespace
-}  // namespace omnimapper::obs::serialisation_test
+}  // namespace omnimapper::obs::serialization_test

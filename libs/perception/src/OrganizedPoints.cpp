@@ -1,4 +1,4 @@
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include "planes/InverseDepth.h"
 #include "planes/Lanes.h"
@@ -11,7 +11,7 @@ using planes::kLanes;
 using planes::LaneMask;
 using planes::Lanes;
 
-// A row of whole cells. Its rays have z = 1 and y = `down`.
+// A row of pixels, padded to whole cells. Its rays have x = `across`, y = `down` and z = 1.
 struct RowTask {
   const float *inverse_depth, *across;
   float down;
@@ -24,8 +24,8 @@ OMNIMAPPER_KERNEL_BODY void projectRowBody(const RowTask& row, float* x, float* 
     Lanes inverse, across;
     planes::load(inverse, row.inverse_depth + u);
     planes::load(across, row.across + u);
-    const LaneMask seen = inverse > 0.F;
-    const Lanes depth = seen ? 1.F / (seen ? inverse : Lanes{} + 1.F) : Lanes{} + kNothing;
+    const LaneMask measured = inverse > 0.F;
+    const Lanes depth = measured ? 1.F / (measured ? inverse : Lanes{} + 1.F) : Lanes{} + kNothing;
     planes::store(depth * across, x + u);
     planes::store(depth * row.down, y + u);
     planes::store(depth, z + u);
@@ -47,10 +47,10 @@ void projectRow(const RowTask& row, float* x, float* y, float* z) {
 
 }  // namespace
 
-OrganisedPoints backProject(const DepthImage& image, double min_depth, double max_depth) {
+OrganizedPoints backProject(const DepthImage& image, double min_depth, double max_depth) {
   const planes::InverseDepth inverse = planes::invert(image, min_depth, max_depth);
   const Pinhole& camera = image.camera();
-  OrganisedPoints points;
+  OrganizedPoints points;
   points.width = image.width();
   points.height = image.height();
   const auto stride = static_cast<std::size_t>(inverse.stride);

@@ -8,14 +8,14 @@
 namespace omnimapper::perception {
 
 /// Points in the order of an image's pixels, row by row, in the sensor's optical frame [m]: x right, y down, z forward.
-/// Not a number where nothing was measured.
-struct OrganisedPoints {
+/// NaN where nothing was measured.
+struct OrganizedPoints {
   int width = 0, height = 0;
   std::vector<float> x, y, z;
 };
 
 /// Depths outside [min_depth, max_depth] [m] are no measurement.
-OrganisedPoints backProject(const DepthImage& image, double min_depth = 0,
+OrganizedPoints backProject(const DepthImage& image, double min_depth = 0,
                             double max_depth = std::numeric_limits<double>::infinity());
 
 }  // namespace omnimapper::perception

@@ -1,10 +1,10 @@
-#include "omnimapper/graph/Linearised.h"
+#include "omnimapper/graph/Linearized.h"
 
 #include "BoundFactor.h"
 
 namespace omnimapper::graph {
 
-Linearised::Linearised(const Graph& graph, const FactorRecord& record) {
+Linearized::Linearized(const Graph& graph, const FactorRecord& record) {
   using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const BoundFactor bound(graph, record);
   std::vector<RowMatrix> blocks(record.variables.size());

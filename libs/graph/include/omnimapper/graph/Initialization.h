@@ -11,13 +11,13 @@ namespace omnimapper::graph {
 
 /// Sets each pose from a neighbour that is already set: first along the edges between consecutive ids, then breadth
 /// first along the others. Without loop closures the result is plain odometry.
-void initialiseByChaining(Graph& graph);
+void initializeByChaining(Graph& graph);
 
 /// Chordal relaxation: it solves for the rotations first, as a linear least-squares problem over matrices, and projects
 /// each to the nearest rotation; then for the translations, which is linear with fixed rotations. Both steps use the
 /// factors' weights, not their losses. It needs no initial values and reaches the basin of the optimum even where
 /// odometry misses it.
 /// Source: Martinec and Pajdla, CVPR 2007; Carlone et al., ICRA 2015, "Initialization techniques for 3D SLAM".
-void initialiseRotationsFirst(Graph& graph);
+void initializeRotationsFirst(Graph& graph);
 
 }  // namespace omnimapper::graph

@@ -4,9 +4,9 @@
 #include <omnimapper/graph/Solver.h>
 
 #include "Worlds.h"
-#include "omnimapper/graph/Initialisation.h"
+#include "omnimapper/graph/Initialization.h"
 
-namespace omnimapper::graph::initialisation_test {
+namespace omnimapper::graph::initialization_test {
 namespace {
 
 using base::VariableId;
@@ -29,13 +29,13 @@ void expectExactStarts(World<Pose> world) {
   World<Pose> chained = world;
   forget(world);
   forget(chained);
-  initialiseByChaining(chained.graph);
+  initializeByChaining(chained.graph);
   EXPECT_LT(worstError(chained), 1e-7);
-  initialiseRotationsFirst(world.graph);
+  initializeRotationsFirst(world.graph);
   EXPECT_LT(worstError(world), 1e-7);
 }
 
-TEST(Initialisation, IsExactWhereTheMeasurementsAre) {
+TEST(Initialization, IsExactWhereTheMeasurementsAre) {
   expectExactStarts(gridWorld(300, 1, {1e-12, 1e-12, 1e-12}));
   expectExactStarts(sphereWorld(8, 12, 1, 1e-12, 1e-12));
 }
@@ -48,48 +48,48 @@ double costFromTruth(const World<Pose>& world) {
   return graph.cost();
 }
 
-TEST(Initialisation, ANoisyTownIsSolvedFromEitherStart) {
+TEST(Initialization, ANoisyTownIsSolvedFromEitherStart) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     World2 world = gridWorld(1500, seed, {0.05, 0.05, 0.02});
     const double best = costFromTruth(world);
-    initialiseByChaining(world.graph);
+    initializeByChaining(world.graph);
     const double chained = world.graph.cost();
     EXPECT_GT(chained, 10 * best);
     EXPECT_TRUE(solve(world.graph).converged);
     EXPECT_NEAR(world.graph.cost(), best, 1e-6 * best) << "chained, seed " << seed;
     forget(world);
-    initialiseRotationsFirst(world.graph);
+    initializeRotationsFirst(world.graph);
     EXPECT_LT(world.graph.cost(), 0.1 * chained);
     EXPECT_TRUE(solve(world.graph).converged);
     EXPECT_NEAR(world.graph.cost(), best, 1e-6 * best) << "rotations first, seed " << seed;
   }
 }
 
-TEST(Initialisation, ANoisyBallIsSolvedFromEitherStart) {
+TEST(Initialization, ANoisyBallIsSolvedFromEitherStart) {
   for (const unsigned seed : {1u, 2u}) {
     World3 world = sphereWorld(15, 30, seed, 0.1, 0.05);
     const double best = costFromTruth(world);
-    initialiseByChaining(world.graph);
+    initializeByChaining(world.graph);
     EXPECT_TRUE(solve(world.graph).converged);
     EXPECT_NEAR(world.graph.cost(), best, 1e-6 * best) << "chained, seed " << seed;
     forget(world);
-    initialiseRotationsFirst(world.graph);
+    initializeRotationsFirst(world.graph);
     EXPECT_TRUE(solve(world.graph).converged);
     EXPECT_NEAR(world.graph.cost(), best, 1e-6 * best) << "rotations first, seed " << seed;
   }
 }
 
-TEST(Initialisation, RotationsFirstFindsTheOptimumWhereOdometryIsLost) {
+TEST(Initialization, RotationsFirstFindsTheOptimumWhereOdometryIsLost) {
   // Half a radian of rotation noise: chained poses are anywhere.
   World3 world = sphereWorld(15, 30, 3, 0.1, 0.3);
   const double best = costFromTruth(world);
   forget(world);
-  initialiseRotationsFirst(world.graph);
+  initializeRotationsFirst(world.graph);
   EXPECT_TRUE(solve(world.graph).converged);
   EXPECT_NEAR(world.graph.cost(), best, 1e-6 * best);
 }
 
-TEST(Initialisation, FixedPosesStayAndPriorsHold) {
+TEST(Initialization, FixedPosesStayAndPriorsHold) {
   World2 world = gridWorld(100, 4, {1e-6, 1e-6, 1e-6});
   forget(world);
   world.graph.setFixed(world.ids[0], false);
@@ -98,34 +98,34 @@ TEST(Initialisation, FixedPosesStayAndPriorsHold) {
                          std::make_shared<PriorSe2>(world.truth[40]),
                          SquareRootInformation::fromSigmas(Eigen::Vector3d(1, 1, 1))});
   World2 chained = world;
-  initialiseRotationsFirst(world.graph);
+  initializeRotationsFirst(world.graph);
   EXPECT_LT(worstError(world), 1e-3);
-  initialiseByChaining(chained.graph);
+  initializeByChaining(chained.graph);
   EXPECT_LT(worstError(chained), 1e-3);
   chained.graph.setFixed(chained.ids[10], true);
   const Eigen::VectorXd before = chained.graph.value(chained.ids[10]);
-  initialiseRotationsFirst(chained.graph);
+  initializeRotationsFirst(chained.graph);
   EXPECT_EQ(chained.graph.value(chained.ids[10]), before);
 }
 
-TEST(Initialisation, EachUnconstrainedPartStaysAtItsFirstPose) {
+TEST(Initialization, EachUnconstrainedPartStaysAtItsFirstPose) {
   World2 world = gridWorld(30, 5, {1e-9, 1e-9, 1e-9});
   world.graph.setFixed(world.ids[0], false);
   const Se2 far{100, 0, 2};
   const VariableId a = world.graph.addVariable(se2(), toValue(far));
   const VariableId b = world.graph.addVariable(se2(), toValue(Se2{}));
   world.graph.addFactor({{a, b}, std::make_shared<BetweenSe2>(Se2{1, 0, 0}), SquareRootInformation::identity(3)});
-  for (const auto initialise : {initialiseByChaining, initialiseRotationsFirst}) {
+  for (const auto initialize : {initializeByChaining, initializeRotationsFirst}) {
     forget(world);
     world.graph.setValue(b, toValue(Se2{}));
-    initialise(world.graph);
+    initialize(world.graph);
     EXPECT_LT(worstError(world), 1e-5);
     EXPECT_EQ(world.graph.value(a), toValue(far));
     EXPECT_LT((world.graph.value(b) - toValue(far * Se2{1, 0, 0})).norm(), 1e-12);
   }
 }
 
-TEST(Initialisation, PointsAreSetToTheMeanOfWhatThePosesSaw) {
+TEST(Initialization, PointsAreSetToTheMeanOfWhatThePosesSaw) {
   Graph graph;
   const VariableId a = graph.addVariable(se2(), toValue(Se2{}), true);
   const VariableId b = graph.addVariable(se2(), toValue(Se2{9, 9, 9}));
@@ -135,14 +135,14 @@ TEST(Initialisation, PointsAreSetToTheMeanOfWhatThePosesSaw) {
       {{a, b}, std::make_shared<BetweenSe2>(Se2{1, 0, geometry::kPi / 2}), SquareRootInformation::identity(3)});
   graph.addFactor({{a, point}, std::make_shared<PointFactor2>(Eigen::Vector2d(1, 2)), unit});
   graph.addFactor({{b, point}, std::make_shared<PointFactor2>(Eigen::Vector2d(2.2, 0)), unit});
-  for (const auto initialise : {initialiseByChaining, initialiseRotationsFirst}) {
+  for (const auto initialize : {initializeByChaining, initializeRotationsFirst}) {
     graph.setValue(point, Eigen::Vector2d(0, 0));
-    initialise(graph);
+    initialize(graph);
     EXPECT_LT((graph.value(point) - Eigen::Vector2d(1, 2.1)).norm(), 1e-14);
   }
 }
 
-TEST(Initialisation, MixesPlanarAndSpatialPoses) {
+TEST(Initialization, MixesPlanarAndSpatialPoses) {
   Graph graph;
   const VariableId a = graph.addVariable(se2(), toValue(Se2{1, 2, 0.5}), true);
   const VariableId b = graph.addVariable(se3(), toValue(Se3{}));
@@ -151,14 +151,14 @@ TEST(Initialisation, MixesPlanarAndSpatialPoses) {
   const Se2 a_from_c{3, 0, 1};
   graph.addFactor({{a, b}, std::make_shared<BetweenSe3>(a_from_b), SquareRootInformation::identity(6)});
   graph.addFactor({{a, c}, std::make_shared<BetweenSe2>(a_from_c), SquareRootInformation::identity(3)});
-  for (const auto initialise : {initialiseByChaining, initialiseRotationsFirst}) {
+  for (const auto initialize : {initializeByChaining, initializeRotationsFirst}) {
     graph.setValue(b, toValue(Se3{}));
     graph.setValue(c, toValue(Se2{}));
-    initialise(graph);
+    initialize(graph);
     EXPECT_LT(minus(poseOf<Se3>(graph, b), geometry::lift(Se2{1, 2, 0.5}) * a_from_b).norm(), 1e-12);
     EXPECT_LT(minus(poseOf<Se2>(graph, c), Se2{1, 2, 0.5} * a_from_c).norm(), 1e-12);
   }
 }
 
 }  // namespace
-}  // namespace omnimapper::graph::initialisation_test
+}  // namespace omnimapper::graph::initialization_test

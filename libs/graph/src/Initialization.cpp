@@ -1,4 +1,4 @@
-#include "omnimapper/graph/Initialisation.h"
+#include "omnimapper/graph/Initialization.h"
 
 #include <omnimapper/base/Error.h>
 
@@ -140,7 +140,7 @@ geometry::Se3 nearest(const Matrix<3>& matrix) {
   return {Eigen::Quaterniond(Matrix<3>(u * svd.matrixV().transpose())).normalized(), Eigen::Vector3d::Zero()};
 }
 
-/// Minimises the sum of w |M_a R_ab - M_b|^2 over matrices M. The rows of all M are independent problems with one
+/// Minimizes the sum of w |M_a R_ab - M_b|^2 over matrices M. The rows of all M are independent problems with one
 /// matrix; row r of M_a is a column of unknowns, its r-th right-hand side.
 template <int n>
 void solveRotations(const std::vector<bool>& held, PoseEdges& edges) {
@@ -171,7 +171,7 @@ void solveRotations(const std::vector<bool>& held, PoseEdges& edges) {
           nearest(Matrix<n>(system.rows(solution, static_cast<int>(i)).transpose())).rotation;
 }
 
-/// Minimises the sum of |t_b - t_a - R_a t_ab|^2, weighted by the information of the translation, rotated into the map.
+/// Minimizes the sum of |t_b - t_a - R_a t_ab|^2, weighted by the information of the translation, rotated into the map.
 template <int n>
 void solveTranslations(const std::vector<bool>& held, PoseEdges& edges) {
   LinearSystem<n> system(edges, held);
@@ -205,7 +205,7 @@ void solveTranslations(const std::vector<bool>& held, PoseEdges& edges) {
 
 }  // namespace
 
-void initialiseRotationsFirst(Graph& graph) {
+void initializeRotationsFirst(Graph& graph) {
   PoseEdges edges = poseEdges(graph);
   const std::vector<bool> held = holdPoses(edges);
   const bool planar =

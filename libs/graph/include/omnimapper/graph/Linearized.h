@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "omnimapper/graph/Graph.h"
+
+namespace omnimapper::graph {
+
+/// A factor, linearized at the graph's values.
+struct Linearized {
+  Eigen::VectorXd residual;                ///< whitened
+  std::vector<Eigen::MatrixXd> jacobians;  ///< whitened, by the tangent of each of its variables
+
+  /// Linearizes a factor that need not be in the graph. Its variables must be, else Error(internal) is thrown.
+  Linearized(const Graph& graph, const FactorRecord& record);
+  Linearized(const Graph& graph, base::FactorId factor) : Linearized(graph, graph.factor(factor)) {}
+};
+
+}  // namespace omnimapper::graph
