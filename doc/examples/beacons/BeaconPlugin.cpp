@@ -38,14 +38,14 @@ struct BeaconPlugin::BeaconMeasurement {
 
 namespace {
 
-// A factor linearised at an estimate, for gates: the residual and its derivative by each variable.
-struct Linearised {
+// A factor linearized at an estimate, for gates: the residual and its derivative by each variable.
+struct Linearized {
   using ByPose = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
   Eigen::Vector3d residual;
   ByPose by_base, by_correction;
   Eigen::Matrix<double, 3, 2, Eigen::RowMajor> by_beacon;
 
-  Linearised(const Eigen::Vector3d& measured, const geometry::Se3& base_from_reported,
+  Linearized(const Eigen::Vector3d& measured, const geometry::Se3& base_from_reported,
              const geometry::Se3& map_from_base, const geometry::Se3& reported_from_sensor,
              const Eigen::Vector3d& beacon) {
     const auto base = graph::toValue(map_from_base), correction = graph::toValue(reported_from_sensor);
@@ -195,7 +195,7 @@ std::optional<Eigen::Vector3d> BeaconPlugin::firstPosition(const BeaconMeasureme
 // includes the uncertainty of the sensor's pose.
 Eigen::Matrix2d BeaconPlugin::covarianceSeenFrom(const BeaconMeasurement& measurement, const Viewpoint& from,
                                                  const Eigen::Vector3d& beacon) const {
-  const Linearised at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
+  const Linearized at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
                       beacon);
   Eigen::Matrix3d noise = at.by_correction * corrections_.priorCovariance() * at.by_correction.transpose();
   noise.diagonal() += sigmas_.cwiseAbs2();
@@ -212,7 +212,7 @@ bool BeaconPlugin::passesGate(const BeaconMeasurement& measurement, const Viewpo
   if (options_.confidence >= 1 || !known.seen_from) return true;
   const auto motion = view.covarianceBetween(*known.seen_from, from.frame.id);
   if (!motion) return true;  // the uncertainty of the motion is unknown
-  const Linearised at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
+  const Linearized at(measurement.measured, from.base_from_reported, from.map_from_base, from.reported_from_sensor,
                       beacon);
   Eigen::Matrix3d covariance = at.by_base * *motion * at.by_base.transpose() +
                                at.by_beacon * known.covariance * at.by_beacon.transpose() +

@@ -6,7 +6,7 @@
 
 namespace beacons {
 
-// Step 1: what is optimised. A beacon hangs at a height that is known from its installation, so only two of its three
+// Step 1: what is optimized. A beacon hangs at a height that is known from its installation, so only two of its three
 // coordinates are free: the value has three numbers (ambient size), a change of it two (tangent size). Where the usual
 // kinds do (se2, se3, point2, point3 of omnimapper/graph/VariableKinds.h), take one of them and leave this step out.
 
