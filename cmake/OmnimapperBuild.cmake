@@ -87,7 +87,7 @@ else()
 endif()
 
 # omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last: the ids of the classes
-# that it registers must be initialised before. Where there are too many files for one unity file it is compiled on its
+# that it registers must be initialized before. Where there are too many files for one unity file it is compiled on its
 # own, for CMake links unity files from the last to the first, and before what is in none of them.
 function(omnimapper_sources variable)
   file(GLOB sources CONFIGURE_DEPENDS ${ARGN})

@@ -74,7 +74,7 @@ std::function<base::ExitCode()> addKinds(CLI::App& app, Arguments& arguments) {
   const auto* carmen = addCarmen(app, arguments);
   const auto* tum = addTum(app, arguments);
   const auto* pcd =
-      addFolder(app, "pcd", "folder of PCD files: organised clouds become depth images, others remain clouds",
+      addFolder(app, "pcd", "folder of PCD files: organized clouds become depth images, others remain clouds",
                 arguments, arguments.pcd);
   addFolder(app, "images", "folder of JPEG or PNG images of one camera", arguments, arguments.photographs)
       ->add_option("--focal-px", arguments.photographs.focal_px,

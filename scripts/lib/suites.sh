@@ -1,7 +1,7 @@
 # Which tests run in which build, and how. Sourced, never run.
 # shellcheck shell=bash
 
-# The system tests: programs, installed package and scripts, optimised, as users have them.
+# The system tests: programs, installed package and scripts, optimized, as users have them.
 readonly system_tests=(system system-mapping system-mapping-2 system-input system-live system-robust system-simulate system-perceive system-query system-viewer fuzz-runs-share package scripts)
 # Unit tests that run in the optimized build alone, unless scripts/test is asked to be --thorough: the simulator reads
 # nothing that a stranger made, and takes an eighth of the sanitizers' build; calibration reads logs by the library source,

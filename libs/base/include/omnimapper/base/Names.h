@@ -17,8 +17,7 @@ std::string printable(std::string_view text);
 /// and a hash that distinguishes labels with the same beginning.
 std::string sensorName(std::string_view label);
 
-/// printable() for several lines: '
-/// ' and '\t' are kept.
+/// As printable(), for text of several lines: line breaks and tabs are kept.
 std::string printableLines(std::string_view text);
 
 /// Whether `key = text` in an INI is read back as `text`, and also, if it has no blank, as an item of a list. Not so

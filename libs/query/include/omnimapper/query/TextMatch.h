@@ -23,8 +23,8 @@ struct TextMatch {
 };
 
 /// A text to compare names with, by weighted edits: letters and digits that are easily confused (0 and O, 1 and I and
-/// l, 8 and B, 5 and S) differ little, and two digits differ by more than two letters, because another number is
-/// another door. Texts and names are UTF-8; only their first 200 characters are compared.
+/// l, 8 and B, 5 and S) differ little, and a wrong digit costs twice as much as a wrong letter, because another
+/// number is another door. Texts and names are UTF-8; only their first 200 characters are compared.
 class AskedText {
  public:
   explicit AskedText(const std::string& text);

@@ -18,8 +18,8 @@ struct Patch {
 };
 
 /// All patches larger than `least` [m^2], in the order of surfaces. Triangles of one surface that lie on one plane and
-/// share a corner are one patch; faces that touch without a common corner, as of two boxes of one body side by side,
-/// are two. Facets of round surfaces, which meet a neighbour at less than 40 deg, are no patches.
+/// share an edge are one patch; faces that touch in a corner only, or without a common corner, as of two boxes of one
+/// body side by side, are two. Facets of round surfaces, which meet a neighbour at less than 40 deg, are no patches.
 std::vector<Patch> findPatches(const World& world, double least = 0.05);
 
 }  // namespace omnimapper::sim
