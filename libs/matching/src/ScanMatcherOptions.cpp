@@ -14,7 +14,7 @@ const base::OptionTable<ScanMatcherOptions>& ScanMatcherOptions::table() {
           .number("max_distance_m", &Options::max_distance, base::Range::positive(),
                   "Largest distance between corresponding points in the first iterations.")
           .number("min_distance_m", &Options::min_distance, base::Range::positive(),
-                  "Largest distance between corresponding points in the last iterations.")
+                  "Limit to which max_distance_m shrinks in the course of the iterations.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 10000},
                    "Largest number of iterations of a match.")
           .choice("icp_method", &Options::icp_method,

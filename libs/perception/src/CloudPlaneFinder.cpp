@@ -42,8 +42,8 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
           .number("max_gap_m", &Options::max_gap, Range::positive(),
                   "Parts of a plane that are farther apart than this are separate surfaces.")
           .number("min_incidence_deg", &Options::min_incidence, {0, 89},
-                  "Smallest angle between a plane and the rays to it: no surface is seen edge-on, but the points of "
-                  "one turn of a laser lie on planes through the laser.")
+                  "Planes at a smaller angle to the rays are rejected: a real surface is not visible edge-on, but the "
+                  "points of one ring of a 3D laser lie on a plane through the laser.")
           .integer("min_points", &Options::min_points, {3, 100000000},
                    "Surfaces with fewer points, after averaging over voxels, are left out.")
           .choice<Outline>("outline", &Options::outline, {{"concave", Outline::concave}, {"convex", Outline::convex}},

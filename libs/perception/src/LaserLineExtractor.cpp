@@ -23,8 +23,8 @@ const base::OptionTable<LaserLineOptions>& LaserLineOptions::table() {
           .number("max_range_m", &Options::max_range, Range::positive(), "Readings farther than this are dropped.")
           .number("range_sigma_m", &Options::range_sigma, Range::positive(), "Standard deviation of a range reading.")
           .number("beam_width_deg", &Options::beam_width, {0, 10},
-                  "Full angle of a beam. Where a beam meets a wall obliquely, its range is as uncertain as the "
-                  "stretch of wall it covers is deep.")
+                  "Full angle of a beam. Where a beam meets a wall obliquely, the range varies over the part of the "
+                  "wall that it covers; that variation is added to its noise.")
           .number("roughness_m", &Options::roughness, Range::notNegative(),
                   "Standard deviation of a wall's surface from a flat one.")
           .number("gate_sigmas", &Options::gate, Range::positive(),

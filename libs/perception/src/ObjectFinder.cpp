@@ -43,8 +43,8 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
                   "Neighbouring pixels farther apart than this and the noise together belong to different "
                   "objects.")
           .number("max_standing_gap_m", &Options::max_standing_gap, Range::notNegative(),
-                  "Largest distance between a surface and the lowest visible point of an object on it, whose "
-                  "foot nearer objects may hide.")
+                  "Largest distance between a surface and the lowest visible point of an object on it. It is not zero, "
+                  "because nearer objects may hide the foot of an object.")
           .integer("min_points", &Options::min_points, {1, 1e9}, "Clusters with fewer points are dropped.")
           .number("min_size_m", &Options::min_size, Range::notNegative(),
                   "Clusters are dropped if the longest side of their bounding box is shorter.")

@@ -31,11 +31,11 @@ const base::OptionTable<PlaneComparisonOptions>& PlaneComparisonOptions::table()
               "comparator", &Options::comparison,
               {{"plane", &kSamePlane}, {"plane_colour", &kSamePlaneAndColour}, {"normals", &kSimilarNormals}},
               "Criterion for neighbouring pixels of one plane: both lie on it (plane), and also have one colour, "
-              "which needs a picture with each scan (plane_colour), or have similar normals, as in the thesis "
+              "which needs a picture with each depth image (plane_colour), or have similar normals, as in the thesis "
               "(normals).")
           .number("max_colour_distance", &Options::max_colour_distance, {0, 442},
-                  "With comparator = plane_colour, largest Euclidean RGB distance, in the 256 steps of a "
-                  "channel, between a pixel and the next few of the same colour.");
+                  "With comparator = plane_colour, largest Euclidean RGB distance (channels 0 to 255) between pixels "
+                  "at most 2 pixels apart that count as one colour.");
   return table;
 }
 

@@ -36,7 +36,9 @@ const base::OptionTable<GpsOptions>& GpsOptions::table() {
                   "Largest HDOP of a fix that is used; fixes of worse geometry are rejected.")
           .number("min_spread_m", &Options::min_spread, positive,
                   "Extent that the fixes must cover for the map's heading to be determined; until then they wait.")
-          .number("loss_scale", &Options::loss_scale, positive, "Scale of the Cauchy loss, in standard deviations.")
+          .number("loss_scale", &Options::loss_scale, positive,
+                  "Number of standard deviations beyond which a measurement that disagrees loses influence (scale of "
+                  "the Cauchy loss).")
           .flag("map_is_enu", &Options::map_is_enu,
                 "The map frame is the east-north-up frame at the origin given by latitude, longitude and altitude; "
                 "otherwise its pose there is estimated.")

@@ -29,9 +29,10 @@ const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table
           .integer("every_solves", &Options::every_solves, Range::notNegative(),
                    "Number of solves after which moved landmarks are searched for, in addition to the end of the "
                    "log; 0 searches only at the end.")
-          .number("max_weight", &Options::max_weight, Range{0, 1},
-                  "Weight below which a landmark is examined for having moved; one that has not keeps 0.9 or more "
-                  "in 99 of 100 cases.")
+          .number(
+              "max_weight", &Options::max_weight, Range{0, 1},
+              "Each landmark gets a weight, 1 if its measurements fit one place and 0 if not at all. Below this weight "
+              "it is examined for having moved; a landmark that has not moved has 0.9 or more in 99 of 100 cases.")
           .integer("min_measurements", &Options::min_measurements, Range{1, 1e6},
                    "Smallest number of measurements at a place for a landmark to have been there; fewer are taken "
                    "as errors.")

@@ -8,8 +8,8 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
       base::OptionTable<Options>()
           .list("labels", &Options::labels, "Labels of the clouds to match; empty for all clouds made from 2D scans.")
           .number("radius_m", &Options::radius, base::Range::positive(),
-                  "Largest distance of a place from where the base may be, given its uncertainty, for a loop "
-                  "closure to be tried.")
+                  "A loop closure with a place is tried if the place is no farther from the estimated position than "
+                  "this plus the uncertainty of the position.")
           .number("min_travel_m", &Options::min_travel, base::Range::positive(),
                   "Smallest distance travelled since a place was left for a return to it to count as a loop.")
           .number("spacing_m", &Options::spacing, base::Range::notNegative(),
@@ -18,8 +18,9 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .integer("candidates", &Options::candidates, base::Range{1, 1000},
                    "Largest number of places tried for a loop closure per key frame.")
           .number("submap_length_m", &Options::context, base::Range::positive(),
-                  "Distance travelled before a key frame whose scans are matched together, with a local map of twice "
-                  "this length before and after a place. Both are extended by the uncertainty of the estimate.")
+                  "The scans of this last distance travelled are matched together. The local map that they are matched "
+                  "with has the scans of twice this distance before a place and after it. Both grow with the "
+                  "uncertainty of the estimate.")
           .number("max_window_m", &Options::max_window, base::Range::positive(),
                   "Largest distance from the estimated position at which a loop closure is searched for, however "
                   "uncertain the estimate is.")
@@ -27,9 +28,9 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
                   "Largest deviation from the estimated heading at which a loop closure is searched for, however "
                   "uncertain the estimate is.")
           .number("lost_travel_m", &Options::lost_travel, base::Range::notNegative(),
-                  "Distance travelled without a closure after which recent scans that do not fit the map are sought in "
-                  "all earlier ones. An unaligned session is sought in the map it continues, at once if its start is "
-                  "vaguer than max_window_m.")
+                  "Distance travelled without a closure after which the whole earlier map is searched, if the scans do "
+                  "not fit the map at the estimated pose. For an unaligned session the saved map is searched, at once "
+                  "if its start is less certain than max_window_m.")
           .number("join_travel_m", &Options::join_travel, base::Range::notNegative(),
                   "Distance travelled over which all scans must fit the place found by a global search, where much "
                   "of the map looks alike.")
@@ -47,8 +48,8 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
                   "Standard deviation of the distance of a point from the wall it lies on.")
           .number("wall_sigma_factor", &Options::wall_sigma_factor, base::Range::notNegative(),
-                  "Standard deviation of a point's distance from its wall, as a multiple of the distance found in "
-                  "the match; used where it exceeds point_sigma_m.")
+                  "Factor on the root mean square distance of the matched points from the walls. The larger one of the "
+                  "product and point_sigma_m is the standard deviation of a point.")
           .number("position_sigma_floor_m", &Options::position_sigma_floor, base::Range::positive(),
                   "Smallest standard deviation of the position of a loop closure, because its local map is as "
                   "distorted as the trajectory was when it was matched.")

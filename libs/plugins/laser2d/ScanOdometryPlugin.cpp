@@ -54,8 +54,8 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
                 "Sensor label of the odometry used for prediction; empty for the one that agrees best with the scan "
                 "matches.")
           .number("sweep_s", &Options::sweep, zero_or_more,
-                  "Time from the first beam of a scan, when it is stamped, to the last, over which the scan is "
-                  "corrected for motion; 0 if all beams are simultaneous.")
+                  "Duration of a scan, whose stamp is the time of its first beam. The scan is corrected for the motion "
+                  "during it. 0 if all beams are simultaneous.")
           .number("max_gap_s", &Options::max_gap, base::Range::positive(),
                   "Longest time without a match; after it scan matching starts anew and other sources give the "
                   "motion.")
@@ -67,8 +67,8 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
           .number("prediction_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
                   "Standard deviation of a predicted heading.")
           .number("prediction_sigma_per_m", &Options::prediction_sigma_per_m, zero_or_more,
-                  "Share of the predicted motion by which the standard deviations of predicted position and heading "
-                  "grow.")
+                  "Additional standard deviation of the predicted position per metre moved, and of the predicted "
+                  "heading per radian turned.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
                   "Smallest standard deviation of the distance of a point from the wall it lies on; a match may "
                   "yield a larger one.")

@@ -23,10 +23,9 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
             .choice("form", &Options::form, {{"plane", Options::Form::plane}, {"wall", Options::Form::wall}},
                     "Parametrization of the landmarks: planes in space, or, in a planar map with level lasers, "
                     "walls as lines on the floor, for which only lines are used.")
-            .choice(
-                "ground", &Options::ground, {{"start", Options::Ground::start}, {"map", Options::Ground::map}},
-                "Height from which tables and floors are distinguished: that of the base at the first key frame, or "
-                "z = 0 of the map, for a camera on given poses.")
+            .choice("ground", &Options::ground, {{"start", Options::Ground::start}, {"map", Options::Ground::map}},
+                    "Height of the floor, above which a level surface can be a table: that of the base at the first "
+                    "key frame (start), or z = 0 of the map (map), for a camera on given poses.")
             .choice("boundary", &Options::boundary,
                     {{"hull", Options::Boundary::hull}, {"seen", Options::Boundary::seen}},
                     "Boundary of a surface in the map: the union of its observed parts, with bays and holes, or the "
@@ -64,7 +63,8 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
             .number("upright_sigma_deg", &Options::upright_sigma, Range::positive(),
                     "Standard deviation from upright of a landmark that only lines of one height have measured.")
             .number("loss_scale", &Options::loss_scale, Range::positive(),
-                    "Scale of the Huber loss, in standard deviations.");
+                    "Number of standard deviations beyond which a measurement that disagrees loses influence (scale of "
+                    "the Huber loss).");
     return declareIn(own);
   }();
   return table;

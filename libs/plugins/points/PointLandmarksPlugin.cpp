@@ -35,7 +35,8 @@ const base::OptionTable<PointLandmarksOptions>& PointLandmarksOptions::table() {
             .number("sigma_pitch_deg", &Options::sigma_pitch, Range::notNegative(),
                     "Standard deviation of a measured pitch; 0 uses the value that the observation reports.")
             .number("loss_scale", &Options::loss_scale, Range::positive(),
-                    "Scale of the Huber loss, in standard deviations.");
+                    "Number of standard deviations beyond which a measurement that disagrees loses influence (scale of "
+                    "the Huber loss).");
     return declareIn(own);
   }();
   return table;

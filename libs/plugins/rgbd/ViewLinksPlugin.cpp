@@ -39,8 +39,8 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
           .text("odometry", &Options::odometry,
                 "INI section of the camera odometry whose label, matching and shutter settings are used here, too.")
           .integer("key_frames_back", &Options::key_frames_back, base::Range{0, 20},
-                   "Number of key frames back to which a key frame is linked, beginning with the second before it; "
-                   "odometry links it to the first.")
+                   "A key frame is linked to the second, third, and so on, up to this many key frames before it. "
+                   "Odometry links it to the first.")
           .integer("old_views", &Options::old_views, base::Range{0, 20},
                    "Largest number of older views, expected to be visible again, to which a key frame is linked.")
           .integer("stored_views", &Options::stored_views, base::Range{1, 100000},

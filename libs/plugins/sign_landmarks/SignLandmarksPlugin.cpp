@@ -54,7 +54,8 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
             .number("same_sigma_m", &Options::same_sigma, Range{0.001, 10},
                     "Standard deviation of the middle of a sign between measurements on two visits.")
             .number("loss_scale", &Options::loss_scale, Range{0.1, 100},
-                    "Scale of the Cauchy loss, in standard deviations.");
+                    "Number of standard deviations beyond which a measurement that disagrees loses influence (scale of "
+                    "the Cauchy loss).");
     return declareIn(own);
   }();
   return table;

@@ -9,8 +9,8 @@ const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
     base::OptionTable<OdometryOptions> options;
     return declareIn(options).flag(
         "fallback", &OdometryOptions::fallback,
-        "Uses the odometry only where no other source measures the motion. Beside laser odometry, which already "
-        "predicts with it, wheels that slip, freeze or jump then distort nothing.");
+        "Uses the odometry only where no other source measures the motion. Set it where laser odometry runs, which "
+        "already uses the wheels for its predictions: wheels that slip or freeze then cannot distort the map.");
   }();
   return table;
 }

@@ -35,7 +35,9 @@ class OdometryPluginFactory : public mapper::PosePluginFactory {
   DEFINE_MRPT_OBJECT(OdometryPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "OdometryPlugin"; }
-  std::string summary() const override { return "Wheel odometry, cumulative or as MRPT's actions, links key frames."; }
+  std::string summary() const override {
+    return "Links key frames by wheel odometry, cumulative poses or MRPT's actions.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return OdometryOptions::table().specs(); }
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
                                            const mapper::PluginContext& context) const override;

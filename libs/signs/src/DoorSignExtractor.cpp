@@ -61,9 +61,9 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
           .number("min_height_px", &Options::min_height, {4, 1000},
                   "Lines of text that are lower in the image are left out.")
           .number("least_change", &Options::least_change, {0, 255},
-                  "Smallest change in grey levels (of 255), in some part of an image a sixty-fourth of its width, "
-                  "since the camera's last examined image. With less change omnimapper-perceive reuses that image's "
-                  "signs; 0 examines every image.");
+                  "Images are reduced to 64 columns and compared with the camera's last examined image. If no pixel "
+                  "differs by this many grey levels (of 255) from the mean change, omnimapper-perceive reuses the "
+                  "signs of that image. 0 examines every image.");
   return table;
 }
 

@@ -16,12 +16,14 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
                   "Time from which start_s and end_s are counted: the first stamp of the earliest log, or the Unix "
                   "epoch (1970).")
           .number("step_s", &SourceOptions::step, base::Range{0, 1e6},
-                  "Time between steps of a log whose stamps stand still; 0 uses the log's own stamps. A step ends when "
-                  "a sensor or an action comes again, so the fastest sets the pace.")
+                  "Time between the steps of a log whose stamps do not advance; 0 uses the log's own stamps. A new "
+                  "step begins when a sensor, or an action, appears for the second time, so the fastest sensor "
+                  "determines the steps.")
           .choice("action_span", &SourceOptions::action_span,
                   {{"automatic", ActionSpan::automatic}, {"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
-                  "Time span of an action of a rawlog: between the frames around it, or between the stamps of "
-                  "actions (own). automatic is own for actions that have stamps.")
+                  "Time span of a rawlog's action, which is a motion without a span: from the sensor frame before it "
+                  "to the one after it (frames), or from the stamp of the previous action to its own (own). automatic "
+                  "is own if actions have stamps.")
           .text("action_label", &SourceOptions::action_label,
                 "Sensor label given to the motions that actions are converted to.")
           .text("images_folder", &SourceOptions::images_folder,

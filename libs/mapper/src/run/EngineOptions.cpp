@@ -25,8 +25,8 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                   "Largest age up to which observations that come later than window_s are still placed in the "
                   "trajectory; older ones are rejected.")
           .integer("queue_limit", &Options::queue_limit, base::Range{1, 1e9},
-                   "Largest number of stamps that wait in the queue, whatever window_s is, so that a clock that "
-                   "stands still does not fill the memory.")
+                   "Largest number of stamps that wait in the queue, whatever window_s is, so that a sensor whose "
+                   "stamps do not advance cannot fill the memory.")
           .integer("job_delay", &Options::job_delay, base::Range{0, 1e6},
                    "Number of key frames after which the result of a job, such as a loop closure search, is "
                    "applied, counted from the key frame that started it.")
@@ -54,16 +54,18 @@ const base::OptionTable<HypothesisOptions>& HypothesisOptions::table() {
       base::OptionTable<Options>()
           .choice("test", &Options::test,
                   {{"none", Method::none}, {"pairwise", Method::pairwise}, {"graduated", Method::graduated}},
-                  "Consistency test of loop closures and other hypotheses: none, the largest set that agrees "
-                  "pairwise, or graduated non-convexity.")
+                  "Consistency test of loop closures and other hypotheses: none accepts all; pairwise accepts one "
+                  "after the other, the most certain first; graduated weighs all together and lowers the weights of "
+                  "outliers (graduated non-convexity).")
           .number("confidence", &Options::confidence, base::Range{0.5, 0.999999999},
                   "Probability with which a true hypothesis passes a gate.")
           .number("min_likelihood_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
-                  "Ratio by which a measurement must be likelier if its hypothesis is true than if it lies anywhere "
-                  "in the map. Below it a hypothesis waits until another confirms it; 1 accepts it alone.")
+                  "Smallest ratio of the likelihood of a measurement if its hypothesis is true to that if it is false, "
+                  "where the measurement may lie anywhere in the map. Below it a hypothesis waits until another "
+                  "confirms it; with 1 it never waits.")
           .number("inflation", &Options::inflation, base::Range{1, 100},
-                  "Factor on the standard deviations of the trajectory, because odometry and laser odometry are "
-                  "overconfident.");
+                  "Factor on the standard deviations that the map predicts, in the consistency test alone, because "
+                  "odometry and laser odometry are overconfident.");
   return table;
 }
 

@@ -81,7 +81,7 @@ class OptionTable {
   std::vector<Setter> setters_;
 };
 
-/// The text side of OptionTable, free of its template.
+/// Conversions between texts and values, which OptionTable uses for every options struct.
 namespace option_text {
 bool isAngleInDegrees(const std::string& key);
 std::string format(double value);

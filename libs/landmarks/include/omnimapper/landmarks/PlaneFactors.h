@@ -30,8 +30,9 @@ class PlaneFactor : public graph::SizedFactor<3, graph::Se3Kind, PlaneKind> {
 
 /// A straight line of a laser scan that lies on a plane (thesis 4.2.3). It does not determine the rotation of the plane
 /// about the line.
-/// Variables: map_from_base, plane in map. Residual: n . b, the sine of the angle between line and plane [rad]; then
-/// the distance of the line's middle from the plane [m], positive on the side of the normal n.
+/// Variables: map_from_base, plane in map. Residual: the sine of the angle between line and plane, n . b with the
+/// plane's normal n and the line's direction b; then the distance of the line's middle from the plane [m], positive on
+/// the side of n.
 class LineOnPlaneFactor : public graph::SizedFactor<2, graph::Se3Kind, PlaneKind> {
  public:
   /// `direction_in_base` is unit.
@@ -47,9 +48,9 @@ class LineOnPlaneFactor : public graph::SizedFactor<2, graph::Se3Kind, PlaneKind
   Eigen::Vector3d direction_, middle_;
 };
 
-/// Holds a plane upright of which only lines of one height were seen. Variable: plane in map. Residual: the tangent of
-/// its tilt from upright, at most 100. The sine, at most 1, would not do: a few wrong lines could tilt the plane level,
-/// where every line of a level laser fits it.
+/// Keeps a plane upright as long as only laser lines of one height have measured it. Variable: plane in map. Residual:
+/// the tangent of its tilt from upright, at most 100. The sine, at most 1, would not do: a few wrong lines could tilt
+/// the plane level, where every line of a level laser fits it.
 class UprightFactor : public graph::SizedFactor<1, PlaneKind> {
  public:
   static constexpr std::string_view kKind = "upright_plane";

@@ -6,7 +6,8 @@
 
 namespace omnimapper::mapper {
 
-/// Section [session] of an INI: where a session that continues a map begins, until a factor connects it to the map.
+/// Section [session] of an INI: the assumed start of a session that continues a map. It counts until a factor connects
+/// the session to the map.
 struct SessionOptions {
   enum class Start {
     end,      ///< where the last session ended

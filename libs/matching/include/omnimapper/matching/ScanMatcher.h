@@ -17,11 +17,11 @@ struct ScanMatch {
   /// by the variance of a point [m2]. Along a direction that the walls do not constrain the pose stays at the guess,
   /// and the variance is kOpen.
   Eigen::Matrix3d unit_covariance = kOpen * Eigen::Matrix3d::Identity();
-  /// [m] Standard deviation of a point that gives a realistic covariance of the pose. It includes the distances from
-  /// the walls, and how many neighbours share one error because their lines were fitted to the same points.
+  /// [m] Standard deviation of a point that gives a realistic covariance of the pose: the distance of points from the
+  /// walls, enlarged because neighbouring points share an error when their lines were fitted to the same points.
   double point_sigma = 0;
-  /// Whether there is such a direction: in a bare corridor, at a single wall, in a round room, or without any
-  /// correspondences.
+  /// Whether the walls leave a direction of the pose unconstrained: in a bare corridor, at a single wall, in a round
+  /// room, or without any correspondences.
   bool degenerate = true;
 
   static constexpr double kOpen = 1e6;
@@ -34,7 +34,7 @@ struct MatchGuess {
 
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
   /// Weight of this pose relative to the points: inverse covariance in the scan's frame (x y yaw), times the variance
-  /// of a point [1]. With zero the pose is only where the search begins.
+  /// of a point [m2]. With zero the pose is only where the search begins.
   Eigen::Matrix3d information;
 };
 

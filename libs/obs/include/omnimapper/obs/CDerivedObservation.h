@@ -9,8 +9,8 @@
 namespace omnimapper::obs {
 
 /// Base class of all observations that perception derives from a raw one. They have the stamp of the raw one and the
-/// pose of its sensor, and their geometry is in the frame of that sensor. For MRPT only the derived classes are
-/// classes.
+/// pose of its sensor, and their geometry is in the frame of that sensor. Only the classes derived from it
+/// are registered in MRPT's run-time class system.
 ///
 /// As text (rawlog-edit --export-txt) each observation is one row: a count, then that many groups of fields. The header
 /// names the fields of a group once, between { and }; a group may contain a count with further groups. Numbers have all
@@ -28,7 +28,7 @@ class CDerivedObservation : public mrpt::obs::CObservation, public mrpt::opengl:
   void getDescriptionAsText(std::ostream& out) const final;
   bool exportTxtSupported() const final { return true; }
 
-  /// Draws the observation in the frame of the base, with the sensor as a small corner.
+  /// Draws the observation in the frame of the base, with small axes at the sensor's pose.
   void getVisualizationInto(mrpt::opengl::CSetOfObjects& scene) const final;
 
  protected:

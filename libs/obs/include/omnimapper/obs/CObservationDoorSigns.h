@@ -44,8 +44,8 @@ class CObservationDoorSigns : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Draws the ray, the part of it that the sign is in within two sigma, the framed patch and the text. A sign without
-  /// range is drawn at 2 m.
+  /// Draws the ray, on it the interval of range plus and minus two range_sigma, the framed patch and the text. A sign
+  /// without range is drawn at 2 m.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

@@ -11,7 +11,7 @@ namespace omnimapper::perception {
 
 /// Kinds of edges (thesis 3.1), as bits of a pixel's label: a pixel may be on edges of several kinds.
 enum EdgeKind : std::uint8_t {
-  kBoundary = 1,       ///< the last pixel before a hole in the data, with nothing behind the hole
+  kBoundary = 1,       ///< beside missing data: a hole wider than max_hole, or one that reaches the image's border
   kOccluding = 2,      ///< on the near side of a depth discontinuity
   kOccluded = 4,       ///< on the far side of a depth discontinuity
   kHighCurvature = 8,  ///< the surface turns, without a depth discontinuity

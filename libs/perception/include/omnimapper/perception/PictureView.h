@@ -21,9 +21,9 @@ struct Picture {
 /// Whether the observation is of a camera, or of a range camera with a picture; the picture may be in a file.
 bool bringsPicture(const mrpt::obs::CObservation& observation);
 
-/// The picture of an observation. A range camera's picture comes with its own calibration, or with that of the depth
-/// image if both have the same view, since the picture's may be missing then. Throws Error(missing_images) for a
-/// picture in a file that does not exist.
+/// The picture of an observation. The picture of a range camera comes with its own calibration. If it has the same
+/// view as the depth image it comes with the calibration of that, because its own may be missing. Throws
+/// Error(missing_images) for a picture in a file that does not exist.
 Picture pictureOf(const mrpt::obs::CObservation& observation);
 
 /// Whether each pixel of a range camera's picture shows what the same pixel of the depth image shows: size, pose, focal

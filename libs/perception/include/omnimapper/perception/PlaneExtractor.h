@@ -31,11 +31,11 @@ class PlaneExtractor : public Extractor {
       : segmenter_(planes, comparison), outlines_(outlines) {}
 
   /// Planes with the scan's stamp and sensorPose, in the frame of that pose (x forward, y left, z up), label
-  /// "<scan label>.planes". Colours are those of the scan's picture, by the two cameras' calibrations if its view is
-  /// another one. Depths of 0 or 65535 units are no measurements; lens distortion is not removed. A scan without depths
-  /// has no planes. Throws Error(unreadable_input) for a camera whose focal length is unknown, or where a comparison
-  /// needs colours and the scan has none, and Error(missing_images) for images that are in files and were not loaded;
-  /// sources load them. Thread-safe; the same scan gives the same bits.
+  /// "<scan label>.planes". Colours are those of the scan's picture, mapped by the calibrations of both
+  /// cameras if the picture has another view than the depth image. Depths of 0 or 65535 units are no measurements; lens
+  /// distortion is not removed. A scan without depths has no planes. Throws Error(unreadable_input) for a camera whose
+  /// focal length is unknown, or where a comparison needs colours and the scan has none, and Error(missing_images) for
+  /// images that are in files and were not loaded; sources load them. Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

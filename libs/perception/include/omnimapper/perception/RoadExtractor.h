@@ -26,7 +26,7 @@ class RoadExtractor : public Extractor {
  public:
   static constexpr const char* kName = "RoadExtractor";
   static constexpr const char* kSummary =
-      "The ground of depth images, sloped too, near the one expected from the camera's pose.";
+      "Finds the ground in depth images, also where it slopes, near the ground that the camera's pose predicts.";
 
   /// Throws as RoadSegmenter.
   RoadExtractor(const RoadOptions& road, const OutlineOptions& outlines, const RoadPoseOptions& pose)

@@ -52,12 +52,12 @@ struct SignReadings {
   int visits = 0;    ///< visits on which it is legible; pictures more than 30 s apart are of different visits
 };
 
-/// Counts legible signs over the pictures of a run, camera by camera or mixed.
+/// Counts legible signs over the pictures of a run.
 class SignCounter {
  public:
   explicit SignCounter(std::size_t signs) : readings_(signs), last_(signs) {}
 
-  /// Pictures must be added in the order of their time [s], within a few seconds.
+  /// Adds a picture. Times [s] may go back by a few seconds, as between the pictures of several cameras.
   void add(double time, const std::vector<SignView>& signs);
   /// One for each of World::signs.
   const std::vector<SignReadings>& readings() const { return readings_; }

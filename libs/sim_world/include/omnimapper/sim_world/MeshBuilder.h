@@ -32,7 +32,7 @@ class MeshBuilder {
   /// Adds a surface, "<body>/<part>" or, without a part, "<body>". Returns its number.
   int addSurface(const std::string& part, SurfaceKind kind, const Material& material);
 
-  /// Adds a flat face to a surface; holes are strictly inside, in any sense of rotation.
+  /// Adds a flat face to a surface; holes are strictly inside, clockwise or counter-clockwise.
   void addFace(int surface, const std::vector<Eigen::Vector3d>& outline,
                const std::vector<std::vector<Eigen::Vector3d>>& holes = {});
   /// Adds a surface that is one flat face, with its true PlanarFace. Returns its number.
@@ -49,8 +49,8 @@ class MeshBuilder {
                       const Eigen::Vector3d& high);
   /// Upright prism over a simple polygon that goes counter-clockwise.
   void addPrism(int surface, const std::vector<Eigen::Vector2d>& outline, double low_z, double high_z);
-  /// Adds the surface of a profile that is turned about z. The profile goes up on the outside of the solid; where it
-  /// does not begin or end at radius 0, the solid has a flat end.
+  /// Adds the surface of a profile that is turned about z. The points of the profile go upwards along the outside of
+  /// the solid. Where the profile does not begin or end at radius 0, the solid gets a flat end.
   void addRevolution(int surface, const std::vector<ProfilePoint>& profile, int sides = 24);
   void addCylinder(int surface, double radius, double low_z, double high_z, int sides = 24);
   void addCone(int surface, double radius, double low_z, double tip_z, int sides = 24);
