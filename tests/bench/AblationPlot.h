@@ -13,7 +13,8 @@
 
 namespace omnimapper::bench {
 
-/// A dot plot: a row for each variant, a panel for each log, the absolute trajectory error to the right, in logarithms.
+/// A dot plot with a row for each variant and a panel for each log. The absolute trajectory error is on a logarithmic x
+/// axis.
 class AblationPlot {
  public:
   AblationPlot(std::vector<AblationVariant> variants, std::vector<AblationRun> runs)
@@ -25,7 +26,7 @@ class AblationPlot {
     chooseRange();
   }
 
-  /// Replaces the file. Writes nothing without runs.
+  /// Replaces the file. Without runs it writes nothing.
   void write(const std::string& path) const {
     if (runs_.empty()) return;
     std::ofstream out(path);
@@ -40,7 +41,7 @@ class AblationPlot {
   static constexpr double kMargin = 20, kNames = 240, kTop = 108, kRow = 22, kGap = 18, kLeastWidth = 780;
   static constexpr double kInset = 12;  // from a panel's left and right edges to its lowest and highest value
 
-  // Rows of one family stand together, below its name.
+  // Rows of one family are grouped below the name of the family.
   void placeRows() {
     double y = kTop;
     for (std::size_t i = 0; i < variants_.size(); ++i) {
@@ -50,7 +51,8 @@ class AblationPlot {
     }
   }
 
-  // From the error's 1, 2 or 5 below the least to that above the largest.
+  // The axis begins at the last tick that is not above the least error and ends at the first that is not below the
+  // largest one.
   void chooseRange() {
     double least = INFINITY, most = 0;
     for (const auto& run : runs_) {
@@ -59,14 +61,14 @@ class AblationPlot {
     }
     if (!(most > 0)) least = 0.01, most = 1;
     low_ = 1e-6, high_ = 1e6;
-    for (const double value : marks(1e-6, 1e6)) {
+    for (const double value : ticks(1e-6, 1e6)) {
       if (value <= least) low_ = value;
       if (value >= most && high_ == 1e6) high_ = value;
     }
   }
 
-  // 1, 2 and 5 times the powers of ten.
-  static std::vector<double> marks(double low, double high) {
+  // Axis ticks: 1, 2 and 5 times powers of ten.
+  static std::vector<double> ticks(double low, double high) {
     std::vector<double> values;
     for (int power = -6; power <= 6; ++power) {
       for (const double mantissa : {1.0, 2.0, 5.0}) {
@@ -99,9 +101,9 @@ class AblationPlot {
     return nullptr;
   }
 
-  std::string wayOf(const std::string& log) const {
+  std::string travelOf(const std::string& log) const {
     for (const auto& run : runs_) {
-      if (run.log == log && std::isfinite(run.way)) return "way of " + base::fixed(run.way, 1) + " m";
+      if (run.log == log && std::isfinite(run.travel)) return base::fixed(run.travel, 1) + " m travelled";
     }
     return "";
   }
@@ -123,7 +125,7 @@ class AblationPlot {
     for (std::size_t i = 0; i < variants_.size(); ++i) {
       if (i == 0 || variants_[i].family != variants_[i - 1].family) {
         const bool visual = variants_[i].family == AblationVariant::Family::visual;
-        svg.text({kMargin, rows_[i] - kRow + 4}, visual ? "visual odometry" : "clouds, by GICP unless said",
+        svg.text({kMargin, rows_[i] - kRow + 4}, visual ? "visual odometry" : "clouds, by GICP unless stated",
                  draw::Svg::Anchor::start, 13);
       }
       svg.text({kMargin + kNames - 10, rows_[i] + 4}, variants_[i].title, draw::Svg::Anchor::end);
@@ -134,10 +136,10 @@ class AblationPlot {
     const double left = panelLeft(panel), right = left + panelWidth();
     svg.box({left, kTop}, {panelWidth(), bottom() - kTop}, "#f6f6f6");
     svg.text({0.5 * (left + right), kTop - 24}, logs_[panel], draw::Svg::Anchor::middle, 13);
-    svg.text({0.5 * (left + right), kTop - 9}, wayOf(logs_[panel]), draw::Svg::Anchor::middle, 11);
+    svg.text({0.5 * (left + right), kTop - 9}, travelOf(logs_[panel]), draw::Svg::Anchor::middle, 11);
     drawScale(svg, panel);
     for (const double y : rows_) svg.line({left, y}, {right, y}, "#e0e0e0", 1);
-    // The first variant is what the others are held against.
+    // A vertical line marks the error of the first variant, with which the others are compared.
     const AblationRun* first = find(logs_[panel], variants_.front());
     if (first && first->isMapped()) {
       const double x = pixelX(panel, first->ate);
@@ -150,8 +152,8 @@ class AblationPlot {
   }
 
   void drawScale(draw::Svg& svg, std::size_t panel) const {
-    double free_from = -INFINITY;  // numbers that would stand on others are left out
-    for (const double value : marks(low_, high_)) {
+    double free_from = -INFINITY;  // a number that would overlap the one before it is left out
+    for (const double value : ticks(low_, high_)) {
       const double x = pixelX(panel, value);
       const bool is_power = std::abs(std::log10(value) - std::round(std::log10(value))) < 1e-6;
       svg.line({x, kTop}, {x, bottom()}, is_power ? "#c8c8c8" : "#ffffff", 1);
@@ -200,8 +202,8 @@ class AblationPlot {
     const std::vector<std::string> notes{
         "ATE: absolute trajectory error, root mean square of the distances to the true positions after the best rigid "
         "alignment",
-        "Verdict: what the mapper says of its own map, without knowing the truth. With planes: planes are landmarks "
-        "beside the odometry."};
+        "Verdict: how the mapper judges its own map, without knowing the truth. With planes: planes are landmarks "
+        "in addition to the odometry."};
     for (std::size_t i = 0; i < notes.size(); ++i)
       svg.text({x, text + 22 + 16 * static_cast<double>(i)}, notes[i], draw::Svg::Anchor::start, 11);
   }

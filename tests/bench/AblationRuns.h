@@ -11,10 +11,10 @@
 
 namespace omnimapper::bench {
 
-/// A choice of sources and methods by which a log is mapped.
+/// A combination of data sources and methods by which a log is mapped.
 struct AblationVariant {
   enum class Family { visual, clouds };
-  std::string key;  ///< for the command line, the CSV and folders
+  std::string key;  ///< name on the command line, in the CSV and of output folders
   Family family;
   std::string title;                  ///< within its family
   std::vector<std::string> settings;  ///< section.key=value
@@ -22,15 +22,15 @@ struct AblationVariant {
   std::string fullTitle() const { return (family == Family::visual ? "visual: " : "clouds: ") + title; }
 };
 
-/// What came of one variant on one log.
+/// Result of one variant on one log.
 struct AblationRun {
   std::string log;       ///< its name
   std::string variant;   ///< its key
   double ate = NAN;      ///< [m] root mean square after the best rigid alignment
   double largest = NAN;  ///< [m]
-  double drift = NAN;    ///< [m] over `span`, root mean square; not a number where no two poses are a span apart
+  double drift = NAN;    ///< [m] over `span`, root mean square; NaN if no two poses are a span apart
   eval::Delta span;
-  double way = NAN;  ///< [m] of the log's true trajectory
+  double travel = NAN;  ///< [m] travelled along the log's true trajectory
   std::string verdict;
   double processor_seconds = 0;
   std::string failure;  ///< why there is no map; empty if there is one
@@ -47,7 +47,7 @@ inline std::string driftText(const AblationRun& run) {
   return base::fixed(100 * run.drift / run.span.value, 1) + " % of " + span + " m";
 }
 
-/// Without what ends a line or a cell.
+/// The text without characters that would end a line of the table or a cell.
 inline std::string onOneLine(std::string text) {
   for (char& letter : text) {
     if (letter == '\n' || letter == '|') letter = ' ';
@@ -76,12 +76,12 @@ inline void writeRuns(const std::string& path, const std::vector<AblationRun>& r
   csv << "log,variant,ate_m,largest_m,drift_m,span,span_unit,travel_m,verdict,processor_s,failure\n";
   for (const auto& run : runs) {
     csv << run.log << "," << run.variant << "," << run.ate << "," << run.largest << "," << run.drift << ","
-        << run.span.value << "," << (run.span.unit == eval::DeltaUnit::seconds ? "s" : "m") << "," << run.way << ","
+        << run.span.value << "," << (run.span.unit == eval::DeltaUnit::seconds ? "s" : "m") << "," << run.travel << ","
         << run.verdict << "," << run.processor_seconds << "," << onOneLine(run.failure) << "\n";
   }
 }
 
-/// What writeRuns() wrote.
+/// Reads the CSV that writeRuns() wrote.
 inline std::vector<AblationRun> readRuns(const std::string& path) {
   std::vector<AblationRun> runs;
   std::ifstream csv(path);
@@ -102,7 +102,7 @@ inline std::vector<AblationRun> readRuns(const std::string& path) {
     run.drift = std::stod(word());
     run.span.value = std::stod(word());
     run.span.unit = eval::deltaUnitNamed(word());
-    run.way = std::stod(word());
+    run.travel = std::stod(word());
     run.verdict = word();
     run.processor_seconds = std::stod(word());
     std::getline(words, run.failure);

@@ -11,7 +11,7 @@
 
 namespace omnimapper::bench {
 
-/// Starts around the truth and whether each came right.
+/// Start poses around the true pose, and whether matching from each of them succeeded.
 struct Basin {
   struct Start {
     TPose2D offset;
@@ -20,7 +20,7 @@ struct Basin {
   std::string name;
   std::vector<Start> starts;
 
-  /// Of the starts with low <= distance < high and flat <= |turn| < steep.
+  /// Share of right matches among the starts with low <= distance < high and flat <= |turn| < steep.
   double share(double low, double high, double flat, double steep) const {
     int count = 0, good = 0;
     for (const auto& s : starts) {
@@ -38,7 +38,7 @@ constexpr int kTurnSteps = 3, kMoveSteps = 4;
 constexpr std::array<std::pair<double, double>, 3> kRings{{{0, 0.3}, {0.3, 0.7}, {0.7, 1.5}}};
 constexpr std::array<std::pair<double, double>, 2> kTurns{{{0, 15 * kDegree}, {15 * kDegree, 35 * kDegree}}};
 
-/// -1 to 1 m along x and y, -30 to 30 deg of turn.
+/// A grid of start offsets: -1 to 1 m along x and y, -30 to 30 deg of turn.
 inline std::vector<TPose2D> basinStarts() {
   std::vector<TPose2D> starts;
   for (int k = -kTurnSteps; k <= kTurnSteps; ++k) {
@@ -49,8 +49,8 @@ inline std::vector<TPose2D> basinStarts() {
   return starts;
 }
 
-/// One row of squares for each method: the share that comes right over the offset along x and y, a square for each
-/// turn.
+/// Draws one row of squares for each method, with a square for each turn. A square shows the share of right matches
+/// over the offset along x and y.
 inline void plotBasins(std::ostream& out, const std::vector<Basin>& basins) {
   constexpr int cell = 12, side = (2 * kMoveSteps + 1) * cell, gap = 14, left = 190, top = 40;
   const int width = left + (2 * kTurnSteps + 1) * (side + gap),
@@ -60,7 +60,8 @@ inline void plotBasins(std::ostream& out, const std::vector<Basin>& basins) {
   const auto text = [&](double x, double y, const std::string& words, const char* anchor) {
     out << "<text x=\"" << x << "\" y=\"" << y << "\" text-anchor=\"" << anchor << "\">" << words << "</text>\n";
   };
-  text(10, 16, "Share of matches that come right, light: all, dark: none; each square: start -1 to 1 m along x and y",
+  text(10, 16,
+       "Share of right matches (light: all, dark: none); in each square the start is -1 to 1 m off along x and y",
        "start");
   for (int k = -kTurnSteps; k <= kTurnSteps; ++k) {
     text(left + (k + kTurnSteps) * (side + gap) + side / 2.0, top - 6, std::to_string(k * 10) + " deg", "middle");

@@ -8,18 +8,18 @@
 
 namespace omnimapper::bench {
 
-/// Somebody's way from a cloud to planes.
+/// A method that finds planes in a cloud.
 struct CloudPeer {
   std::string name;
-  /// Hands over a cloud, averaged over cubes of 2.5 cm beforehand if the peer does not do that itself; not timed.
+  /// Receives a cloud, already averaged over cubes of 2.5 cm if the peer does not average itself. Not timed.
   std::function<void(const std::vector<Eigen::Vector3f>&)> take;
-  /// Timed.
+  /// Finds the planes. Timed.
   std::function<void()> run;
-  /// For each point that was handed over the number of its plane from 1 on, or 0; not timed.
+  /// For each point of the cloud the number of its plane, from 1 on, or 0. Not timed.
   std::function<std::vector<std::uint16_t>()> labels;
 };
 
-/// None where bench-cloud_planes was built without it.
+/// PCL's methods; empty if bench-cloud_planes was built without PCL.
 std::vector<CloudPeer> pclCloudPlanes(double tolerance, int min_points);
 
 }  // namespace omnimapper::bench

@@ -1,4 +1,5 @@
-// PCL's planes of clouds without order, as thesis 3.3 describes them: RANSAC, clusters of inliers, again with the rest.
+// Planes in unorganized clouds by PCL, as thesis 3.3 describes: RANSAC, clusters of the inliers, then again on the
+// other points.
 #include <pcl/ModelCoefficients.h>
 #include <pcl/filters/extract_indices.h>
 #include <pcl/filters/voxel_grid.h>
@@ -25,7 +26,7 @@ struct Work {
   std::vector<std::uint16_t> of_voxel;
 };
 
-// Stops after so many rounds of RANSAC.
+// Stops after at most `rounds` rounds of RANSAC.
 void findPlanes(Work& work, double tolerance, int min_points, int rounds) {
   work.of_voxel.assign(work.voxels->size(), 0);
   auto left = pcl::make_shared<pcl::Indices>();

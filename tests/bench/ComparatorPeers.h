@@ -9,16 +9,16 @@
 
 namespace omnimapper::bench {
 
-/// Somebody's way from a depth image and its picture to planes.
+/// A method that finds planes in a depth image and its colour image.
 struct ComparatorPeer {
   std::string name;
-  /// Hands over a frame; not timed.
+  /// Receives a frame. Not timed.
   std::function<void(const RgbdFrame&)> take;
-  /// For each pixel the number of its plane from 1 on, or 0; timed.
+  /// For each pixel the number of its plane, from 1 on, or 0. Timed.
   std::function<std::vector<std::uint16_t>()> run;
 };
 
-/// None where bench-plane_comparators was built without it.
+/// PCL's methods; empty if bench-plane_comparators was built without PCL.
 std::vector<ComparatorPeer> pclComparators();
 
 }  // namespace omnimapper::bench

@@ -1,4 +1,5 @@
-// The thesis's planes of one colour as PCL has them: normals, connected components by colour too, refinement.
+// PCL's version of the thesis's planes of one colour: normals, connected components that also compare colours, and
+// refinement.
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/organized_multi_plane_segmentation.h>

@@ -9,13 +9,13 @@
 
 namespace omnimapper::bench {
 
-/// One line of a plot.
+/// One curve of a plot.
 struct PlottedCurve {
   std::string name, colour;
-  std::vector<std::pair<double, double>> points;  ///< x, y
+  std::vector<std::pair<double, double>> points;  ///< (x, y)
 };
 
-/// Writes an SVG of curves over common axes that begin at 0, with a legend.
+/// Writes an SVG with curves on common axes that begin at 0, and a legend.
 inline void plotCurves(const std::string& path, const std::string& title, const std::string& x_name,
                        const std::string& y_name, const std::vector<PlottedCurve>& curves) {
   Eigen::Vector2d high(1e-9, 1e-9);

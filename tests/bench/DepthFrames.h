@@ -14,7 +14,7 @@
 
 namespace omnimapper::bench {
 
-/// A picture of depths along the optical axis, row by row; 0: none [m].
+/// A depth image: depths along the optical axis [m], row by row; 0 where there is no measurement.
 struct DepthFrame {
   int width = 640, height = 480;
   double focal = 525;  // [pixel]
@@ -22,7 +22,7 @@ struct DepthFrame {
   float at(int column, int row) const { return depths[static_cast<std::size_t>(row) * width + column]; }
 };
 
-/// Every `step`th picture of a folder of the TUM RGB-D benchmark: 16 bits, 5000 a metre.
+/// Reads every `step`th depth image of a folder of the TUM RGB-D benchmark: 16 bits, 5000 units a metre.
 inline std::vector<DepthFrame> readTum(const std::string& folder, int step) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder + "/depth")) files.push_back(entry.path());
@@ -44,9 +44,9 @@ inline std::vector<DepthFrame> readTum(const std::string& folder, int step) {
   return frames;
 }
 
-/// The bytes that LZF packed: a control byte below 32 is followed by one more literal than it says; else its upper
-/// three bits, with the next byte if they are all set, are a length less two and the rest with a byte a way back less
-/// one.
+/// Decompresses LZF data. A control byte c below 32 is followed by c + 1 literal bytes. Any other one copies bytes of
+/// the output: its upper three bits (plus the next byte if all three are set) are the length minus 2, its lower five
+/// bits with the following byte are the distance back minus 1.
 inline std::vector<char> unpackLzf(const std::vector<unsigned char>& packed, std::size_t size) {
   std::vector<char> out;
   out.reserve(size);
@@ -61,11 +61,12 @@ inline std::vector<char> unpackLzf(const std::vector<unsigned char>& packed, std
     const std::size_t back = ((control & 31u) << 8) + packed.at(i++) + 1;
     for (unsigned n = 0; n < length + 2; ++n) out.push_back(out.at(out.size() - back));
   }
-  if (out.size() != size) throw std::runtime_error("LZF data of another size than told");
+  if (out.size() != size) throw std::runtime_error("LZF data does not have the stated size");
   return out;
 }
 
-/// A cloud of 640 x 480 points of the object data set: packed, fields label x y z rgba one after another.
+/// Reads a cloud of 640 x 480 points of the object data set: compressed, with the fields label, x, y, z and rgba one
+/// after the other.
 inline DepthFrame readCloud(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string line;
@@ -81,7 +82,7 @@ inline DepthFrame readCloud(const std::string& path) {
   const std::size_t count = static_cast<std::size_t>(frame.width) * frame.height;
   frame.depths.resize(count);
   std::memcpy(frame.depths.data(), bytes.data() + 3 * 4 * count, 4 * count);
-  for (float& depth : frame.depths) depth = depth > 0 ? depth : 0;  // not a number: none
+  for (float& depth : frame.depths) depth = depth > 0 ? depth : 0;  // NaN becomes 0: no measurement
   return frame;
 }
 
@@ -96,7 +97,7 @@ inline std::vector<DepthFrame> readClouds(const std::string& folder) {
   return frames;
 }
 
-/// Frames 0, step, ... of a simulated sensor.
+/// Frames 0, step, 2 step, ... of a simulated depth camera.
 inline std::vector<DepthFrame> simulate(const sim::World& world, const sim::Track& map_from_base,
                                         const std::string& ini, int count) {
   const sim::Scenes scenes(world);
@@ -106,7 +107,7 @@ inline std::vector<DepthFrame> simulate(const sim::World& world, const sim::Trac
   context.scenes = &scenes;
   context.map_from_base = &map_from_base;
   const auto sensor =
-      sim::makeSensor(base::Config::fromText("[depth]\nclass = DepthCamera\n" + ini, "bench"), "depth", context);
+      sim::makeSensor(base::Config::fromText("[depth]\nclass = RgbdCamera\n" + ini, "bench"), "depth", context);
   std::vector<DepthFrame> frames;
   for (int i = 0; i < count; ++i) {
     const auto observation = sensor->measure(i * sensor->count() / count).observation;

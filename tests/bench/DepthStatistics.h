@@ -13,23 +13,23 @@
 
 namespace omnimapper::bench {
 
-/// x -> y, where there is something to say.
+/// x -> y, only where there are enough samples.
 using Curve = std::map<double, double>;
 
-/// What frames tell of their sensor, recorded or simulated alike.
+/// Statistics of a depth camera, computed alike from recorded and simulated frames.
 struct DepthStatistics {
   Curve noise;             ///< distance [m] -> residual of the flattest quarter of the local planes [mm]
   Curve step;              ///< distance [m] -> median of the steps between depths that occur [mm]
-  Curve lit_gap;           ///< jump of the disparity [pixel] -> mean width of the hole at it, near side on the left
+  Curve lit_gap;           ///< disparity step [pixel] -> mean width [pixel] of the hole at it, near side on the left
   Curve shadow_gap;        ///< the same, near side on the right, where the projector's shadow is
-  Curve missing_at_angle;  ///< incidence [deg] -> part of the pixels of a flat patch that are missing [%]
-  std::array<double, 4> correlation{};  ///< of residuals 1, 2, 4 and 8 pixels apart on near planes
-  double missing = 0;                   ///< part of the pixels where the sensor ever has depth [%]
+  Curve missing_at_angle;  ///< angle of incidence [deg] -> missing pixels of a flat patch [%]
+  std::array<double, 4> correlation{};  ///< of residuals that are 1, 2, 4 and 8 pixels apart, on near planes
+  double missing = 0;                   ///< missing depths [%] among the pixels that have a depth in at least one frame
 };
 
 namespace detail {
 
-constexpr double kFocalBaseline = 580 * 0.075;  // disparities are given as the Kinect has them [pixel m]
+constexpr double kFocalBaseline = 580 * 0.075;  // [pixel m] disparities are those of a Kinect
 
 inline double quantile(std::vector<double>& values, double share) {
   const auto at = values.begin() + static_cast<long>(share * static_cast<double>(values.size() - 1));
@@ -37,9 +37,9 @@ inline double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// A plane, which is linear in the disparity, through the valid pixels of a square patch.
+/// A plane fitted through the valid pixels of a square patch. A plane is linear in disparity.
 struct Patch {
-  double depth = 0, rms = 0, angle = 0, valid = 0;  // [m], [pixel of disparity], [deg], part
+  double depth = 0, rms = 0, angle = 0, valid = 0;  // [m], [pixel of disparity], [deg], share of valid pixels
   std::vector<double> residuals;                    // row by row [pixel]
 };
 
@@ -76,7 +76,7 @@ inline std::optional<Patch> fit(const DepthFrame& frame, int left, int top, int 
   if (plane[0] <= 0 || most > 1.5) return std::nullopt;  // an edge
   patch.rms = std::sqrt(sum / (valid - 3));
   patch.depth = kFocalBaseline / plane[0];
-  // Disparity is linear in the pixel, with slopes that are the normal's components over its distance.
+  // Disparity is linear in pixel coordinates; its slopes are the components of the normal over the plane's distance.
   const double u = left + middle - 0.5 * (frame.width - 1), v = top + middle - 0.5 * (frame.height - 1);
   const Eigen::Vector3d facing(plane[1] * frame.focal, plane[2] * frame.focal, plane[0] - plane[1] * u - plane[2] * v);
   const Eigen::Vector3d ray(u / frame.focal, v / frame.focal, 1);
@@ -149,7 +149,7 @@ inline Curve stepOverDistance(const std::vector<DepthFrame>& frames) {
   return curve;
 }
 
-/// Mean widths of holes along rows where the disparity jumps by more than 2 pixels.
+/// Adds the mean widths of holes along rows between depths whose disparities differ by more than 2 pixels.
 inline void addGaps(const std::vector<DepthFrame>& frames, Curve& lit, Curve& shadow) {
   constexpr int kLongest = 60;
   std::map<double, std::pair<double, int>> sums[2];
@@ -159,10 +159,10 @@ inline void addGaps(const std::vector<DepthFrame>& frames, Curve& lit, Curve& sh
       for (int column = 0; column < frame.width; ++column) {
         if (frame.at(column, row) <= 0) continue;
         if (last >= 0 && column - last - 1 <= kLongest) {
-          const double jump =
+          const double disparity_step =
               detail::kFocalBaseline / frame.at(column, row) - detail::kFocalBaseline / frame.at(last, row);
-          if (std::abs(jump) > 2 && std::abs(jump) < 30) {
-            auto& [sum, count] = sums[jump > 0][detail::bin(std::abs(jump), 2)];
+          if (std::abs(disparity_step) > 2 && std::abs(disparity_step) < 30) {
+            auto& [sum, count] = sums[disparity_step > 0][detail::bin(std::abs(disparity_step), 2)];
             sum += column - last - 1;
             ++count;
           }
@@ -172,8 +172,8 @@ inline void addGaps(const std::vector<DepthFrame>& frames, Curve& lit, Curve& sh
     }
   }
   for (const bool near_is_right : {false, true}) {
-    for (const auto& [jump, entry] : sums[near_is_right]) {
-      if (entry.second >= 100) (near_is_right ? shadow : lit)[jump] = entry.first / entry.second;
+    for (const auto& [disparity_step, entry] : sums[near_is_right]) {
+      if (entry.second >= 100) (near_is_right ? shadow : lit)[disparity_step] = entry.first / entry.second;
     }
   }
 }

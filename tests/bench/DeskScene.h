@@ -8,7 +8,8 @@
 
 namespace omnimapper::bench {
 
-/// Scenes like those of the recordings of hand-held Kinects: an office with desks, and a table top with boxes and cups.
+/// Scenes that resemble those of the recordings with a hand-held Kinect: an office with desks, and a table top with
+/// boxes and cups.
 class DeskScene {
  public:
   /// A room of 6 x 5 m with two desks in a corner, monitors, paper, boxes, a chair and a shelf.
@@ -98,20 +99,20 @@ class DeskScene {
     sim::Random random(7, {static_cast<std::uint64_t>(count_)});
     for (int i = 0; i < 11; ++i) {
       const double angle = 2 * M_PI * (i / 11.0) + random.uniform(-0.2, 0.2), far = reach * random.uniform(0.35, 1);
-      sim::MeshBuilder thing(name("thing"), sim::Track(pose(x + far * std::cos(angle), y + far * std::sin(angle), z,
-                                                            random.uniform(-3, 3))));
-      thing.layout(sim::TextureLayout::fitted());
+      sim::MeshBuilder item(name("thing"), sim::Track(pose(x + far * std::cos(angle), y + far * std::sin(angle), z,
+                                                           random.uniform(-3, 3))));
+      item.layout(sim::TextureLayout::fitted());
       const auto r = static_cast<float>(random.uniform(0.1, 0.9)), g = static_cast<float>(random.uniform(0.1, 0.9)),
                  b = static_cast<float>(random.uniform(0.1, 0.9)), ir = static_cast<float>(random.uniform(0.15, 0.8));
       const bool printed = i % 3 == 0;
-      const int surface = thing.addSurface(
+      const int surface = item.addSurface(
           "", sim::SurfaceKind::object,
           printed ? material(1, 1, 1, ir, sim::makeTexture(sim::TextureKind::print, i)) : material(r, g, b, ir));
-      if (i % 4 == 0) thing.addBox(surface, {-0.08, -0.05, 0}, {0.08, 0.05, random.uniform(0.05, 0.25)});
-      if (i % 4 == 1) thing.addCylinder(surface, random.uniform(0.03, 0.05), 0, random.uniform(0.09, 0.2));
-      if (i % 4 == 2) thing.addBox(surface, {-0.15, -0.1, 0}, {0.15, 0.1, 0.004});
-      if (i % 4 == 3) thing.at(pose(0, 0, 0.06)), thing.addSphere(surface, 0.06);
-      add(thing);
+      if (i % 4 == 0) item.addBox(surface, {-0.08, -0.05, 0}, {0.08, 0.05, random.uniform(0.05, 0.25)});
+      if (i % 4 == 1) item.addCylinder(surface, random.uniform(0.03, 0.05), 0, random.uniform(0.09, 0.2));
+      if (i % 4 == 2) item.addBox(surface, {-0.15, -0.1, 0}, {0.15, 0.1, 0.004});
+      if (i % 4 == 3) item.at(pose(0, 0, 0.06)), item.addSphere(surface, 0.06);
+      add(item);
     }
   }
 

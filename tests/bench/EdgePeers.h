@@ -9,19 +9,19 @@
 
 namespace omnimapper::bench {
 
-/// Somebody's way to edges.
+/// A method that finds edges.
 struct EdgePeer {
   std::string name;
-  /// Hands over a frame; not timed.
+  /// Receives a frame. Not timed.
   std::function<void(const RgbdFrame&)> take;
-  /// For each pixel the bits of perception::EdgeKind; timed.
+  /// For each pixel the bits of perception::EdgeKind. Timed.
   std::function<std::vector<std::uint8_t>()> run;
 };
 
-/// None where bench-edges was built without it: occluding, occluded and boundary; high curvature with normals; RGB; and
-/// all at once.
+/// PCL's methods: occluding, occluded and boundary edges; high curvature with normals; RGB; and all at once. Empty if
+/// bench-edges was built without PCL.
 std::vector<EdgePeer> pclEdges();
-/// All five kinds with normals, by the smallest jump that counts; none as above.
+/// PCL's method for all five kinds with normals, with two depth thresholds. Empty if bench-edges was built without PCL.
 std::vector<EdgePeer> pclEdgesOfAllKinds();
 
 }  // namespace omnimapper::bench

@@ -16,26 +16,28 @@
 
 namespace omnimapper::bench {
 
-/// Bit of pixels that may be on a crease: one of the surfaces that meet there is not flat.
-constexpr std::uint8_t kUntold = 128;
+/// Bit of pixels for which curvature edges are undetermined, because one of the surfaces that meet there is not flat.
+constexpr std::uint8_t kUndetermined = 128;
 
-/// What a simulated camera measured, and the edges of what it truly sees.
+/// A frame of a simulated camera, and the true edges in it.
 struct TrueEdges {
   RgbdFrame frame;
-  std::vector<std::uint8_t> labels;  ///< bits of perception::EdgeKind, and kUntold
+  std::vector<std::uint8_t> labels;  ///< bits of perception::EdgeKind, and kUndetermined
 };
 
-/// Edges of the exact geometry. Two 8-connected neighbours are on a jump if the plane that one of them lies on (of what
-/// is not flat: its depth), continued to the other's ray, misses it by `least_jump` of the nearer depth, either way
-/// round. Its edge pixels are where the measured data begin on either side, on the same surface. Two 4-connected ones
-/// on planes that meet are on a crease if these turn by `least_turn` [rad]. Where one of two neighbours is nearer than
-/// `nearest` or farther than what the camera sees, or nothing is there, the other is on a boundary.
+/// Edges of the exact geometry of a simulated place.
+/// - Depth discontinuity: the plane of each of two 8-connected neighbours (the depth, if its surface is not flat),
+///   extended to the ray of the other one, misses the other by at least `least_discontinuity` of the nearer depth. The
+///   edge pixels are the first measured ones on either side that are on the same surface.
+/// - Curvature edge: the planes of two 4-connected neighbours meet there at an angle of at least `least_turn` [rad].
+/// - Boundary: one of two neighbours is out of the camera's range (nearer than `nearest`, beyond its largest range, or
+///   without a surface), and the other is not.
 class EdgeTruth {
  public:
-  EdgeTruth(const sim::Simulation& simulation, double least_jump, double least_turn, double nearest)
+  EdgeTruth(const sim::Simulation& simulation, double least_discontinuity, double least_turn, double nearest)
       : simulation_(simulation),
         surfaces_(sim::numberSurfaces(simulation.world())),
-        least_jump_(least_jump),
+        least_discontinuity_(least_discontinuity),
         least_turn_(least_turn),
         nearest_(nearest) {}
 
@@ -106,13 +108,13 @@ class EdgeTruth {
     return planes_[label] = plane;
   }
 
-  // How far behind the surface of (x, y) the other pixel is [m].
+  // Distance [m] by which the other pixel is behind the extended surface of pixel (x, y); negative if it is in front.
   double behind(const Plane& plane, int x, int y, int other_x, int other_y) const {
     if (!plane) return depth(other_x, other_y) - depth(x, y);
     const perception::Pinhole& c = frame_->camera;
     const Eigen::Vector3d ray((other_x - c.cx) / c.fx, (other_y - c.cy) / c.fy, 1);
     const double facing = plane->normal.dot(ray), on_plane = -plane->distance / facing;
-    // A plane that is not met at all is left far behind.
+    // If the ray does not meet the plane, the other pixel counts as far in front of it.
     return on_plane > 0 ? depth(other_x, other_y) - on_plane : -1e9;
   }
 
@@ -128,12 +130,12 @@ class EdgeTruth {
     const Plane here = planeInOptical(name(x, y), time, optical_from_map),
                 there = planeInOptical(name(rx, ry), time, optical_from_map);
     const double one = behind(here, x, y, rx, ry), other = -behind(there, rx, ry, x, y);
-    const double least = least_jump_ * std::min(depth(x, y), depth(rx, ry));
+    const double least = least_discontinuity_ * std::min(depth(x, y), depth(rx, ry));
     if ((one > least && other > least) || (one < -least && other < -least)) {
       mark(x, y, -dx, -dy, one > 0 ? perception::kOccluding : perception::kOccluded, labels);
       mark(rx, ry, dx, dy, one > 0 ? perception::kOccluded : perception::kOccluding, labels);
     } else if (!here || !there) {
-      labels[index(x, y)] |= kUntold;
+      labels[index(x, y)] |= kUndetermined;
     } else if ((dx == 0 || dy == 0) && std::min(std::abs(one), std::abs(other)) < 0.25 * least &&
                std::acos(std::min(1.0, here->normal.dot(there->normal))) >= least_turn_ &&
                frame_->units[index(x, y)] != 0) {
@@ -141,7 +143,7 @@ class EdgeTruth {
     }
   }
 
-  // The first measured pixel from (x, y) on, if that is still the same surface.
+  // Labels the first measured pixel from (x, y) in direction (dx, dy), unless another surface begins before it.
   void mark(int x, int y, int dx, int dy, std::uint8_t kind, std::vector<std::uint8_t>& labels) const {
     const int surface = name(x, y);
     for (; x >= 0 && y >= 0 && x < frame_->width && y < frame_->height && name(x, y) == surface; x += dx, y += dy) {
@@ -153,7 +155,7 @@ class EdgeTruth {
 
   const sim::Simulation& simulation_;
   std::vector<sim::SurfaceRef> surfaces_;
-  double least_jump_, least_turn_, nearest_, farthest_ = 0;
+  double least_discontinuity_, least_turn_, nearest_, farthest_ = 0;
   std::map<int, Plane> planes_;
   cv::Mat names_, depths_;
   const RgbdFrame* frame_ = nullptr;

@@ -1,4 +1,4 @@
-// PCL's edges of organised clouds, the thesis's own.
+// Edges in organized clouds by PCL, whose code is that of the thesis.
 #include <memory>
 
 #include "EdgePeers.h"
@@ -12,11 +12,11 @@ namespace {
 using Point = pcl::PointXYZRGB;
 using Cloud = pcl::PointCloud<Point>;
 
-constexpr int kJumps = 1 + 2 + 4, kHighCurvature = 8, kRgb = 16;
+constexpr int kDepthEdges = 1 + 2 + 4, kHighCurvature = 8, kRgb = 16;
 
 template <class Detector>
-std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, int kinds, float jump = 0.02F) {
-  const auto labels = pclEdgeLabels(detector, cloud, kinds, jump);
+std::vector<std::uint8_t> labelsOf(Detector& detector, const Cloud::Ptr& cloud, int kinds, float threshold = 0.02F) {
+  const auto labels = pclEdgeLabels(detector, cloud, kinds, threshold);
   std::vector<std::uint8_t> image;
   image.reserve(labels.size());
   for (const pcl::Label& label : labels) image.push_back(static_cast<std::uint8_t>(label.label));
@@ -30,18 +30,18 @@ EdgePeer peer(const std::string& name, const Run& run) {
           [cloud, run] { return run(*cloud); }};
 }
 
-EdgePeer jumpsOf(const std::string& name, float jump) {
-  return peer(name, [jump](const Cloud::Ptr& cloud) {
+EdgePeer depthEdgesOf(const std::string& name, float threshold) {
+  return peer(name, [threshold](const Cloud::Ptr& cloud) {
     pcl::OrganizedEdgeBase<Point, pcl::Label> detector;
-    return labelsOf(detector, cloud, kJumps, jump);
+    return labelsOf(detector, cloud, kDepthEdges, threshold);
   });
 }
 
-EdgePeer allOf(const std::string& name, float jump) {
-  return peer(name, [jump](const Cloud::Ptr& cloud) {
+EdgePeer allOf(const std::string& name, float threshold) {
+  return peer(name, [threshold](const Cloud::Ptr& cloud) {
     pcl::OrganizedEdgeFromRGBNormals<Point, pcl::Normal, pcl::Label> detector;
     detector.setInputNormals(pclNormals<Point>(cloud));
-    return labelsOf(detector, cloud, kJumps + kHighCurvature + kRgb, jump);
+    return labelsOf(detector, cloud, kDepthEdges + kHighCurvature + kRgb, threshold);
   });
 }
 
@@ -49,8 +49,8 @@ EdgePeer allOf(const std::string& name, float jump) {
 
 std::vector<EdgePeer> pclEdges() {
   using pcl::Label;
-  return {jumpsOf("PCL OrganizedEdgeBase: occluding, occluded, boundary", 0.02F),
-          jumpsOf("PCL OrganizedEdgeBase: the same, jumps of 0.03", 0.03F),
+  return {depthEdgesOf("PCL OrganizedEdgeBase: occluding, occluded, boundary", 0.02F),
+          depthEdgesOf("PCL OrganizedEdgeBase: the same, depth threshold 0.03", 0.03F),
           peer("PCL OrganizedEdgeFromNormals: high curvature, with normals",
                [](const Cloud::Ptr& cloud) {
                  pcl::OrganizedEdgeFromNormals<Point, pcl::Normal, Label> detector;
@@ -66,7 +66,7 @@ std::vector<EdgePeer> pclEdges() {
 }
 
 std::vector<EdgePeer> pclEdgesOfAllKinds() {
-  return {allOf("PCL, jumps of 0.02", 0.02F), allOf("PCL, jumps of 0.03", 0.03F)};
+  return {allOf("PCL, depth threshold 0.02", 0.02F), allOf("PCL, depth threshold 0.03", 0.03F)};
 }
 
 }  // namespace omnimapper::bench

@@ -12,11 +12,11 @@
 
 namespace omnimapper::bench {
 
-/// What a stream of scans tells of its laser, by the same rules for recorded and simulated ones.
+/// Metrics of a laser, computed from its scans by the same rules whether they are recorded or simulated.
 class LaserMetrics {
  public:
-  static constexpr double kBin = 1;  // [m] of range
-  /// Readings from `farthest` on are no echo [m], whatever the scan says.
+  static constexpr double kBin = 1;  // [m] width of a bin of ranges
+  /// Ranges of `farthest` [m] or more count as no echo, whatever the scan says.
   explicit LaserMetrics(double farthest = 1e9) : farthest_(farthest) {}
 
   struct Sum {
@@ -24,11 +24,11 @@ class LaserMetrics {
     double deviation() const { return count > 0 ? std::sqrt(squares / count) : 0; }
   };
 
-  std::map<int, Sum> on_walls;  ///< residuals of ranges to lines fitted through walls, by range
-  std::map<int, Sum> repeated;  ///< half the squared change of a beam while the robot stands, by range
+  std::map<int, Sum> on_walls;  ///< residuals [m] of ranges to lines fitted through walls, by bin of range
+  std::map<int, Sum> repeated;  ///< half the squared change [m^2] of a beam while the robot stands, by bin of range
   double beams = 0, no_echo = 0;
-  static constexpr std::array<double, 5> kGaps{0.3, 0.6, 1.2, 2.4, 4.8};  // [m] bounds of depth gaps
-  std::array<double, 4> edges{}, mixed{};  ///< edges by gap, and those with a point between both sides
+  static constexpr std::array<double, 5> kGaps{0.3, 0.6, 1.2, 2.4, 4.8};  // [m] limits of the classes of depth gaps
+  std::array<double, 4> edges{}, mixed{};  ///< edges by class of gap, and those with a point between both sides
 
   /// `stands`: the robot has not moved since the scan before.
   void add(const mrpt::obs::CObservation2DRangeScan& scan, bool stands) {
@@ -42,7 +42,7 @@ class LaserMetrics {
     }
     addWalls(scan, ranges);
     addEdges(ranges);
-    // Odometry is rounded: what has not moved for four scans stands.
+    // Odometry is rounded, so the robot counts as standing only after four scans without motion.
     stood_ = stands ? stood_ + 1 : 0;
     if (stood_ >= 4 && ranges.size() == last_.size()) {
       for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -56,7 +56,7 @@ class LaserMetrics {
   }
 
  private:
-  // Stretches of 15 beams that are a line, seen from within 50 degrees of its normal.
+  // Adds the residuals of groups of 15 beams that form a line and meet it within 50 degrees of its normal.
   void addWalls(const mrpt::obs::CObservation2DRangeScan& scan, const std::vector<double>& ranges) {
     constexpr std::size_t kLength = 15;
     const double aperture = static_cast<double>(scan.aperture),
@@ -84,7 +84,7 @@ class LaserMetrics {
         const double residual = ranges[first + i] - normal.dot(mean) / along;
         squares += residual * residual, worst = std::max(worst, std::abs(residual));
       }
-      // Walls have frames and mouldings: what is off by more than 4 cm is no flat wall.
+      // Walls have frames and mouldings: if a point is more than 4 cm off, the group is no flat wall.
       if (!good || worst > 0.04 + 0.003 * mean.norm()) {
         ++first;
         continue;
@@ -95,7 +95,7 @@ class LaserMetrics {
     }
   }
 
-  // Two beams on a near and two on a far thing, with nothing or one point between them.
+  // An edge: two beams on a near object and two on a far one, with no point or one point between them.
   void addEdges(const std::vector<double>& ranges) {
     const auto smooth = [&](std::size_t i) {
       return ranges[i] > 0 && ranges[i + 1] > 0 && std::abs(ranges[i] - ranges[i + 1]) < 0.05 + 0.02 * ranges[i];

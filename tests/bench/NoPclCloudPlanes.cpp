@@ -1,4 +1,4 @@
-// Stands for CloudPlanesPcl.cpp where PCL is not installed.
+// Replaces CloudPlanesPcl.cpp if PCL is not installed.
 #include "CloudPeers.h"
 
 namespace omnimapper::bench {

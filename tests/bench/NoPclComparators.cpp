@@ -1,4 +1,4 @@
-// Stands for ComparatorsPcl.cpp where PCL is not installed.
+// Replaces ComparatorsPcl.cpp if PCL is not installed.
 #include "ComparatorPeers.h"
 
 namespace omnimapper::bench {

@@ -1,4 +1,4 @@
-// Stands for EdgesPcl.cpp where PCL is not installed.
+// Replaces EdgesPcl.cpp if PCL is not installed.
 #include "EdgePeers.h"
 
 namespace omnimapper::bench {

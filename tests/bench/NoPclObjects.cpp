@@ -1,4 +1,4 @@
-// Stands for ObjectsPcl.cpp and ObjectsLccp.cpp where PCL is not installed.
+// Replaces ObjectsPcl.cpp and ObjectsLccp.cpp if PCL is not installed.
 #include "ObjectPeers.h"
 
 namespace omnimapper::bench {

@@ -3,5 +3,5 @@
 #include "PcdReaders.h"
 
 void omnimapper::bench::comparePcdReaders() {
-  std::printf("\nPCD readers are not compared: libpcl-dev was not found when this was built.\n");
+  std::printf("\nPCD readers are not compared, since libpcl-dev was not found when this program was built.\n");
 }

@@ -1,4 +1,4 @@
-// Stands for PlanesPcl.cpp where PCL is not installed.
+// Replaces PlanesPcl.cpp if PCL is not installed.
 #include "PlanePeers.h"
 
 namespace omnimapper::bench {

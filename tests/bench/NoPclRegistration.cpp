@@ -1,4 +1,4 @@
-// Stands for RegistrationPcl.cpp where PCL is not installed.
+// Replaces RegistrationPcl.cpp if PCL is not installed.
 #include "RegistrationPeers.h"
 
 namespace omnimapper::bench {

@@ -9,22 +9,22 @@
 
 namespace omnimapper::bench {
 
-/// The pixels of each thing that was found.
-using Things = std::vector<std::vector<int>>;
+/// The pixels of each object that was found.
+using Objects = std::vector<std::vector<int>>;
 
-/// An organised cloud in a camera's optical frame; labels from 20 on are of things.
+/// An organized cloud in a camera's optical frame. Labels from 20 on are those of objects.
 struct LabelledCloud {
   source::PcdCloud points;
   perception::Pinhole camera;
 };
 
-/// Somebody's way from an organised cloud to the things in it. What is called is what is timed.
+/// A method that finds objects in an organized cloud. The whole call of `run` is timed.
 struct ObjectPeer {
   std::string name;
-  std::function<Things(const LabelledCloud&)> run;
+  std::function<Objects(const LabelledCloud&)> run;
 };
 
-/// None where bench-objects was built without PCL: its organised chain, and supervoxels.
+/// PCL's chain for organized clouds, and supervoxels. Both are empty if bench-objects was built without PCL.
 std::vector<ObjectPeer> pclObjects();
 std::vector<ObjectPeer> lccpObjects();
 

@@ -1,5 +1,5 @@
-// Supervoxels joined where they meet convexly (S. C. Stein et al., Object Partitioning using Local Convexity, CVPR
-// 2014), by PCL. Colours do not count, for neither our method nor PCL's chain has them.
+// Objects by PCL's supervoxels, which are joined where they meet convexly (S. C. Stein et al., Object Partitioning
+// using Local Convexity, CVPR 2014). Colours are not used, since neither our method nor PCL's chain uses them.
 #include <pcl/point_types.h>
 #include <pcl/segmentation/lccp_segmentation.h>
 #include <pcl/segmentation/supervoxel_clustering.h>
@@ -25,8 +25,9 @@ pcl::PointCloud<Point>::Ptr cloudOf(const source::PcdCloud& cloud) {
   return points;
 }
 
-// A table, a floor, a wall: the method has no word for what things stand on. The sizes are those of the planes that
-// PCL's chain takes away in its better rows; within 1 cm of a plane, root mean square.
+// Whether a segment is a table, floor or wall: the method itself does not distinguish what objects stand on. Such a
+// segment has as many points as the planes that PCL's chain removes in its better rows, and is flat to 1 cm (root mean
+// square).
 bool isPlace(const std::vector<int>& pixels, const source::PcdCloud& cloud) {
   constexpr std::size_t kFewest = 20000;
   constexpr double kFlat = 0.01;
@@ -45,8 +46,8 @@ bool isPlace(const std::vector<int>& pixels, const source::PcdCloud& cloud) {
   return std::sqrt(std::max(0.0, least)) <= kFlat;
 }
 
-Things things(const source::PcdCloud& cloud, bool extended) {
-  // Weights and angles are those of PCL's own demonstration.
+Objects objectsIn(const source::PcdCloud& cloud, bool extended) {
+  // Weights and angles are those of PCL's own example program.
   pcl::SupervoxelClustering<Point> clustering(0.0075F, 0.03F);
   clustering.setInputCloud(cloudOf(cloud));
   clustering.setColorImportance(0);
@@ -69,8 +70,8 @@ Things things(const source::PcdCloud& cloud, bool extended) {
   std::map<std::uint32_t, std::vector<int>> segments;
   for (std::size_t i = 0; i < labelled->size(); ++i)
     if (std::isfinite(cloud.z[i])) segments[(*labelled)[i].label].push_back(static_cast<int>(i));
-  segments.erase(0);  // of no supervoxel
-  Things found;
+  segments.erase(0);  // pixels without a supervoxel
+  Objects found;
   for (auto& [label, pixels] : segments)
     if (pixels.size() >= 100 && !isPlace(pixels, cloud)) found.push_back(std::move(pixels));
   return found;
@@ -82,7 +83,7 @@ std::vector<ObjectPeer> lccpObjects() {
   std::vector<ObjectPeer> peers;
   for (const bool extended : {false, true}) {
     peers.push_back({std::string("PCL supervoxels of 3 cm and LCCP") + (extended ? ", extended convexity" : ""),
-                     [extended](const LabelledCloud& cloud) { return things(cloud.points, extended); }});
+                     [extended](const LabelledCloud& cloud) { return objectsIn(cloud.points, extended); }});
   }
   return peers;
 }

@@ -1,5 +1,5 @@
-// PCL's things of organised clouds, the thesis's own: planes with refinement, then Euclidean clusters off the large
-// ones.
+// Objects in organized clouds by PCL, whose code is that of the thesis: planes with refinement, then Euclidean clusters
+// of the points that are not on large planes.
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/euclidean_cluster_comparator.h>
@@ -19,7 +19,7 @@ using Comparator = pcl::EuclideanClusterComparator<Point, pcl::Label>;
 struct Settings {
   Normals::NormalEstimationMethod method;
   double plane_distance;  // [m]
-  std::size_t of_place;   // points of a plane that is taken away
+  std::size_t of_place;   // a plane with more points than that is removed
 };
 
 pcl::PointCloud<Point>::Ptr cloudOf(const source::PcdCloud& cloud) {
@@ -30,7 +30,7 @@ pcl::PointCloud<Point>::Ptr cloudOf(const source::PcdCloud& cloud) {
   return points;
 }
 
-Things things(const source::PcdCloud& cloud, const Settings& settings) {
+Objects objectsIn(const source::PcdCloud& cloud, const Settings& settings) {
   const auto points = cloudOf(cloud);
   auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
   Normals estimate;
@@ -52,22 +52,22 @@ Things things(const source::PcdCloud& cloud, const Settings& settings) {
   auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
   segmentation.segmentAndRefine(regions, coefficients, inliers, labels, of_labels, boundaries);
 
-  // The labels that 1.13 calls excluded are in truth the only ones that it does not exclude.
-  auto of_things = pcl::make_shared<std::set<std::uint32_t>>();
+  // PCL 1.13 has the meaning reversed: the labels that it calls excluded are the only ones that it keeps.
+  auto of_objects = pcl::make_shared<std::set<std::uint32_t>>();
   for (std::size_t i = 0; i < of_labels.size(); ++i) {
-    if (of_labels[i].indices.size() <= settings.of_place) of_things->insert(static_cast<std::uint32_t>(i));
+    if (of_labels[i].indices.size() <= settings.of_place) of_objects->insert(static_cast<std::uint32_t>(i));
   }
   auto comparator = pcl::make_shared<Comparator>();
   comparator->setInputCloud(points);
   comparator->setLabels(labels);
-  comparator->setExcludeLabels(of_things);
+  comparator->setExcludeLabels(of_objects);
   comparator->setDistanceThreshold(0.01F, false);
   pcl::OrganizedConnectedComponentSegmentation<Point, pcl::Label> clustering(comparator);
   clustering.setInputCloud(points);
   std::vector<pcl::PointIndices> clusters;
   pcl::PointCloud<pcl::Label> cluster_labels;
   clustering.segment(cluster_labels, clusters);
-  Things found;
+  Objects found;
   for (const auto& cluster : clusters) {
     if (cluster.indices.size() >= 100) found.emplace_back(cluster.indices.begin(), cluster.indices.end());
   }
@@ -79,10 +79,10 @@ Things things(const source::PcdCloud& cloud, const Settings& settings) {
 std::vector<ObjectPeer> pclObjects() {
   std::vector<ObjectPeer> peers;
   const auto add = [&](const std::string& name, const Settings& settings) {
-    peers.push_back({name, [settings](const LabelledCloud& cloud) { return things(cloud.points, settings); }});
+    peers.push_back({name, [settings](const LabelledCloud& cloud) { return objectsIn(cloud.points, settings); }});
   };
-  // Thresholds as for the planes and in PCL's own demonstration, and the best of 64 sets that were tried on these
-  // clouds.
+  // The first two have thresholds as for the planes and in PCL's own example program. The others have the best of 64
+  // sets that were tried on these clouds.
   add("PCL average 3D gradient, 2 cm, off planes of 10000 points", {Normals::AVERAGE_3D_GRADIENT, 0.02, 10000});
   add("PCL covariance normals, 2 cm, off planes of 10000 points", {Normals::COVARIANCE_MATRIX, 0.02, 10000});
   add("PCL average 3D gradient, 1 cm, off planes of 20000 points", {Normals::AVERAGE_3D_GRADIENT, 0.01, 20000});

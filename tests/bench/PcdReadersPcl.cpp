@@ -57,7 +57,7 @@ std::string contentsOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// One to four bytes changed, half of them in the header; every fifth file cut off.
+// Changes or removes bytes at one to four places, half of them in the header, and truncates every fifth file.
 std::string damaged(std::string text, std::mt19937& random) {
   constexpr std::size_t kHeader = 260;
   const std::string likely = "0123456789- xF";
@@ -78,7 +78,7 @@ std::string damaged(std::string text, std::mt19937& random) {
   return text;
 }
 
-// In a child process with 4 GB and ten seconds.
+// Whether the reader leaves the process alive. It runs in a child process with 4 GB of memory and ten seconds.
 bool survives(const Reader& reader, const std::string& path) {
   std::fflush(nullptr);
   const pid_t child = fork();

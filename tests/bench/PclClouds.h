@@ -7,9 +7,10 @@
 
 namespace omnimapper::bench {
 
-/// The organised cloud that PCL's methods take, of a frame with units, metres_per_unit, width, height and camera.
+/// The organized cloud that PCL's methods take, made from a frame with units, metres_per_unit, width, height and
+/// camera.
 template <class Point, class Frame>
-typename pcl::PointCloud<Point>::Ptr organisedCloud(const Frame& frame) {
+typename pcl::PointCloud<Point>::Ptr organizedCloud(const Frame& frame) {
   const auto width = static_cast<std::uint32_t>(frame.width), height = static_cast<std::uint32_t>(frame.height);
   auto cloud = pcl::make_shared<pcl::PointCloud<Point>>(width, height);
   cloud->is_dense = false;
@@ -28,10 +29,10 @@ typename pcl::PointCloud<Point>::Ptr organisedCloud(const Frame& frame) {
   return cloud;
 }
 
-/// The same with the frame's rgb.
+/// The same cloud with the colours of the frame's rgb.
 template <class Frame>
 pcl::PointCloud<pcl::PointXYZRGB>::Ptr colouredCloud(const Frame& frame) {
-  auto cloud = organisedCloud<pcl::PointXYZRGB>(frame);
+  auto cloud = organizedCloud<pcl::PointXYZRGB>(frame);
   for (std::size_t i = 0; i < cloud->size(); ++i) {
     (*cloud)[i].r = frame.rgb[3 * i];
     (*cloud)[i].g = frame.rgb[3 * i + 1];

@@ -6,7 +6,7 @@
 
 namespace omnimapper::bench {
 
-/// PCL's normals of an organised cloud, as its edges of high curvature want them.
+/// PCL's normals of an organized cloud, as its detector of high-curvature edges needs them.
 template <class Point>
 pcl::PointCloud<pcl::Normal>::Ptr pclNormals(const typename pcl::PointCloud<Point>::Ptr& cloud) {
   auto normals = pcl::make_shared<pcl::PointCloud<pcl::Normal>>();
@@ -19,11 +19,13 @@ pcl::PointCloud<pcl::Normal>::Ptr pclNormals(const typename pcl::PointCloud<Poin
   return normals;
 }
 
-/// What kinds of edges each point is on, as bits; with the settings that the thesis had. `jump` in parts of the depth.
+/// The kinds of edges that each point is on, as bits, with the settings of the thesis. `threshold`: depth discontinuity
+/// in parts of the depth.
 template <class Detector, class CloudPtr>
-pcl::PointCloud<pcl::Label> pclEdgeLabels(Detector& detector, const CloudPtr& cloud, int kinds, float jump = 0.02F) {
+pcl::PointCloud<pcl::Label> pclEdgeLabels(Detector& detector, const CloudPtr& cloud, int kinds,
+                                          float threshold = 0.02F) {
   detector.setInputCloud(cloud);
-  detector.setDepthDisconThreshold(jump);
+  detector.setDepthDisconThreshold(threshold);
   detector.setMaxSearchNeighbors(50);
   detector.setEdgeType(kinds);
   pcl::PointCloud<pcl::Label> labels;

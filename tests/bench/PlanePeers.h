@@ -17,25 +17,25 @@ struct DepthFrame {
   std::vector<std::uint16_t> units;
 };
 
-/// Somebody's way from a depth image to planes.
+/// A method that finds planes in a depth image.
 struct PlanePeer {
   std::string name;
-  /// For each pixel the number of its plane from 1 on, or 0. What is called is what is timed: back-projection included.
+  /// For each pixel the number of its plane, from 1 on, or 0. The whole call is timed, including back-projection.
   std::function<std::vector<std::uint16_t>(const DepthFrame&)> run;
 };
 
 perception::DepthImage imageOf(const DepthFrame& frame);
 
 std::vector<PlanePeer> ourPlanes();
-/// Median times of the stages of ours on these frames, as a Markdown table.
+/// Prints the median times of the stages of our method on these frames as a Markdown table.
 void printOurStages(const std::vector<DepthFrame>& frames, int rounds);
 
-/// None where bench-planes was built without PCL.
+/// PCL's methods; empty if bench-planes was built without PCL.
 std::vector<PlanePeer> pclPlanes();
 std::vector<PlanePeer> openCvPlanes();
 
-/// Methods in a shared library that was built elsewhere; PlanePeerLibrary.h says what it holds. Throws
-/// std::runtime_error for one that cannot be loaded.
+/// The methods of a shared library that was built elsewhere; PlanePeerLibrary.h lists the functions that it must have.
+/// Throws std::runtime_error if it cannot be loaded.
 std::vector<PlanePeer> loadedPlanes(const std::string& library);
 
 }  // namespace omnimapper::bench

@@ -1,4 +1,4 @@
-// OpenCV's planes of depth images: normals by the FALS method, then RgbdPlane; and RgbdPlane alone.
+// Planes in depth images by OpenCV: normals by the FALS method and then RgbdPlane, and RgbdPlane alone.
 #include <opencv2/core.hpp>
 #include <opencv2/rgbd.hpp>
 #include <opencv2/rgbd/depth.hpp>
@@ -46,7 +46,7 @@ std::vector<std::uint16_t> planes(const DepthFrame& frame, cv::rgbd::RgbdNormals
   cv::rgbd::depthTo3d(metresOf(frame), cv::Mat(matrixOf(frame.camera)), points);
   cv::rgbd::RgbdPlane find;
   find.setMinSize(1000);
-  // As the class documents them for a Kinect: the error of the depth is quadratic in it.
+  // The value that the class documents for a Kinect, whose depth error grows with the square of the depth.
   find.setSensorErrorA(0.0075);
   if (normals_of == nullptr) {
     find(points, mask, coefficients);

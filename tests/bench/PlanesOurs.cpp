@@ -1,4 +1,4 @@
-// Ours, whole and by its stages.
+// Our plane segmentation as a whole, and up to some of its stages.
 #include <omnimapper/perception/Normals.h>
 #include <omnimapper/perception/ObjectFinder.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
@@ -28,7 +28,7 @@ namespace {
 
 using Labels = std::vector<std::uint16_t>;
 
-// Stops where each cell of 16 x 16 pixels has its plane.
+// Stops as soon as each cell of 16 x 16 pixels is assigned to a plane.
 Labels coarse(const DepthFrame& frame) {
   const PlaneOptions options;
   const auto noise = options.noise();
@@ -46,7 +46,7 @@ Labels coarse(const DepthFrame& frame) {
   return labels;
 }
 
-// Stops where each pixel has its plane: nothing is fitted again, no outline.
+// Stops as soon as each pixel is assigned to a plane: no plane is fitted again and no outline is traced.
 Labels unrefined(const DepthFrame& frame) {
   const PlaneOptions options;
   const auto noise = options.noise();

@@ -1,4 +1,5 @@
-// PCL's planes of organised clouds, the thesis's own: normals of integral images, connected components, refinement.
+// Planes in organized clouds by PCL, whose code is that of the thesis: normals from integral images, connected
+// components, refinement.
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/organized_multi_plane_segmentation.h>
@@ -26,11 +27,11 @@ pcl::PointCloud<pcl::Normal>::Ptr normalsOf(const pcl::PointCloud<Point>::Ptr& c
 }
 
 constexpr double kPclCurvature = 0.001,
-                 kNoisyCurvature = 0.01;  // PCL's own bound, and one that a Kinect's noise passes
+                 kNoisyCurvature = 0.01;  // PCL's default, and a bound that passes a Kinect's noise
 
 std::vector<std::uint16_t> planes(const DepthFrame& frame, Normals::NormalEstimationMethod method, bool refined,
                                   double max_curvature) {
-  const auto cloud = organisedCloud<Point>(frame);
+  const auto cloud = organizedCloud<Point>(frame);
   pcl::OrganizedMultiPlaneSegmentation<Point, pcl::Normal, pcl::Label> segmentation;
   segmentation.setMinInliers(1000);
   segmentation.setAngularThreshold(3 * M_PI / 180);
@@ -63,7 +64,7 @@ std::vector<PlanePeer> pclPlanes() {
   for (const auto& [name, method] : {std::pair{"PCL average 3D gradient", Normals::AVERAGE_3D_GRADIENT},
                                      std::pair{"PCL covariance normals", Normals::COVARIANCE_MATRIX}}) {
     peers.push_back({name + std::string(" alone"), [method = method](const DepthFrame& frame) {
-                       normalsOf(organisedCloud<Point>(frame), method);
+                       normalsOf(organizedCloud<Point>(frame), method);
                        return std::vector<std::uint16_t>(frame.units.size(), 0);
                      }});
     const auto add = [&, method = method, name = name](bool refined, double curvature, const std::string& rest) {

@@ -17,7 +17,7 @@ namespace omnimapper::bench {
 
 inline constexpr double kConfidence = 0.999;
 
-/// Landmark of each measurement.
+/// Association of the measurements of a scene with its landmarks.
 struct Answer {
   std::vector<std::optional<std::size_t>> landmark_of;
   bool complete = true;
@@ -42,7 +42,7 @@ inline bool passTogether(const PointScene& scene, const Answer& answer) {
   return rows == 0 || residual.dot(covariance.llt().solve(residual)) <= mapper::chi2Limit(kConfidence, rows);
 }
 
-/// Of the pairs that pass their gates.
+/// Joint innovation of all pairs of a measurement and a landmark that pass their individual gates.
 inline mapper::JointInnovation innovationOf(const PointScene& scene, double sigma) {
   mapper::JointInnovation innovation;
   const double limit = mapper::chi2Limit(kConfidence, 2);
@@ -72,7 +72,7 @@ inline mapper::JointInnovation innovationOf(const PointScene& scene, double sigm
   return innovation;
 }
 
-/// From gates to matches. A ratio of 0: nearest neighbour.
+/// Our association, gating included. A `min_likelihood_ratio` of 0 means nearest neighbour.
 inline Answer ours(const PointScene& scene, double sigma, double min_likelihood_ratio, int max_nodes) {
   Answer answer;
   const double from = processorTime();
@@ -84,8 +84,8 @@ inline Answer ours(const PointScene& scene, double sigma, double min_likelihood_
                          : mapper::matchNearest(innovation, measurements);
   answer.landmark_of.resize(measurements);
   for (std::size_t m = 0; m < measurements; ++m) {
-    const bool is_told = found.pairing_of[m] && !(found.rival_of[m] && found.rival_of[m]->dearer < margin);
-    if (is_told) answer.landmark_of[m] = innovation.pairings[*found.pairing_of[m]].landmark;
+    const bool is_unambiguous = found.pairing_of[m] && !(found.rival_of[m] && found.rival_of[m]->dearer < margin);
+    if (is_unambiguous) answer.landmark_of[m] = innovation.pairings[*found.pairing_of[m]].landmark;
   }
   answer.complete = found.complete;
   answer.milliseconds = processorTime() - from;
@@ -101,7 +101,7 @@ inline mrpt::math::CMatrixDouble rowsOf(const std::vector<Eigen::Vector2d>& poin
   return rows;
 }
 
-/// As it is by default: a tree tells it which pairs to gate.
+/// MRPT's association with its defaults: it finds the pairs to gate by a KD-tree.
 inline Answer mrpts(const PointScene& scene, mrpt::slam::TDataAssociationMethod method,
                     mrpt::slam::TDataAssociationMetric metric) {
   const auto measured = rowsOf(scene.measured_in_base), predicted = rowsOf(scene.predicted_in_base);

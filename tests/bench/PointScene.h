@@ -11,22 +11,23 @@
 
 namespace omnimapper::bench {
 
-/// What is not known of a scene, as standard deviations.
+/// Uncertainties of a scene, as standard deviations, and the share of clutter.
 struct SceneNoise {
   double place = 0.5;               ///< of the base, along x and along y [m]
   double heading = 3 * M_PI / 180;  ///< of the base [rad]
   double landmark = 0.05;           ///< of each landmark in the map, along x and along y [m]
   double measurement = 0.05;        ///< of a measured point in the base, along x and along y [m]
-  double clutter = 0.2;             ///< share of measurements that are of no landmark of the map
+  double clutter = 0.2;             ///< share of measurements of no landmark in the map
 };
 
-/// Point landmarks of a map, 20 by 20 m with the base in its middle, and points measured together from there.
+/// Point landmarks in a map of 20 by 20 m with the base in its middle, and points that are measured together from
+/// there.
 struct PointScene {
   static constexpr double kSide = 20;              ///< [m]
   std::vector<Eigen::Vector2d> measured_in_base;   ///< [m]
-  std::vector<std::optional<std::size_t>> truth;   ///< landmark of each measurement; none of clutter
-  std::vector<Eigen::Vector2d> predicted_in_base;  ///< each landmark as the map has it [m]
-  Eigen::MatrixXd covariance;  ///< of measured less predicted, 2 rows a landmark, noise of measurement included [m^2]
+  std::vector<std::optional<std::size_t>> truth;   ///< landmark of each measurement; none for clutter
+  std::vector<Eigen::Vector2d> predicted_in_base;  ///< position of each landmark in the map [m]
+  Eigen::MatrixXd covariance;  ///< [m^2] of measured minus predicted points, with measurement noise; 2 rows a landmark
 
   PointScene(std::size_t landmarks, std::size_t measurements, const SceneNoise& noise, unsigned seed) {
     std::mt19937 random(seed);
@@ -40,27 +41,27 @@ struct PointScene {
       const double x = sigma * normal(random);
       return Eigen::Vector2d(x, sigma * normal(random));
     };
-    // The map has the base at the origin, looking along x: what it predicts in the base is its landmarks.
+    // In the map the base is at the origin and looks along x, so predictions in the base are the landmarks themselves.
     for (std::size_t i = 0; i < landmarks; ++i) predicted_in_base.push_back(anywhere());
     const Eigen::Vector2d place = error(noise.place);
     const Eigen::Rotation2Dd base_from_map_rotation(-noise.heading * normal(random));
-    std::vector<std::size_t> seen(landmarks);
-    std::iota(seen.begin(), seen.end(), std::size_t{0});
-    std::shuffle(seen.begin(), seen.end(), random);
+    std::vector<std::size_t> remaining(landmarks);
+    std::iota(remaining.begin(), remaining.end(), std::size_t{0});
+    std::shuffle(remaining.begin(), remaining.end(), random);
     for (std::size_t m = 0; m < measurements; ++m) {
-      const bool clutter = share(random) < noise.clutter || seen.empty();
-      truth.push_back(clutter ? std::nullopt : std::optional(seen.back()));
+      const bool clutter = share(random) < noise.clutter || remaining.empty();
+      truth.push_back(clutter ? std::nullopt : std::optional(remaining.back()));
       Eigen::Vector2d in_map = anywhere();
       if (!clutter) {
-        in_map = predicted_in_base[seen.back()] + error(noise.landmark);
-        seen.pop_back();
+        in_map = predicted_in_base[remaining.back()] + error(noise.landmark);
+        remaining.pop_back();
       }
       measured_in_base.push_back(base_from_map_rotation * (in_map - place) + error(noise.measurement));
     }
     setCovariance(noise);
   }
 
-  /// Block of two landmarks.
+  /// 2 x 2 block of the covariance of two landmarks.
   Eigen::Matrix2d covarianceOf(std::size_t a, std::size_t b) const {
     return covariance.block<2, 2>(static_cast<Eigen::Index>(2 * a), static_cast<Eigen::Index>(2 * b));
   }

@@ -17,7 +17,7 @@ namespace omnimapper::bench {
 
 struct PosedFrames {
   std::vector<RgbdFrame> frames;
-  std::vector<std::optional<geometry::Se3>> poses;  ///< world_from_camera, optical, when the depths were taken
+  std::vector<std::optional<geometry::Se3>> poses;  ///< world_from_camera (optical) at the stamps of the depth images
 };
 
 inline RgbdFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
@@ -26,7 +26,8 @@ inline RgbdFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
   RgbdFrame frame{depth.width(), depth.height(), depth.metresPerUnit(), depth.camera(), 0, 0, {}, {}};
   frame.stamp = frame.colour_stamp = mrpt::Clock::toDouble(scan.timestamp);
   const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-  if (!depth.units() || !view.colour()) throw std::runtime_error("depths of 16 bits and a picture are needed");
+  if (!depth.units() || !view.colour())
+    throw std::runtime_error("an observation needs depths of 16 bits and a colour image");
   frame.units.assign(depth.units(), depth.units() + pixels);
   const auto& colour = *view.colour();
   const bool is_bgr = colour.order == perception::ColourImage::Order::bgr;
@@ -41,7 +42,7 @@ inline RgbdFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
   return frame;
 }
 
-/// The images of the range camera of a rawlog, and the true poses of a file beside it: those of the base in a TUM file.
+/// Reads the images of the range camera of a rawlog, and the true poses of the base from a TUM file.
 inline PosedFrames readRawlog(const std::string& rawlog, const std::string& truth_file) {
   PosedFrames posed;
   const auto truth = eval::readTum(truth_file);

@@ -12,13 +12,13 @@
 
 namespace omnimapper::bench {
 
-constexpr double kLongest = 25;  // [m] of a beam: what lies further away is only known to be there
-constexpr double kNoEcho = 80;   // [m] from here on a SICK tells that it has no echo, near or far
+constexpr double kLongest = 25;  // [m] longer beams are cut to this length and only show free space
+constexpr double kNoEcho = 80;   // [m] a SICK reports a missing echo, near or far, as a range from here on
 
-/// The scans of a log that have a pose in `truth` (of the base), with the sensor's pose; of a standing robot's only the
-/// first: the next one is `way` [m] or `turn` [rad] from the last.
+/// The scans of a log that have a pose of the base in `truth`, with the pose of the sensor. A scan is left out if it is
+/// less than `travel` [m] and less than `turn` [rad] away from the last one that was kept.
 inline std::vector<matching::MapScan> scansOf(source::ObservationSource& log, const eval::Trajectory& truth,
-                                              double way = 0, double turn = 0) {
+                                              double travel = 0, double turn = 0) {
   std::vector<matching::MapScan> scans;
   while (const auto observation = log.next()) {
     const auto* laser = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
@@ -33,7 +33,7 @@ inline std::vector<matching::MapScan> scansOf(source::ObservationSource& log, co
         mrpt::math::TPose2D(laser->sensorPose.asTPose());
     if (!scans.empty()) {
       const auto moved = scan.map_from_sensor - scans.back().map_from_sensor;
-      if (std::hypot(moved.x, moved.y) < way && std::abs(moved.phi) < turn) continue;
+      if (std::hypot(moved.x, moved.y) < travel && std::abs(moved.phi) < turn) continue;
     }
     for (std::size_t i = 0; i < laser->getScanSize(); ++i) {
       const double range = laser->getScanRange(i), length = std::min(range, kLongest);
@@ -47,7 +47,7 @@ inline std::vector<matching::MapScan> scansOf(source::ObservationSource& log, co
   return scans;
 }
 
-/// Those of FOLDER/NAME.clf.bz2 with FOLDER/NAME.reference.tum.
+/// The scans of FOLDER/NAME.clf.bz2 that have a pose in FOLDER/NAME.reference.tum.
 inline std::vector<matching::MapScan> referenceScans(const std::string& folder, const std::string& name) {
   source::CarmenLog log(folder + "/" + name + ".clf.bz2");
   return scansOf(log, eval::readTum(folder + "/" + name + ".reference.tum"));

@@ -1,4 +1,4 @@
-// PCL's registration as the thesis used it: ICP of edges, of voxels and of all points; and its GICP.
+// PCL's registration as the thesis used it: ICP of edges, of voxels and of all points, and GICP.
 #include <pcl/filters/filter.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/gicp.h>
@@ -58,7 +58,7 @@ Cloud::Ptr voxels(const Cloud::Ptr& cloud, float side) {
   return sparse;
 }
 
-// The settings of all rows: 0.1 m, 50 iterations, 1e-4.
+// All rows have the same settings: correspondences up to 0.1 m, 50 iterations, epsilon 1e-4.
 template <class Registration>
 std::optional<Registered> align(Registration& registration, const Cloud::Ptr& first, const Cloud::Ptr& second,
                                 const geometry::Se3& guess) {

@@ -13,7 +13,7 @@
 
 namespace omnimapper::bench {
 
-/// A 16-bit depth image and the picture of the same view, three bytes a pixel: red, green, blue.
+/// A 16-bit depth image and a colour image of the same view, which has three bytes a pixel: red, green, blue.
 struct RgbdFrame {
   int width = 0, height = 0;
   double metres_per_unit = 1;
@@ -30,19 +30,19 @@ inline std::vector<std::string> filesOf(const std::string& folder) {
   return files;
 }
 
-/// What a file's name says [s].
+/// The stamp [s] that is the name of a file.
 inline double timeOf(const std::string& file) {
   return std::stod(std::filesystem::path(file).stem());
 }
 
-/// The file whose name, a time, is nearest.
+/// The file whose stamp is nearest to that of `to`.
 inline std::string nearest(const std::vector<std::string>& files, const std::string& to) {
   return *std::min_element(files.begin(), files.end(), [&](const auto& a, const auto& b) {
     return std::abs(timeOf(a) - timeOf(to)) < std::abs(timeOf(b) - timeOf(to));
   });
 }
 
-/// Every so manieth frame of a folder of the TUM RGB-D benchmark.
+/// Reads every `every`-th frame of a folder of the TUM RGB-D benchmark.
 inline std::vector<RgbdFrame> readRgbd(const std::string& folder, int every, const perception::Pinhole& camera) {
   const auto depths = filesOf(folder + "/depth"), pictures = filesOf(folder + "/rgb");
   std::vector<RgbdFrame> frames;

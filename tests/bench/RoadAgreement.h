@@ -14,20 +14,21 @@
 
 namespace omnimapper::bench {
 
-/// How many measured pixels of what is there are taken for ground.
+/// How many measured pixels of some surfaces are classified as ground.
 struct RoadCount {
   double all = 0;
-  double sure = 0;      ///< by their own normal
-  double accepted = 0;  ///< in the end
+  double sure = 0;      ///< classified as ground by their own normal
+  double accepted = 0;  ///< classified as ground in the end
   RoadCount operator+(const RoadCount& other) const {
     return {all + other.all, sure + other.sure, accepted + other.accepted};
   }
 };
 
-/// What simulated cameras see of a road, against the truth.
+/// Compares the ground that is found in images of a simulated camera with the truth.
 class RoadAgreement {
  public:
-  /// The camera, which is to tell its labels, is that of this name. `frames` of it are seen.
+  /// `camera`: label of the camera, which must have labels = true. `frames` frames of it are used, spread evenly over
+  /// the simulation. `clock` returns the time [s].
   RoadAgreement(const sim::Simulation& simulation, const std::string& camera, int frames,
                 const perception::RoadOptions& options, const std::function<double()>& clock)
       : options_(options), clock_(clock) {
@@ -44,14 +45,14 @@ class RoadAgreement {
     }
   }
 
-  /// Of kerbs the sides alone.
+  /// Counts by kind of surface. Those of kerbs are only of their sides.
   const std::map<sim::SurfaceKind, RoadCount>& ofKinds() const { return of_kind_; }
-  /// [s] that each frame took.
+  /// Time [s] that each frame took.
   const std::vector<double>& times() const { return times_; }
   RoadCount ground() const { return of(sim::SurfaceKind::road) + of(sim::SurfaceKind::floor); }
-  /// What a kerb shows to the road: it ends the one and begins the other.
+  /// Sides of kerbs, which face the road: they separate road and pavement.
   RoadCount kerbSides() const { return of(sim::SurfaceKind::kerb); }
-  /// Level, and as high as the pavement behind.
+  /// Tops of kerbs, which are level and as high as the pavement behind them.
   const RoadCount& kerbTops() const { return of_kerb_tops_; }
   RoadCount others() const {
     RoadCount all;

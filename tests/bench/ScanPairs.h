@@ -20,19 +20,19 @@ using mrpt::math::TPose2D;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 struct RecordedScan {
-  std::vector<float> ranges;            ///< [m], 0 where there was no echo; 180 beams from -90 to +89 deg
-  std::vector<Eigen::Vector2f> points;  ///< [m] of the valid beams, in their order
+  std::vector<float> ranges;            ///< [m] of 180 beams from -90 to +89 deg; 0 if there was no echo
+  std::vector<Eigen::Vector2f> points;  ///< [m] end points of the valid beams, in the order of the beams
   TPose2D odometry;
 };
 
-/// Two scans with the pose of the second in the first: as odometry guesses it, and as it was checked by hand.
+/// Two scans and the pose of the second in the first: as predicted by odometry, and as checked by hand.
 struct ScanPair {
   const RecordedScan* reference;
   const RecordedScan* scan;
   TPose2D guess, truth;
 };
 
-/// One match to do: a pair and where it starts.
+/// One match to be computed: a pair and the start pose.
 struct Task {
   std::size_t pair;
   TPose2D start;
@@ -53,7 +53,7 @@ inline bool right(const TPose2D& found, const TPose2D& truth) {
   return distance(found, truth) < 0.1 && turn(found, truth) < 2 * kDegree;
 }
 
-/// The scans of a log with one label, by stamp.
+/// The scans of a log that have this label, by stamp.
 inline std::map<base::Stamp, RecordedScan> readScans(const std::string& path, const std::string& label) {
   source::CarmenLog log(path);
   std::map<base::Stamp, RecordedScan> scans;
@@ -79,7 +79,7 @@ inline std::map<base::Stamp, RecordedScan> readScans(const std::string& path, co
   return scans;
 }
 
-/// The relations whose scans overlap well: moved less than 1 m and turned less than 34 degrees.
+/// The pairs of relations whose scans overlap well: less than 1 m and 34 degrees apart.
 inline std::vector<ScanPair> pairsOf(const std::map<base::Stamp, RecordedScan>& scans,
                                      const std::vector<eval::Relation>& relations) {
   std::vector<ScanPair> pairs;
@@ -95,8 +95,9 @@ inline std::vector<ScanPair> pairsOf(const std::map<base::Stamp, RecordedScan>& 
   return pairs;
 }
 
-/// A file for programs outside: "pairs N", each pair's ranges of reference and scan on two lines; "tasks M", each
-/// "pair x y yaw". What they found comes back as "x y yaw ms" for each task, in order.
+/// Writes a file for external programs: "pairs N", then two lines with the ranges of reference and scan for each pair;
+/// "tasks M", then a line "pair x y yaw" for each task. The program answers with a file that has a line "x y yaw ms"
+/// for each task, in order.
 inline void writeTasks(const std::string& path, const std::vector<ScanPair>& pairs, const std::vector<Task>& tasks) {
   std::ofstream out(path);
   out.precision(9);
@@ -115,7 +116,8 @@ inline std::vector<Outcome> readOutcomes(const std::string& path, std::size_t co
   std::ifstream in(path);
   std::vector<Outcome> outcomes(count);
   for (auto& o : outcomes) in >> o.pose.x >> o.pose.y >> o.pose.phi >> o.milliseconds;
-  if (!in) throw base::Error(base::ExitCode::unreadable_input, path + ": has no 'x y yaw ms' for each task");
+  if (!in)
+    throw base::Error(base::ExitCode::unreadable_input, path + ": does not have a line 'x y yaw ms' for each task");
   return outcomes;
 }
 

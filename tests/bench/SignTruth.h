@@ -19,27 +19,28 @@
 
 namespace omnimapper::bench {
 
-/// A sign that was found in an image, and what it truly is.
+/// A sign that was found in an image, and the true sign that it is.
 struct FoundSign {
-  Eigen::Vector3d camera, direction;  ///< in the base [m], unit
-  std::optional<std::size_t> sign;    ///< number in SignTruth::names, of a sign or a poster; none: neither
+  Eigen::Vector3d camera, direction;  ///< in the base: position [m], unit vector
+  std::optional<std::size_t> sign;    ///< index in SignTruth::names of a sign or poster; none if it is neither
 };
 
-/// What omnimapper-simulate tells of a place with door signs, and which of them a perceived log has found.
+/// The truth of a place with door signs by omnimapper-simulate, and which of these signs a perceived log has found.
 class SignTruth {
  public:
   using Seen = std::map<base::Stamp, std::vector<FoundSign>>;
 
-  std::vector<std::string> names;  ///< of signs, then of posters
-  std::size_t signs = 0;           ///< so many of them are signs
-  int repeated = 0;                ///< signs whose text another one has, too
+  std::vector<std::string> names;  ///< names of signs, then of posters
+  std::size_t signs = 0;           ///< the first `signs` of the names are those of signs
+  int repeated = 0;                ///< number of signs whose text another sign has too
   eval::Trajectory trajectory;     ///< of the base in the world
   Seen found;
-  std::size_t of_signs = 0, of_posters = 0, elsewhere = 0;  ///< of what was found
+  std::size_t of_signs = 0, of_posters = 0, elsewhere = 0;  ///< number of detections of each
   base::Stamp first, last;                                  ///< of the perceived log
 
-  /// Writes the perceived log with numbers of true signs for what was read, without what is none, to `labelled`; if
-  /// `min_confidence` is not 0, only signs of which a line is at least so sure, and texts of posters as their own.
+  /// Writes a copy of the perceived log to `labelled`, in which the text of each detection is the number of the true
+  /// sign; detections that are no sign are left out. If `min_confidence` is not 0, it has only the signs with a line of
+  /// at least that confidence, and also what was read on posters, under numbers of their own.
   SignTruth(const std::string& folder, const std::string& perceived, const std::string& labelled,
             double min_confidence) {
     readPlace(folder);
@@ -57,7 +58,7 @@ class SignTruth {
     });
   }
 
-  /// The sign that was seen there; none if it was no sign.
+  /// The true sign or poster that was detected in that direction at that stamp; none if it was neither.
   std::optional<std::size_t> signOf(base::Stamp stamp, const Eigen::Vector3d& direction_in_base) const {
     const auto at = found.find(stamp);
     if (at == found.end()) return std::nullopt;
@@ -90,13 +91,13 @@ class SignTruth {
     }
   }
 
-  // A rectangle.
+  // A rectangle on a wall.
   struct Poster {
     Eigen::Vector3d corner, along, up;
 
-    // How far on the ray it is hit [m].
+    // Distance [m] along the ray at which it hits the poster; none if it does not.
     std::optional<double> hitBy(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-      constexpr double kBeside = 0.05;  // of its size
+      constexpr double kBeside = 0.05;  // tolerance in parts of its size
       const Eigen::Vector3d normal = along.cross(up);
       const double range = normal.dot(corner - origin) / normal.dot(direction);
       if (!(range > 0)) return std::nullopt;
@@ -107,7 +108,8 @@ class SignTruth {
     }
   };
 
-  // The nearest on the true ray; a wall may hide it, but then nothing was found there.
+  // The nearest poster on the true ray. Occlusion by walls is not checked, since a hidden poster would not have been
+  // detected.
   std::optional<std::size_t> posterIn(base::Stamp stamp, const FoundSign& sign) const {
     const auto base = eval::interpolatedPose(trajectory, stamp, base::durationFromSeconds(1));
     if (!base) return std::nullopt;
@@ -122,7 +124,7 @@ class SignTruth {
     return nearest;
   }
 
-  // stamp, sensor, measurement, sign, text (may hold commas), x1 ... y4, then six numbers.
+  // Columns: stamp, sensor, measurement, sign, text (which may have commas), x1 ... y4, then six numbers.
   void readQuads(const std::string& file) {
     std::ifstream in(file);
     std::string line;
@@ -149,7 +151,8 @@ class SignTruth {
     return area > 0 ? cv::intersectConvexConvex(of, in, both) / area : 0;
   }
 
-  // Most of what was found shows it, or it is most of that.
+  // The true sign in the image with which the detection overlaps most: it covers at least half of the detection, or the
+  // detection covers at least half of it.
   std::optional<std::size_t> signIn(base::Stamp stamp, const obs::ObservedDoorSign& sign) const {
     const auto at = quads_.find(stamp);
     if (at == quads_.end()) return std::nullopt;
@@ -173,7 +176,7 @@ class SignTruth {
     labelled.signs.clear();
     auto& all = found[read.timestamp];
     const auto base_from_camera = geometry::fromMrpt(read.sensorPose);
-    std::map<std::size_t, obs::ObservedDoorSign> of_sign;  // the surest of each
+    std::map<std::size_t, obs::ObservedDoorSign> of_sign;  // the detection of each sign that has the best score
     for (const auto& each : read.signs) {
       const auto number = signIn(read.timestamp, each);
       all.push_back({base_from_camera.translation, (base_from_camera.rotation * each.ray).normalized(), number});
@@ -197,7 +200,8 @@ class SignTruth {
     return labelled;
   }
 
-  // A poster has several texts, each at its own place: its number, and the line that tells most.
+  // A poster has several texts at different places. The result is its number with a text: the first line that has a
+  // digit, else the first line in alphabetical order.
   static std::string ofPoster(std::size_t poster, const obs::ObservedDoorSign& sign, double min_confidence) {
     std::string best;
     for (const auto& line : sign.texts) {

@@ -20,18 +20,18 @@
 
 namespace omnimapper::bench {
 
-/// A sign landmark as it was before any was merged: which true signs its measurements are of, and where they meet seen
-/// from where the camera truly was.
+/// A sign landmark before any landmarks were merged: the true signs of its measurements, and their rays from the true
+/// poses of the camera.
 struct WatchedSign {
   std::map<std::optional<std::size_t>, int> measurements;
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rays;  ///< in the world: from [m], direction
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rays;  ///< in the world: origin [m], direction
 
   int count() const {
     int all = 0;
     for (const auto& [sign, some] : measurements) all += some;
     return all;
   }
-  /// That most measurements are of.
+  /// The true sign that most of the measurements are of.
   std::optional<std::size_t> sign() const {
     std::optional<std::size_t> most;
     int best = -1;
@@ -43,8 +43,8 @@ struct WatchedSign {
     return most;
   }
   int wrong() const { return measurements.empty() ? 0 : count() - measurements.at(sign()); }
-  /// [m] Where the sines of the angles to all rays are least: a mere intersection of rays that are nearly parallel
-  /// would come out too near.
+  /// The point [m] for which the sum of the squared sines of the angles to all rays is least. Minimizing the distances
+  /// to the rays instead would give a point that is too near if they are nearly parallel.
   Eigen::Vector3d place() const {
     constexpr int kRounds = 20;
     constexpr double kDamping = 1e-9;
@@ -53,11 +53,11 @@ struct WatchedSign {
       Eigen::Matrix3d information = kDamping * Eigen::Matrix3d::Identity();
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const auto& [from, direction] : rays) {
-        const Eigen::Vector3d seen = round == 0 ? from : Eigen::Vector3d(point - from);
-        const double range = round == 0 ? 1 : std::max(0.2, seen.norm());
+        const Eigen::Vector3d offset = round == 0 ? from : Eigen::Vector3d(point - from);
+        const double range = round == 0 ? 1 : std::max(0.2, offset.norm());
         Eigen::Matrix3d by_point = Eigen::Matrix3d::Identity() - direction * direction.transpose();
-        const Eigen::Vector3d aside = by_point * seen / range;
-        if (round > 0) by_point = (by_point - aside * seen.transpose() / range).eval() / range;
+        const Eigen::Vector3d aside = by_point * offset / range;
+        if (round > 0) by_point = (by_point - aside * offset.transpose() / range).eval() / range;
         information += by_point.transpose() * by_point;
         sum += by_point.transpose() * aside;
       }
@@ -68,13 +68,13 @@ struct WatchedSign {
   }
 };
 
-/// What a bench looks at while a log is mapped.
+/// Records hypotheses and merges of sign landmarks while a log is mapped.
 struct SignWatch {
   struct Pair {
     base::LandmarkId from, into;
     base::Stamp stamp;
     bool accepted = false;
-    bool is_right = false;  ///< both are truly one
+    bool is_right = false;  ///< both landmarks are the same sign in truth
     std::string reason;
   };
   explicit SignWatch(const SignTruth& known) : truth(&known) {}
@@ -83,11 +83,11 @@ struct SignWatch {
   std::map<base::LandmarkId, WatchedSign> signs;
   std::map<base::LandmarkId, std::string> titles;
   std::map<base::FactorId, Pair> hypotheses;
-  std::vector<Pair> merges;                           ///< of landmarks that are one in the end
-  std::set<base::LandmarkId> repeated;                ///< of texts that nothing is proposed of any more
-  std::map<base::LandmarkId, base::LandmarkId> kept;  ///< what each is in the end
-  std::optional<Eigen::Vector2d> pan_tilt;            ///< [rad] that was estimated of the camera's offsets
-  eval::Trajectory online;                            ///< of the newest pose, from the first one
+  std::vector<Pair> merges;             ///< pairs of landmarks that were merged in the end
+  std::set<base::LandmarkId> repeated;  ///< landmarks with texts for which no hypotheses are proposed any more
+  std::map<base::LandmarkId, base::LandmarkId> kept;  ///< the landmark that each became in the end
+  std::optional<Eigen::Vector2d> pan_tilt;            ///< [rad] estimated offsets of the camera
+  eval::Trajectory online;                            ///< the newest pose, relative to the first one, at each key frame
 
   void look(const mapper::View& view) {
     const auto& factors = view.graph.factors();
@@ -123,15 +123,15 @@ struct SignWatch {
       if (landmark.state == map::Landmark::State::merged)
         merges.push_back({landmark.merged_into, id, landmark.last_seen, true, false, "merged"});
     }
-    for (auto& [id, pair] : hypotheses) pair.is_right = areOne(pair.from, pair.into);
-    for (auto& pair : merges) pair.is_right = areOne(pair.from, pair.into);
+    for (auto& [id, pair] : hypotheses) pair.is_right = areSameSign(pair.from, pair.into);
+    for (auto& pair : merges) pair.is_right = areSameSign(pair.from, pair.into);
   }
 
-  bool areOne(base::LandmarkId a, base::LandmarkId b) const {
-    constexpr double kOfOneThing = 0.5;  // [m]
+  bool areSameSign(base::LandmarkId a, base::LandmarkId b) const {
+    constexpr double kSamePlace = 0.5;  // [m]
     const auto &first = signs.at(a), &second = signs.at(b);
     if (first.sign() && second.sign()) return first.sign() == second.sign();
-    return (first.place() - second.place()).norm() < kOfOneThing;
+    return (first.place() - second.place()).norm() < kSamePlace;
   }
 
   std::string nameOf(base::LandmarkId id) const {
@@ -178,7 +178,7 @@ struct SignWatch {
   std::map<base::VariableId, base::Stamp> stamps_;
 };
 
-/// Shows a run to `watch`, which must be there while it goes on.
+/// Output plugin that passes a run to `watch`, which must exist until the run has ended.
 class SignWatchOutput : public mapper::OutputPlugin {
  public:
   inline static SignWatch* watch = nullptr;
@@ -195,7 +195,7 @@ class SignWatchOutputFactory : public mapper::OutputPluginFactory {
   DEFINE_MRPT_OBJECT(SignWatchOutputFactory, omnimapper::bench)
  public:
   std::string name() const override { return "SignWatchOutput"; }
-  std::string summary() const override { return "Shows a bench which signs are taken for one."; }
+  std::string summary() const override { return "Records for a benchmark which signs the mapper associates."; }
   const std::vector<base::OptionSpec>& options() const override {
     static const std::vector<base::OptionSpec> none;
     return none;

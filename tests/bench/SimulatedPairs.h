@@ -9,21 +9,21 @@
 
 namespace omnimapper::bench {
 
-/// A unit vector that points anywhere, each direction as likely.
+/// A random unit vector; all directions are equally likely.
 inline Eigen::Vector3d anyDirection(sim::Random& random) {
   const double x = random.gaussian(), y = random.gaussian();
   return Eigen::Vector3d(x, y, random.gaussian()).normalized();
 }
 
-/// 2 to 3 cm and 1 to 2 deg, each in any direction.
+/// A random motion of 2 to 3 cm and 1 to 2 deg, both in random directions.
 inline geometry::Se3 smallMotion(sim::Random& random) {
-  const Eigen::Vector3d way = random.uniform(0.02, 0.03) * anyDirection(random);
+  const Eigen::Vector3d translation = random.uniform(0.02, 0.03) * anyDirection(random);
   const double angle = random.uniform(1, 2) * M_PI / 180;
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, anyDirection(random))), way};
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, anyDirection(random))), translation};
 }
 
-/// Adds two images by the first camera of a simulated place of this seed: from a moment of the way through it, and from
-/// a small motion farther. Nothing moves while they are taken. The place differs from seed to seed.
+/// Adds two images of the first camera in a simulated place of this seed: one from a random pose of the drive, one
+/// after a small motion from there. The camera does not move during an exposure. Each seed gives another place.
 inline void addSimulatedPair(base::Config config, std::uint64_t seed, PosedFrames& posed) {
   config.set("simulation.seed=" + std::to_string(seed));
   config.set("world.seed=" + std::to_string(seed));
@@ -48,7 +48,7 @@ inline void addSimulatedPair(base::Config config, std::uint64_t seed, PosedFrame
   }
 }
 
-/// Images 2 i and 2 i + 1 are a pair, of seed i + 1, with exact poses.
+/// Pairs of images with exact poses: images 2 i and 2 i + 1 are the pair of seed i + 1.
 inline PosedFrames simulatedPairs(const std::string& ini, int pairs) {
   const auto config = base::Config::fromFile(ini);
   PosedFrames posed;

@@ -15,7 +15,7 @@
 
 namespace omnimapper::bench {
 
-/// A folder that omnimapper-simulate made.
+/// A folder that omnimapper-simulate wrote.
 struct SimulatedPlace {
   std::string folder;
 
@@ -25,11 +25,11 @@ struct SimulatedPlace {
 
 struct SimulatedRun {
   mapper::SavedMap saved;
-  eval::Statistics error;  ///< [m] of the trajectory, best yaw and offset
+  eval::Statistics error;  ///< [m] of the trajectory after the best alignment by yaw and offset
   nlohmann::json summary;
 };
 
-/// Maps the log into the folder `out`. `settings`: section.key=value.
+/// Maps the log into the folder `out`. `settings` are of the form section.key=value.
 inline SimulatedRun mapSimulated(const SimulatedPlace& place, const std::string& ini,
                                  const std::vector<std::string>& settings, const std::string& out, int threads) {
   auto config = base::Config::fromFile(ini);

@@ -8,14 +8,14 @@
 
 namespace omnimapper::bench {
 
-/// Time of the processor that this thread has used [ms].
+/// Processor time that this thread has used [ms].
 inline double processorTime() {
   timespec t;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-/// 0 of no values.
+/// Quantile q of the values; 0 if there are none.
 inline double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
@@ -27,7 +27,7 @@ struct Spread {
   double mean = 0, deviation = 0;
 };
 
-/// Of no values 0; the standard deviation of one is 0.
+/// Mean and standard deviation; 0 if there are no values. The standard deviation of one value is 0.
 inline Spread spreadOf(const std::vector<double>& values) {
   Spread spread;
   const auto count = static_cast<double>(std::max<std::size_t>(1, values.size()));

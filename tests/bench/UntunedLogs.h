@@ -1,7 +1,7 @@
 #pragma once
 
-// Every 2D laser log at hand in variants that nobody tuned for: what bench-robustness maps, and a few of them the
-// tests.
+// All available 2D laser logs, in variants for which nothing was tuned. bench-robustness maps all of them, the tests a
+// few.
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
@@ -25,16 +25,16 @@ namespace untuned {
 using omnimapper::testing::LogVariant;
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
-constexpr double kWrong = 1;  ///< [m] of absolute trajectory error, from which on a map is wrong
+constexpr double kWrong = 1;  ///< [m] absolute trajectory error above which a map is wrong
 
 struct Log {
   std::string name, path, reference;
-  bool is_thin = false;  ///< scans 0.5 to 1 m apart already
+  bool is_thin = false;  ///< its scans are already 0.5 to 1 m apart
 };
 
-/// That of this name: a recording, or one of MRPT's simulated logs. Judged by the simulator's truth, by another
-/// mapper's corrected poses, or, where there is neither (ual, driving_in_office, malaga), by the map that we made of
-/// the unchanged log, which was looked at and is kept in tests/bench/references. None if it is not on this machine.
+/// The log of this name: a recording, or one of MRPT's simulated logs. Its reference is the simulator's truth, the
+/// corrected poses of another mapper, or, if there is neither (ual, driving_in_office, malaga), our own map of the
+/// unchanged log, which was inspected and is kept in tests/bench/references. None if the log is not on this machine.
 inline std::optional<Log> logNamed(const std::string& name) {
   namespace tests = omnimapper::testing;
   const auto is_one_of = [&](const std::vector<std::string>& names) {
@@ -57,7 +57,7 @@ inline std::optional<Log> logNamed(const std::string& name) {
   return Log{name, *path, *reference, is_one_of({"fhw", "belgioioso"})};
 }
 
-/// Those with a stamp, in its order.
+/// The observations of a log that have a stamp, in the order of stamps.
 inline Observations read(const Log& log) {
   namespace source = omnimapper::source;
   std::unique_ptr<source::ObservationSource> in;
@@ -74,7 +74,7 @@ inline Observations read(const Log& log) {
   return all;
 }
 
-/// Made by the simulator in the folder `out` once: laser and wheels alone.
+/// A log of laser and wheels only, which the simulator writes into the folder `out` unless it is there already.
 inline std::optional<Log> simulated(const std::string& name, const std::string& out) {
   const std::string folder = out + "/simulated/" + name;
   Log log{"simulated " + name, folder + "/" + name + ".rawlog", folder + "/truth.tum"};
@@ -84,11 +84,11 @@ inline std::optional<Log> simulated(const std::string& name, const std::string& 
                                                       "--set", "simulation.sensors=laser, odometry", "-o", folder},
                                                      {600, 0});
   if (ended.code == 0) return log;
-  std::fprintf(stderr, "%s was not simulated: %s\n", name.c_str(), omnimapper::testing::toString(ended).c_str());
+  std::fprintf(stderr, "%s could not be simulated: %s\n", name.c_str(), omnimapper::testing::toString(ended).c_str());
   return std::nullopt;
 }
 
-/// The recordings that are on this machine, and the simulated places, which are kept in `out`.
+/// The recordings that are on this machine, and the simulated logs, which are kept in `out`.
 inline std::vector<Log> logsAtHand(const std::string& out) {
   std::vector<Log> logs;
   for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso", "ual", "driving_in_office",
@@ -111,7 +111,7 @@ inline void writeVariant(const Observations& log, LogVariant variant, const std:
   });
 }
 
-/// Where the robot was in the variant.
+/// The reference trajectory of a variant of the log.
 inline omnimapper::eval::Trajectory truthOf(const Log& log, const Observations& observations, LogVariant variant) {
   auto truth = omnimapper::eval::readTrajectory(log.reference);
   if (variant == LogVariant::reversed) {
@@ -121,7 +121,7 @@ inline omnimapper::eval::Trajectory truthOf(const Log& log, const Observations& 
   return truth;
 }
 
-/// A reference is sparse and ours is dense: ours is asked where it was at the reference's stamps.
+/// Our trajectory is interpolated at the stamps of the reference, since the reference is sparse and ours is dense.
 inline omnimapper::eval::PairingOptions pairing() {
   omnimapper::eval::PairingOptions options;
   options.alignment = omnimapper::eval::Alignment::yaw;
@@ -129,7 +129,7 @@ inline omnimapper::eval::PairingOptions pairing() {
   return options;
 }
 
-/// [m], root mean square after the best rigid alignment.
+/// Root mean square error [m] after the best rigid alignment.
 inline double errorOf(const omnimapper::eval::Trajectory& trajectory, const omnimapper::eval::Trajectory& truth) {
   return omnimapper::eval::absoluteTrajectoryError(truth, trajectory, pairing()).translation.rmse;
 }

@@ -10,7 +10,7 @@
 
 namespace omnimapper::bench {
 
-/// Every pixel with a depth, row by row, as a binary PCD of x y z in the optical frame [m].
+/// Writes every pixel that has a depth, row by row, as a binary PCD of x y z [m] in the optical frame.
 inline void writePcd(const std::string& path, const RgbdFrame& frame) {
   std::vector<Eigen::Vector3f> points;
   const auto& c = frame.camera;
@@ -31,9 +31,9 @@ inline void writePcd(const std::string& path, const RgbdFrame& frame) {
   });
 }
 
-/// For programs outside the project, of each pair whose truth is known: <pair>_first.pcd, <pair>_second.pcd, and
-/// first_from_second in truth.tum, whose stamps are the numbers of the pairs. Images i - 1 and i are a pair, for i from
-/// 1 on in steps of `step`.
+/// Writes the pairs for programs outside the project. Each pair whose true motion is known has <pair>_first.pcd,
+/// <pair>_second.pcd, and first_from_second in truth.tum at a stamp that is the number of the pair. Images i - 1 and i
+/// are a pair, for i = 1, 1 + `step`, ...
 inline void writePairs(const std::string& folder, const PosedFrames& posed, std::size_t step) {
   std::filesystem::create_directories(folder);
   eval::Trajectory truth;

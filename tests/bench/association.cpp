@@ -1,6 +1,6 @@
-// How many lines of a laser are matched with the wrong landmark, nearest neighbour against joint compatibility: a
-// simulated log, whose truth tells which surface each beam met, is mapped with both. A landmark is the surface that
-// most of its lines lie on; a line that lies on one of another plane is matched wrong. Prints a Markdown table.
+// How many lines of a laser are matched with the wrong landmark, by nearest neighbour and by joint compatibility. A
+// simulated log, whose truth has the surface that each beam hit, is mapped with both. A landmark stands for the surface
+// that most of its lines lie on; a line on a surface of another plane is a wrong match. Prints a Markdown table.
 //
 // Example: bench-association -i ini/home_planes.ini --simulated out/home -o out/association
 #include <omnimapper/geometry/Conversions.h>
@@ -36,10 +36,10 @@ struct Setup {
 
 struct Outcome {
   std::size_t key_frames = 0, landmarks = 0, matches = 0, wrong = 0;
-  double ate = 0, milliseconds = 0;  // of the plugin, for a key frame
+  double ate = 0, milliseconds = 0;  // [m], and [ms] of the plugin per key frame
 };
 
-/// What the simulator tells of the laser: the surface of each beam of a scan, and the planes of surfaces.
+/// The simulator's truth for the laser: the surface that each beam of a scan hit, and the planes of the surfaces.
 class Truth {
  public:
   explicit Truth(const std::string& folder) {
@@ -59,8 +59,8 @@ class Truth {
       scans_[key(scan["stamp"].get<double>())] = std::move(beams);
     }
   }
-  /// The one that most beams of a line met; 0 if fewer than four of five lie on its plane: a line over two surfaces,
-  /// such as a door and its edge, is of neither.
+  /// The surface that most beams of a line hit; 0 if fewer than four of five lie on its plane, since a line over two
+  /// surfaces, such as a door and its edge, belongs to neither.
   int surfaceOf(base::Stamp stamp, const obs::LaserLine& line) const {
     const auto& beams = scans_.at(key(base::unixSeconds(stamp)));
     std::map<int, int> counts;
@@ -86,14 +86,14 @@ class Truth {
   }
 
  private:
-  // A double of Unix time is good to a microsecond.
+  // Stamps are compared in steps of 0.1 ms, because a double of Unix time is only accurate to a microsecond.
   static std::int64_t key(double unix_seconds) { return std::llround(unix_seconds * 1e4); }
 
   std::map<int, geometry::Plane3> planes_;
   std::map<std::int64_t, std::vector<int>> scans_;
 };
 
-// Of a line's factor: direction and middle in the base.
+// The middle of a line in the base, read from its factor, which holds its direction and middle.
 Eigen::Vector3d middleOf(const graph::Factor& factor) {
   std::stringstream bytes;
   factor.write(bytes);
@@ -119,7 +119,7 @@ const obs::LaserLine* lineOf(const map::KeyFrame& frame, const Eigen::Vector3d& 
 Outcome judge(const Setup& setup, const mapper::SavedMap& saved, const Truth& truth) {
   std::map<base::VariableId, const map::KeyFrame*> frames;
   for (const auto& frame : saved.map.key_frames) frames[frame.pose] = &frame;
-  std::map<base::LandmarkId, std::map<int, int>> surfaces;  // of the lines of each landmark
+  std::map<base::LandmarkId, std::map<int, int>> surfaces;  // number of lines on each surface, by landmark
   for (const auto& [id, record] : saved.graph.factors()) {
     if (record.tags.owner != setup.section || record.factor->kind() != "line_on_plane") continue;
     const map::KeyFrame& frame = *frames.at(record.variables[0]);
@@ -137,7 +137,7 @@ Outcome judge(const Setup& setup, const mapper::SavedMap& saved, const Truth& tr
       if (truth.areOnePlane(own, surface)) continue;
       outcome.wrong += static_cast<std::size_t>(count);
       if (setup.list)
-        std::printf("landmark %u: %d lines of surface %d, %d of its own, %d\n", id.index, count, surface,
+        std::printf("landmark %u: %d lines of surface %d, but %d of its own surface %d\n", id.index, count, surface,
                     counts.at(own), own);
     }
   }
@@ -159,13 +159,13 @@ Outcome run(const Setup& setup, const std::string& method, const Truth& truth) {
 
 int main(int argc, char** argv) {
   Setup setup;
-  CLI::App app("Wrong matches of nearest neighbour and joint compatibility, by the truth.");
+  CLI::App app("Counts wrong matches of nearest neighbour and joint compatibility, by the truth of a simulated log.");
   app.add_option("-i,--ini", setup.ini)->required();
-  app.add_option("--simulated", setup.place.folder, "folder that omnimapper-simulate made")->required();
+  app.add_option("--simulated", setup.place.folder, "folder that omnimapper-simulate wrote")->required();
   app.add_option("-o,--output", setup.out)->required();
-  app.add_option("--section", setup.section, "of the plugin; default plane_landmarks");
+  app.add_option("--section", setup.section, "section of the plugin; default plane_landmarks");
   app.add_option("--threads", setup.threads);
-  app.add_flag("--list", setup.list, "each landmark with lines of two surfaces, before the table");
+  app.add_flag("--list", setup.list, "before the table, list each landmark that has lines of two surfaces");
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
   testing::registerPlugins();

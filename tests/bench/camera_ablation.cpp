@@ -1,9 +1,9 @@
-// What a map of a hand-held depth camera is made from: every log is mapped by ini/rgbd_handheld.ini and by variants of
-// it, which take other sources (depth, brightness, clouds of edges, voxels or all points), other methods of
-// registration, links of key frames or none, and planes as landmarks or none. Prints a Markdown table and writes it
-// with a plot and a CSV.
+// How the parts of the mapping of a hand-held depth camera contribute: every log is mapped by ini/rgbd_handheld.ini and
+// by variants of it. These differ in the source (depth, brightness, clouds of edges, voxels or all points), in the
+// method of registration, and in whether key frames are linked and planes are landmarks. Prints a Markdown table, and
+// writes it with a plot and a CSV.
 //
-// A log is a rawlog with its true trajectory, or a place that is simulated. doc/results/registration.md has the table.
+// A log is a rawlog with its true trajectory, or a simulated place. doc/results/registration.md shows the table.
 //
 // Example: bench-camera_ablation --log fr1_rpy=rpy.rawlog,rpy.truth.tum -o out/ablation
 #include <omnimapper/base/Error.h>
@@ -42,8 +42,8 @@ constexpr const char* kExample =
     "    --simulate home=rawlogs/home_handheld.ini -o out/ablation";
 
 constexpr const char* kNotes =
-    "ATE and largest error after the best rigid alignment; drift: root mean square over 10 m of way, over 1 s of a way "
-    "of less than 20 m, over 2 m of one whose images are more than 0.2 s apart; processor: the whole run with the "
+    "ATE and largest error after the best rigid alignment; drift: root mean square over 10 m travelled, or, of logs of "
+    "less than 20 m, over 1 s, or over 2 m if images are more than 0.2 s apart; processor: the whole run with the "
     "trajectory as its only output.";
 
 AblationVariant visual(const std::string& key, const std::string& title, std::vector<std::string> settings = {}) {
@@ -67,7 +67,7 @@ AblationVariant withPlanes(AblationVariant variant, const std::string& measureme
   return variant;
 }
 
-// The first is the default, which the plot holds the others against.
+// The first variant is the default, with which the plot compares the others.
 std::vector<AblationVariant> allVariants() {
   return {visual("default", "depth and brightness (default)"),
           visual("no_links", "without links of key frames", {"mapper.measurement_plugins="}),
@@ -85,7 +85,7 @@ std::vector<AblationVariant> allVariants() {
 }
 
 struct Log {
-  std::string name, rawlog, truth, more_ini;  // more_ini: laid over the INI of all; may be empty
+  std::string name, rawlog, truth, more_ini;  // more_ini: overrides settings of the common INI; may be empty
 };
 
 struct Arguments {
@@ -95,7 +95,7 @@ struct Arguments {
   bool redraw = false;
 };
 
-// "NAME=A,B,..." as NAME, A, B, ...
+// Splits "NAME=A,B,..." into NAME, A, B, ...
 std::vector<std::string> partsOf(const std::string& option, const std::string& text, std::size_t least,
                                  std::size_t most) {
   const std::size_t equals = text.find('=');
@@ -107,7 +107,7 @@ std::vector<std::string> partsOf(const std::string& option, const std::string& t
   const bool is_named = !parts[0].empty() && parts[0].find_first_of(",/") == std::string::npos;
   if (!is_named || parts.size() < least || parts.size() > most) {
     throw base::Error(base::ExitCode::command_line,
-                      option + " " + text + ": not of the form that --help gives for " + option);
+                      option + " " + text + ": does not have the form that --help gives for " + option);
   }
   return parts;
 }
@@ -116,7 +116,7 @@ Log recordedLog(const std::string& text) {
   const auto parts = partsOf("--log", text, 3, 4);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (!fs::exists(parts[i]))
-      throw base::Error(base::ExitCode::unreadable_input, "--log " + text + ": there is no " + parts[i]);
+      throw base::Error(base::ExitCode::unreadable_input, "--log " + text + ": there is no file " + parts[i]);
   }
   return {parts[0], parts[1], parts[2], parts.size() > 3 ? parts[3] : ""};
 }
@@ -159,7 +159,8 @@ std::vector<AblationVariant> chosenVariants(const std::vector<std::string>& keys
   return chosen;
 }
 
-// Over 10 m where the way holds two of these, else over 1 s, and over 2 m where images are too rare for that.
+// The span for the drift: 10 m if the trajectory has at least 20 m, else 1 s, or 2 m if images are more than 0.2 s
+// apart.
 eval::Delta spanOf(const eval::Trajectory& truth) {
   if (eval::distanceTravelled(truth).back() >= 20) return {10, eval::DeltaUnit::metres};
   const double seconds = base::secondsBetween(truth.front().stamp, truth.back().stamp);
@@ -167,7 +168,7 @@ eval::Delta spanOf(const eval::Trajectory& truth) {
   return {2, eval::DeltaUnit::metres};
 }
 
-// Of this process and those that it has waited for [s]: logs are read by a process of their own, too.
+// Processor time [s] of this process and of the child processes that have ended, since a log is also read by a child.
 double processorSeconds() {
   double seconds = 0;
   for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -179,7 +180,8 @@ double processorSeconds() {
   return seconds;
 }
 
-/// One run's line on a terminal, with the share of all runs that is done; the line goes with this object.
+/// Shows the progress of one run as a line on the terminal, with the share of all runs that is done. The destructor
+/// removes the line.
 class RunProgress : public base::Progress {
  public:
   RunProgress(std::size_t run, std::size_t runs, std::string name)
@@ -201,12 +203,12 @@ void judge(AblationRun& run, const std::string& folder, const Log& log) {
   const auto error = eval::absoluteTrajectoryError(estimate, truth, pairing).translation;
   run.ate = error.rmse;
   run.largest = error.max;
-  run.way = eval::distanceTravelled(truth).back();
+  run.travel = eval::distanceTravelled(truth).back();
   run.span = spanOf(truth);
   try {
     run.drift = eval::relativePoseError(estimate, truth, pairing, run.span).translation.rmse;
   } catch (const base::Error&) {
-    // No two poses are a span apart.
+    // No two poses are a span apart, so the drift stays NaN.
   }
 }
 
@@ -288,7 +290,7 @@ void runAll(const Arguments& arguments) {
       runs.push_back(
           mapAndJudge(log, variant, arguments, RunProgress(runs.size(), logs.size() * variants.size(), name)));
       print(runs.back());
-      // After each run, so that one that is broken off leaves what it had.
+      // Written after each run, so that an aborted benchmark leaves the results that it had.
       writeAll(arguments.out, runs);
     }
   }
@@ -303,19 +305,21 @@ int main(int argc, char** argv) {
   app.footer(kExample);
   std::vector<std::string> keys;
   for (const auto& variant : allVariants()) keys.push_back(variant.key);
-  app.add_option("--log", arguments.logs,
-                 "NAME=RAWLOG,TRUTH[,INI]: a log, its true trajectory, and what is laid over the INI for it, such as "
-                 "tests/bench/global_shutters.ini; may come again");
+  app.add_option(
+      "--log", arguments.logs,
+      "NAME=RAWLOG,TRUTH[,INI]: a log, its true trajectory, and an INI that overrides settings for it, such as "
+      "tests/bench/global_shutters.ini; may be repeated");
   app.add_option("--simulate", arguments.simulated,
-                 "NAME=INI[,SEED]: a place that is simulated, with global shutters; a log that the output "
-                 "folder holds is used again, so remove FOLDER/simulated when the simulator changed; may come again");
+                 "NAME=INI[,SEED]: a place to simulate, with global shutters; a log that is in the output folder "
+                 "already is used again, so remove FOLDER/simulated when the simulator changed; may be repeated");
   app.add_option("-o,--output", arguments.out, "folder for maps, ablation.md, ablation.svg and ablation.csv")
       ->required();
-  app.add_option("-i,--ini", arguments.ini, "what the variants are of (ini/rgbd_handheld.ini)")
+  app.add_option("-i,--ini", arguments.ini, "INI from which the variants are made (ini/rgbd_handheld.ini)")
       ->check(CLI::ExistingFile);
-  app.add_option("--variants", arguments.variants, "only these")->delimiter(',')->check(CLI::IsMember(keys));
-  app.add_option("--threads", arguments.threads, "the errors do not depend on it (1)")->check(CLI::PositiveNumber);
-  app.add_flag("--redraw", arguments.redraw, "map nothing: table and plot of the folder's ablation.csv");
+  app.add_option("--variants", arguments.variants, "only these variants")->delimiter(',')->check(CLI::IsMember(keys));
+  app.add_option("--threads", arguments.threads, "worker threads; the errors do not depend on it (1)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--redraw", arguments.redraw, "map nothing, only make table and plot from the folder's ablation.csv");
   CLI11_PARSE(app, argc, argv);
   try {
     tests::registerPlugins();

@@ -1,4 +1,4 @@
-// Processor time of simulated camera frames, and pictures of them to look at.
+// Measures the processor time of simulated camera frames, and writes pictures of them for inspection.
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -17,23 +17,23 @@ namespace {
 using namespace omnimapper;
 
 const char* kSensors = R"([kinect]
-class = DepthCamera
+class = RgbdCamera
 labels = true
 [xtion]
-class = DepthCamera
+class = RgbdCamera
 model = xtion
 [stereo]
-class = DepthCamera
+class = RgbdCamera
 model = stereo
 [ideal]
-class = DepthCamera
+class = RgbdCamera
 model = ideal
 [picture]
 class = ColourCamera
 pan_sweep_deg = 30
 )";
 
-// Blue is near, red far, black nothing.
+// Colours by depth: blue is near, red is far, black has no depth.
 mrpt::img::CImage coloured(const mrpt::obs::CObservation3DRangeScan& scan) {
   const int width = static_cast<int>(scan.rangeImage.cols()), height = static_cast<int>(scan.rangeImage.rows());
   mrpt::img::CImage image(width, height, mrpt::img::CH_RGB);

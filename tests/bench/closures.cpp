@@ -1,9 +1,9 @@
-// How many of a map's loop closures are right, by a reference trajectory: precision and recall as Markdown.
+// How many of a map's loop closures are right, by a reference trajectory. Prints precision and recall as Markdown.
 //
-// A closure is right if what it measures is within 0.25 m and 3 deg of the reference's motion between the reference
-// poses nearest in time, composed with the map's own motion from there to the key frames, which lie a few metres apart.
-// A key frame could have closed a loop if the reference has been within 2 m and 45 deg of its place 8 m of way before;
-// the recall is the share of those from which an accepted closure leads back.
+// A closure is right if its measurement is within 0.25 m and 3 deg of the reference's motion. That is the motion
+// between the reference poses that are nearest in time, composed with the map's own motion from there to the key frames
+// (at most 3 m). A key frame could have closed a loop if the reference was within 2 m and 45 deg of its pose at least 8
+// m of travel before. The recall is the share of these key frames that have an accepted closure to an earlier one.
 //
 // Example: omnimapper-graphslam -i ini/laser2d.ini -r aces.rawlog -o out/aces
 //          bench-closures --map out/aces --reference aces.reference.tum --list
@@ -24,14 +24,14 @@ namespace {
 using namespace omnimapper;
 using geometry::Se3;
 
-constexpr double kRightDistance = 0.25, kRightAngle = 3 * geometry::kPi / 180;  // [m] [rad]
-constexpr double kNearDistance = 2, kNearAngle = geometry::kPi / 4, kNearWay = 8;
+constexpr double kRightDistance = 0.25, kRightAngle = 3 * geometry::kPi / 180;       // [m] [rad]
+constexpr double kNearDistance = 2, kNearAngle = geometry::kPi / 4, kMinTravel = 8;  // [m] [rad] [m]
 
 double turnOf(const Se3& motion) {
   return std::abs(geometry::project(motion).yaw);
 }
 
-// Where the reference has the base at the stamp of a key frame.
+// Poses of the base at the stamps of key frames, by the reference.
 class Reference {
  public:
   Reference(const std::string& path, const eval::Trajectory& mapped) : poses_(eval::readTum(path)), mapped_(mapped) {}
@@ -43,7 +43,7 @@ class Reference {
                own_near = eval::interpolatedPose(mapped_, poses_[*near].stamp, base::durationFromSeconds(5));
     if (!own || !own_near) return std::nullopt;
     const Se3 near_from_here = inverse(*own_near) * *own;
-    constexpr double kLocal = 3;  // [m] that the map's own motion is trusted for
+    constexpr double kLocal = 3;  // [m] largest motion of the map that is trusted
     if (near_from_here.translation.norm() > kLocal) return std::nullopt;
     return poses_[*near].world_from_body * near_from_here;
   }
@@ -69,10 +69,10 @@ void print(const graph::FactorRecord& record, const map::KeyFrame& a, const map:
 int main(int argc, char** argv) {
   std::string folder, reference_path;
   bool list = false;
-  CLI::App app{"Precision and recall of a map's loop closures"};
+  CLI::App app{"Prints precision and recall of a map's loop closures."};
   app.add_option("--map", folder, "folder of the map")->required();
-  app.add_option("--reference", reference_path, "trajectory to judge by, TUM")->required();
-  app.add_flag("--list", list, "every closure that is wrong, and every right one that was refused");
+  app.add_option("--reference", reference_path, "reference trajectory, TUM format")->required();
+  app.add_flag("--list", list, "list every wrong closure that was accepted and every right one that was refused");
   CLI11_PARSE(app, argc, argv);
 
   testing::registerPlugins();
@@ -102,21 +102,21 @@ int main(int argc, char** argv) {
   }
 
   int could = 0, did = 0;
-  std::vector<std::pair<double, Se3>> seen;  // way, place
-  double way = 0;
+  std::vector<std::pair<double, Se3>> visited;  // distance travelled [m], pose
+  double travel = 0;
   const map::KeyFrame* before = nullptr;
   for (const auto& frame : saved.map.key_frames) {
-    if (before) way += (frame.map_from_base - before->map_from_base).translation().norm();
+    if (before) travel += (frame.map_from_base - before->map_from_base).translation().norm();
     before = &frame;
     const auto here = reference.at(frame.stamp);
     if (!here) continue;
     bool near = false;
-    for (const auto& [then, place] : seen) {
-      if (way - then < kNearWay) break;
-      const Se3 apart = inverse(place) * *here;
-      near = near || (apart.translation.norm() < kNearDistance && turnOf(apart) < kNearAngle);
+    for (const auto& [then, place] : visited) {
+      if (travel - then < kMinTravel) break;
+      const Se3 motion = inverse(place) * *here;
+      near = near || (motion.translation.norm() < kNearDistance && turnOf(motion) < kNearAngle);
     }
-    seen.emplace_back(way, *here);
+    visited.emplace_back(travel, *here);
     could += near;
     did += near && closed.count(frame.id) > 0;
   }

@@ -1,10 +1,10 @@
-// Planes of clouds without order: ours and PCL's chain in one run, on recorded depth images as clouds (time) and on
-// simulated rooms with a Kinect's noise (time and agreement with the truth). Prints Markdown tables. PCL's rows are
-// there where bench-cloud_planes was built with it. Times are those of the processor, of one thread.
+// Planes in unorganized clouds by our finder and PCL's chain in one run: on recorded depth images as clouds (time) and
+// on simulated rooms with a Kinect's noise (time and agreement with the truth). Prints Markdown tables. PCL's rows
+// appear if bench-cloud_planes was built with PCL. Times are processor times of one thread.
 //
 // Example: bench-cloud_planes --depth tum_fr1_rpy/depth --every 30 --rooms 20
 #include <omnimapper/perception/CloudPlaneFinder.h>
-#include <omnimapper/perception/OrganisedPoints.h>
+#include <omnimapper/perception/OrganizedPoints.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -74,13 +74,13 @@ std::vector<Cloud> readClouds(const std::string& folder, int every, const percep
   std::vector<Cloud> clouds;
   for (std::size_t i = 0; i < files.size(); i += static_cast<std::size_t>(every)) {
     const cv::Mat png = cv::imread(files[i], cv::IMREAD_UNCHANGED);
-    if (png.type() != CV_16U) throw std::runtime_error(files[i] + " is no 16-bit depth image");
+    if (png.type() != CV_16U) throw std::runtime_error(files[i] + " is not a 16-bit depth image");
     clouds.push_back(cloudOf({png.ptr<std::uint16_t>(), 1.0 / 5000, png.cols, png.rows, camera}));
   }
   return clouds;
 }
 
-// What is not a number is nobody's.
+// The points that were measured: those that are not NaN.
 Cloud measured(const Cloud& cloud) {
   Cloud kept;
   for (const auto& p : cloud) {
@@ -164,12 +164,12 @@ int main(int argc, char** argv) {
   int every = 30, rooms = 20;
   double tolerance = 0.03;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
-  CLI::App app("Planes of clouds without order by ours and PCL's chain.");
+  CLI::App app("Compares planes in unorganized clouds by our finder and PCL's chain.");
   app.add_option("--depth", folder, "folder of 16-bit depth images (PNG), 5000 a metre");
-  app.add_option("--every", every, "only every n-th of them")->check(CLI::PositiveNumber);
+  app.add_option("--every", every, "use only every n-th image")->check(CLI::PositiveNumber);
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--rooms", rooms, "how many simulated rooms; 0 leaves them out");
-  app.add_option("--tolerance", tolerance, "[m] of PCL's planes");
+  app.add_option("--rooms", rooms, "number of simulated rooms; 0: none");
+  app.add_option("--tolerance", tolerance, "[m] distance tolerance of PCL's planes");
   CLI11_PARSE(app, argc, argv);
   if (!folder.empty()) printTimes(readClouds(folder, every, {camera[0], camera[1], camera[2], camera[3]}), tolerance);
   if (rooms > 0) printRooms(rooms, tolerance);

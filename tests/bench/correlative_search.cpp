@@ -1,5 +1,5 @@
-// The search that a loop closure makes: a scan that has a reference pose, in the map of the 20 such scans before it,
-// from a guess that is wrong by up to 70 % of the window. Prints a Markdown table.
+// Times the search that a loop closure makes: a scan with a reference pose is searched in the map of the 20 such scans
+// before it, from a guess that is off by up to 70 % of the window. Prints a Markdown table.
 //
 // Example: bench-correlative_search --logs ../shared/data/laser2d
 #include <omnimapper/matching/CorrelativeSearch.h>
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> names{"aces", "intel"};
   CLI::App app("Times the correlative search in local maps.");
   app.add_option("--logs", logs, "folder with NAME.clf.bz2 and NAME.reference.tum")->required();
-  app.add_option("--names", names, "of the logs");
+  app.add_option("--names", names, "names of the logs");
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "| log | cell [m] | half of the window | results | the best within 0.25 m, 3 deg | ms to make the grids: median, "

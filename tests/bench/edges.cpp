@@ -1,6 +1,6 @@
-// Edges of depth images and pictures: ours and its peers in one run, on recorded frames (time, and how far they agree
-// with PCL's) and on simulated ones (agreement with the truth). Prints Markdown tables. PCL's rows are there where
-// bench-edges was built with it. Times are those of the processor, of one thread.
+// Edges in depth and colour images by our detector and its peers in one run: on recorded frames (time, and agreement
+// with PCL's edges) and on simulated ones (agreement with the truth). Prints Markdown tables. PCL's rows appear if
+// bench-edges was built with PCL. Times are processor times of one thread.
 //
 // Example: bench-edges --tum tum_fr1_rpy --every 10 --ini rawlogs/home.ini --sensor kinect --frames 20
 #include <omnimapper/base/Memory.h>
@@ -24,7 +24,7 @@ using namespace omnimapper;
 using namespace omnimapper::bench;
 using perception::EdgeOptions;
 
-constexpr unsigned kJumps = perception::kBoundary | perception::kOccluding | perception::kOccluded;
+constexpr unsigned kDepthEdges = perception::kBoundary | perception::kOccluding | perception::kOccluded;
 
 using Labels = std::vector<std::uint8_t>;
 
@@ -59,10 +59,10 @@ EdgePeer openCvCanny() {
 std::vector<EdgePeer> methods() {
   EdgeOptions none;
   none.jumps = none.high_curvature = none.rgb = false;
-  EdgeOptions jumps = none, curvature = none, rgb = none;
-  jumps.jumps = curvature.high_curvature = rgb.rgb = true;
-  std::vector<EdgePeer> all{ours("ours: occluding, occluded, boundary", jumps, false, 0),
-                            ours("ours: the same, with points", jumps, false, kJumps),
+  EdgeOptions depth_edges = none, curvature = none, rgb = none;
+  depth_edges.jumps = curvature.high_curvature = rgb.rgb = true;
+  std::vector<EdgePeer> all{ours("ours: occluding, occluded, boundary", depth_edges, false, 0),
+                            ours("ours: the same, with points", depth_edges, false, kDepthEdges),
                             ours("ours: high curvature, with normals", curvature, false, 0),
                             ours("ours: RGB, with points", rgb, true, perception::kRgb),
                             ours("ours: all five, with normals", EdgeOptions(), true, 0),
@@ -71,7 +71,8 @@ std::vector<EdgePeer> methods() {
   return all;
 }
 
-// Of the pixels of `one` with a kind, the part within `reach` pixels of one of `other` with it; both may be summed.
+// Share of the pixels of one label image with a kind of edge that are near a pixel of the other image with that kind.
+// Counts may be summed over images.
 struct Share {
   double near = 0, all = 0;
   double value() const { return all > 0 ? near / all : 0; }
@@ -93,13 +94,13 @@ void add(const Labels& one, const Labels& other, unsigned kind, int width, int r
   share.near += cv::countNonZero(mask & wide);
 }
 
-// High curvature where nobody knows whether there is any is not counted.
+// Removes high-curvature labels near pixels for which the truth is undetermined, so that they are not counted.
 Labels judged(Labels labels, const Labels& truth, int width, int reach) {
-  cv::Mat untold;
-  cv::dilate(masked(truth, kUntold, width), untold,
+  cv::Mat undetermined;
+  cv::dilate(masked(truth, kUndetermined, width), undetermined,
              cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (untold.data[i] != 0) labels[i] &= static_cast<std::uint8_t>(~perception::kHighCurvature);
+    if (undetermined.data[i] != 0) labels[i] &= static_cast<std::uint8_t>(~perception::kHighCurvature);
   }
   return labels;
 }
@@ -131,8 +132,8 @@ void printAgreement(const std::vector<RgbdFrame>& frames, int reach) {
   const auto ours_all = ours("", EdgeOptions(), true, 0), canny = openCvCanny();
   const auto pcl = pclEdgesOfAllKinds();
   std::printf(
-      "\nWithin %d px of the other's edges of the same kind\n\n| kind | peer | ours, by the peer | the peer's, by ours "
-      "| pixels of ours | of the peer's |\n|---|---|---|---|---|---|\n",
+      "\nShares within %d px of the other's edges of the same kind\n\n| kind | peer | share of ours near the peer's | "
+      "share of the peer's near ours | pixels of ours | of the peer's |\n|---|---|---|---|---|---|\n",
       reach);
   const auto print = [&](perception::EdgeKind kind, const EdgePeer& peer) {
     Share of_ours, of_peer;
@@ -141,7 +142,7 @@ void printAgreement(const std::vector<RgbdFrame>& frames, int reach) {
       peer.take(frame);
       const Labels a = ours_all.run();
       Labels b = peer.run();
-      // Where there is no depth, ours tells nothing.
+      // Our detector reports no edges where there is no depth.
       for (std::size_t i = 0; i < b.size() && kind == perception::kRgb; ++i) b[i] = frame.units[i] == 0 ? 0 : b[i];
       add(a, b, kind, frame.width, reach, of_ours);
       add(b, a, kind, frame.width, reach, of_peer);
@@ -153,8 +154,8 @@ void printAgreement(const std::vector<RgbdFrame>& frames, int reach) {
   for (const auto kind : perception::kEdgeKinds) {
     if (kind == perception::kRgb) print(kind, canny);
     for (std::size_t i = 0; i < pcl.size() && kind != perception::kRgb; ++i) {
-      const bool depends_on_jump = kind != perception::kHighCurvature;
-      if (i == 0 || depends_on_jump) print(kind, pcl[i]);
+      const bool depends_on_threshold = kind != perception::kHighCurvature;
+      if (i == 0 || depends_on_threshold) print(kind, pcl[i]);
     }
   }
 }
@@ -163,7 +164,7 @@ struct TruthOptions {
   std::string ini, sensor = "kinect";
   std::vector<std::string> settings;
   int frames = 20, reach = 3;
-  double least_jump = 0.02, least_turn_deg = 45, nearest = 0.5;
+  double least_discontinuity = 0.02, least_turn_deg = 45, nearest = 0.5;
 };
 
 std::vector<TrueEdges> simulate(const TruthOptions& options) {
@@ -171,8 +172,8 @@ std::vector<TrueEdges> simulate(const TruthOptions& options) {
   for (const auto& setting : options.settings) config.set(setting);
   for (const char* truth : {"labels", "true_depth"}) config.set(options.sensor + "." + truth + "=true");
   const sim::Simulation simulation(config);
-  EdgeTruth truth(simulation, options.least_jump, options.least_turn_deg * base::option_text::kRadiansPerDegree,
-                  options.nearest);
+  EdgeTruth truth(simulation, options.least_discontinuity,
+                  options.least_turn_deg * base::option_text::kRadiansPerDegree, options.nearest);
   std::vector<TrueEdges> frames;
   for (const auto& sensor : simulation.sensors()) {
     if (sensor->label() != options.sensor) continue;
@@ -184,10 +185,11 @@ std::vector<TrueEdges> simulate(const TruthOptions& options) {
 void printTruth(const TruthOptions& options) {
   const auto frames = simulate(options);
   std::printf(
-      "\n%zu frames of %s, %s: jumps of at least %g of the depth, turns of at least %g degrees, within %d px\n\n"
+      "\n%zu frames of %s, %s: depth discontinuities of at least %g of the depth, surfaces that meet at %g degrees or "
+      "more, within %d px\n\n"
       "| kind | method | precision | recall | F1 | pixels | true pixels |\n|---|---|---|---|---|---|---|\n",
-      frames.size(), std::filesystem::path(options.ini).filename().c_str(), options.sensor.c_str(), options.least_jump,
-      options.least_turn_deg, options.reach);
+      frames.size(), std::filesystem::path(options.ini).filename().c_str(), options.sensor.c_str(),
+      options.least_discontinuity, options.least_turn_deg, options.reach);
   std::vector<EdgePeer> all{ours("ours", EdgeOptions(), true, 0)};
   for (const auto& peer : pclEdgesOfAllKinds()) all.push_back(peer);
   std::vector<std::vector<Labels>> results(all.size());
@@ -202,7 +204,7 @@ void printTruth(const TruthOptions& options) {
     const bool is_there = std::any_of(frames.begin(), frames.end(), [kind](const TrueEdges& frame) {
       return std::any_of(frame.labels.begin(), frame.labels.end(), [kind](unsigned label) { return label & kind; });
     });
-    if (!is_there) continue;  // a camera in a closed room sees no end of things
+    if (!is_there) continue;  // for example boundaries in a closed room, where no surface ends
     for (std::size_t m = 0; m < all.size(); ++m) {
       Share precision, recall;
       for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -224,19 +226,20 @@ int main(int argc, char** argv) {
   int every = 10, rounds = 3, agreement = 2;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
   TruthOptions truth;
-  CLI::App app("Edges of depth images by ours and others.");
+  CLI::App app("Compares edges in depth images by our detector and others.");
   app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth and rgb");
-  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
-  app.add_option("--rounds", rounds, "how often each")->check(CLI::PositiveNumber);
+  app.add_option("--every", every, "use only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "number of runs on each frame")->check(CLI::PositiveNumber);
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--ini", truth.ini, "simulated place");
-  app.add_option("--set", truth.settings, "section.key=value, over that INI");
-  app.add_option("--sensor", truth.sensor, "its DepthCamera");
-  app.add_option("--frames", truth.frames, "how many of its frames")->check(CLI::PositiveNumber);
-  app.add_option("--reach", truth.reach, "[px] between found and true edges")->check(CLI::PositiveNumber);
-  app.add_option("--jump", truth.least_jump, "least true jump, in parts of the depth");
-  app.add_option("--nearest", truth.nearest, "[m] what that camera sees; the farthest its observations tell");
-  app.add_option("--turn", truth.least_turn_deg, "least true turn [deg]");
+  app.add_option("--ini", truth.ini, "INI of a simulated place");
+  app.add_option("--set", truth.settings, "section.key=value, overrides that INI");
+  app.add_option("--sensor", truth.sensor, "label of its RgbdCamera");
+  app.add_option("--frames", truth.frames, "number of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--reach", truth.reach, "[px] largest distance between found and true edges")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--jump", truth.least_discontinuity, "least true depth discontinuity, in parts of the depth");
+  app.add_option("--nearest", truth.nearest, "[m] shortest range of that camera; the longest is in its observations");
+  app.add_option("--turn", truth.least_turn_deg, "[deg] least true angle at which surfaces meet");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   if (!tum.empty()) {

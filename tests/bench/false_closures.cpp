@@ -1,6 +1,6 @@
-// False closures among the true ones of public pose graphs: what the consistency test refuses, and what is left of the
-// map. Every edge that is not odometry is a hypothesis. Prints Markdown tables; doc/results/false_closures.md shows
-// them.
+// False closures among the true ones of public pose graphs: which of them the consistency test refuses, and how much
+// the map suffers. Every edge that is not odometry is a hypothesis. Prints Markdown tables, which
+// doc/results/false_closures.md shows.
 //
 //   bench-false_closures --seeds 5
 #include <omnimapper/base/Error.h>
@@ -31,7 +31,7 @@ std::vector<Se2> readTruth(const std::string& path) {
   return truth;
 }
 
-/// The same graph with every measurement drawn anew from the truth, with the noise it claims.
+/// The same graph with every measurement drawn anew from the truth, with the noise that its edge states.
 Problem redrawn(Problem problem, std::mt19937& rng) {
   std::normal_distribution<double> normal;
   for (std::vector<Edge>* edges : {&problem.odometry, &problem.closures})
@@ -43,7 +43,8 @@ Problem redrawn(Problem problem, std::mt19937& rng) {
   return problem;
 }
 
-/// The problems by name: the file's measurements, or drawn anew from a truth. None without the recording.
+/// Loads a problem by name, with the measurements of the file or with new ones that are drawn from the truth. None if
+/// the file is not on this machine.
 std::optional<Problem> load(const std::string& name, std::mt19937& rng) {
   const std::string stem = name.substr(0, name.find('-'));
   const auto path = omnimapper::testing::sharedData("posegraphs/" + stem + ".g2o");
@@ -85,7 +86,7 @@ double median(std::vector<double> numbers) {
   return numbers[numbers.size() / 2];
 }
 
-/// What the seeds gave for one row of the table.
+/// Results of all seeds for one row of the table.
 struct Row {
   bool has_truth = true;
   std::vector<double> errors, ratios, times, refused, accepted;
@@ -101,7 +102,7 @@ struct Row {
   }
   void print(const std::string& label) const {
     const auto largest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
-    char against_clean[64] = "|";  // against the optimum itself there is no ratio
+    char against_clean[64] = "|";  // no ratio if the clean run is the reference, because its error is 0
     if (has_truth) std::snprintf(against_clean, sizeof against_clean, "%.3f | %.3f", median(ratios), largest(ratios));
     std::printf("| %s | %.4f | %.4f | %s | %.2f | %.2f | %g | %g of %zu | %.2f |\n", label.c_str(), median(errors),
                 largest(errors), against_clean, median(refused), largest(refused), median(accepted), largest(accepted),
@@ -110,7 +111,7 @@ struct Row {
   }
 };
 
-/// The rows of one graph.
+/// Prints the rows of one graph.
 void table(const std::string& graph_name, const Flags& flags) {
   const bool redrawn = graph_name.find('-') != std::string::npos;
   std::vector<Problem> problems;
@@ -150,16 +151,17 @@ void table(const std::string& graph_name, const Flags& flags) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("False closures among the true ones of public pose graphs");
+  CLI::App app("Tests false closures among the true ones of public pose graphs.");
   Flags flags;
-  app.add_option("--graph", flags.graphs, "intel, manhattan; NAME-redrawn: measurements drawn anew from the truth");
-  app.add_option("--method", flags.methods, "none, cauchy, pairwise, graduated");
-  app.add_option("--percent", flags.percents, "false closures, of the true ones");
-  app.add_option("--group", flags.groups, "false closures that agree with one another");
-  app.add_option("--seeds", flags.seeds, "runs of each row");
+  app.add_option("--graph", flags.graphs,
+                 "intel or manhattan; NAME-redrawn: with measurements drawn anew from the truth");
+  app.add_option("--method", flags.methods, "none, cauchy, pairwise or graduated");
+  app.add_option("--percent", flags.percents, "number of false closures, in percent of the true ones");
+  app.add_option("--group", flags.groups, "number of false closures that agree with one another");
+  app.add_option("--seeds", flags.seeds, "runs per row");
   app.add_option("--interval", flags.interval, "poses between tests");
   app.add_option("--patience", flags.patience, "poses between a new closure and its test");
-  app.add_flag("--batch", flags.batch, "everything at once, from chained odometry");
+  app.add_flag("--batch", flags.batch, "optimize everything at once, from chained odometry");
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "| graph | false closures | method | error [m] | worst | error / clean | worst | true refused [%%] | worst | "

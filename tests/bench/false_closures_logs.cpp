@@ -1,8 +1,9 @@
-// What false loop closures do to the map of a whole log: a plugin of this bench proposes closures that are false,
-// beside those of scan matching, and the error of the map is compared with that of the same log without them.
+// How false loop closures affect the map of a whole log. A plugin of this benchmark proposes false closures in addition
+// to those of scan matching, and the error of the map is compared with that of the same log without them.
 //
-// A false closure says that two key frames far apart in time are at one place, as in the experiments of Vertigo
-// (Suenderhauf and Protzel, IROS 2012): random ones, or groups of ten in a row that agree with one another.
+// A false closure states that two key frames that are far apart in time are at the same place, as in the experiments of
+// Vertigo (Suenderhauf and Protzel, IROS 2012). They are random ones, or groups of ten in a row that agree with one
+// another.
 //
 // Example: bench-false_closures_logs -i ini/laser2d.ini -r aces.rawlog --relations aces.relations -o out/false
 #include <mrpt/poses/CPose2D.h>
@@ -39,13 +40,15 @@ struct FalseClosureOptions {
     static const auto table =
         base::OptionTable<Options>()
             .number("per_key_frame", &Options::per_key_frame, base::Range{0, 10}, "False closures per key frame.")
-            .integer("group", &Options::group, base::Range{1, 100}, "So many in a row agree with one another.")
+            .integer("group", &Options::group, base::Range{1, 100},
+                     "Number of false closures in a row that agree with one another.")
             .integer("seed", &Options::seed, base::Range{0, 1e9}, "Seed of the random numbers.");
     return table;
   }
 };
 
-// Groups begin at random key frames; each key frame of a group closes on the one after that of the key frame before.
+// Proposes groups of false closures that begin at random key frames. Within a group the key frame to which the closure
+// leads advances by one with each new key frame.
 class FalseClosures : public mapper::MeasurementPlugin {
  public:
   FalseClosures(const FalseClosureOptions& options, const mapper::PluginContext& context)
@@ -54,13 +57,13 @@ class FalseClosures : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame&, const mapper::Observed&, const mapper::View&) override { return {}; }
 
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override {
-    constexpr std::size_t kApart = 30;  // key frames
+    constexpr std::size_t kMinSeparation = 30;  // [key frames]
     mapper::FollowUp follow_up;
     const auto& frames = view.map.key_frames;
     const std::size_t now = frames.position(frame.id);
-    if (left_ == 0 && now > 2 * kApart && dice_.uniform(0, 1) < options_.per_key_frame / options_.group) {
+    if (left_ == 0 && now > 2 * kMinSeparation && dice_.uniform(0, 1) < options_.per_key_frame / options_.group) {
       left_ = options_.group;
-      place_ = static_cast<std::size_t>(dice_.uniform(0, static_cast<double>(now - kApart)));
+      place_ = static_cast<std::size_t>(dice_.uniform(0, static_cast<double>(now - kMinSeparation)));
       offset_ = mrpt::poses::CPose3D(dice_.normal(0.3), dice_.normal(0.3), 0, dice_.normal(0.17), 0, 0);
       first_ = now;
     }
@@ -93,7 +96,7 @@ class FalseClosuresFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(FalseClosuresFactory, bench)
  public:
   std::string name() const override { return "FalseClosures"; }
-  std::string summary() const override { return "Proposes loop closures that are false."; }
+  std::string summary() const override { return "Proposes false loop closures."; }
   const std::vector<base::OptionSpec>& options() const override { return FalseClosureOptions::table().specs(); }
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
                                                   const mapper::PluginContext& context) const override {
@@ -113,7 +116,7 @@ struct Outcome {
   std::map<base::Stamp, mrpt::poses::CPose3D> poses;
 };
 
-// A closure of scan matching is right if it agrees with the map that was made without false ones.
+// Counts closures. One of scan matching is right if it agrees with the map that was made without false closures.
 void judge(const std::string& folder, const std::map<base::Stamp, mrpt::poses::CPose3D>& clean, Outcome& outcome) {
   const auto file = map::MapFile::read(folder + "/map.omnimap");
   const auto frames = map::framesFromSection(*file.find("frames"));
@@ -180,7 +183,7 @@ int main(const Request& request) {
   std::printf("clean: error %.4f m, %zu closures, %zu of %zu right ones refused\n\n", clean.error, clean.closures,
               clean.true_refused, clean.true_ones);
   std::printf(
-      "| false per true | in a row | error / clean, mean | worst | true refused | false accepted |\n"
+      "| false per right | in a row | error / clean, mean | worst | right ones refused | false accepted |\n"
       "|---|---|---|---|---|---|\n");
   for (const int group : {1, 10}) {
     for (const double share : {0.01, 0.1, 0.5}) {
@@ -211,13 +214,13 @@ IMPLEMENTS_MRPT_OBJECT(FalseClosuresFactory, omnimapper::mapper::MeasurementPlug
 
 int main(int argc, char** argv) {
   bench::Request request;
-  CLI::App app("Maps a log with false loop closures among the true ones, and tells what they do to the map.");
+  CLI::App app("Maps a log with false loop closures among the true ones, and reports how they affect the map.");
   app.add_option("-i,--ini", request.ini)->required();
   app.add_option("-r,--rawlog", request.log)->required();
-  app.add_option("--relations", request.relations, "relations checked by hand");
-  app.add_option("--reference", request.reference, "trajectory to compare with");
+  app.add_option("--relations", request.relations, "file of relations that were checked by hand");
+  app.add_option("--reference", request.reference, "reference trajectory, used if there are no relations");
   app.add_option("-o,--output", request.out)->required();
-  app.add_option("--seeds", request.seeds, "runs of each kind");
+  app.add_option("--seeds", request.seeds, "runs per row");
   app.add_option("--set", request.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
   omnimapper::testing::registerPlugins();

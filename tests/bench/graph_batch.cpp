@@ -1,5 +1,5 @@
-// Batch optimisation of the public pose graphs: ours against a problem handed straight to Ceres and against MRPT's
-// Levenberg-Marquardt, from the same starts, in the same run. Prints a Markdown table.
+// Batch optimization of public pose graphs: our solver, the same problem given directly to Ceres, and MRPT's
+// Levenberg-Marquardt, from the same initial values in the same run. Prints a Markdown table.
 //
 //   OPENBLAS_NUM_THREADS=1 OMP_THREAD_LIMIT=1 bench-graph_batch [runs]
 #include <ceres/ceres.h>
@@ -8,7 +8,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/graph/G2o.h>
-#include <omnimapper/graph/Initialisation.h>
+#include <omnimapper/graph/Initialization.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -29,7 +29,7 @@ using graph::Graph;
 constexpr double kFunctionTolerance = 1e-9;
 constexpr int kMaxIterations = 100;
 
-/// The error of an edge of the plane for Ceres' automatic derivatives.
+/// Error of a planar edge, for Ceres' automatic derivatives.
 struct PlanarEdge {
   template <class T>
   bool operator()(const T* a, const T* b, T* residual) const {
@@ -46,7 +46,7 @@ struct PlanarEdge {
   Eigen::Matrix3d whitening;
 };
 
-/// The error of an edge of space, rotation as twice the quaternion's vector part (g2o's error exactly).
+/// Error of a spatial edge, with the rotation as twice the vector part of the quaternion, exactly as in g2o.
 struct SpatialEdge {
   template <class T>
   bool operator()(const T* a, const T* b, T* residual) const {
@@ -65,8 +65,7 @@ struct SpatialEdge {
   geometry::Matrix6d whitening;
 };
 
-/// Time by the clock on the wall, and of the processor: what other programs leave of the machine shows in the first
-/// only.
+/// Wall time and processor time. Other programs on the machine affect only the wall time.
 struct Seconds {
   double wall = 0, cpu = 0;
 };
@@ -112,7 +111,8 @@ void addEdge(const graph::FactorRecord& record, double* a, double* b, ceres::Pro
                              nullptr, a, b);
 }
 
-/// `radius`: of the first trust region, Ceres' own choice or a wide one that lets it begin with Gauss-Newton steps.
+/// `radius`: initial radius of the trust region. Ceres' default, or a large one, with which it begins with Gauss-Newton
+/// steps.
 Result solveByCeres(Graph graph, double radius) {
   Result result;
   std::map<VariableId, Eigen::VectorXd> values;
@@ -147,7 +147,8 @@ Result solveByCeres(Graph graph, double radius) {
   return result;
 }
 
-/// `Network`: MRPT's graph of poses with information; `ToMrpt`, `FromMrpt`: its poses from and to ours.
+/// `Network`: MRPT's pose graph with information matrices. `ToMrpt` and `FromMrpt` convert our poses to its poses and
+/// back.
 template <class Network, class ToMrpt, class FromMrpt>
 Result solveByMrpt(Graph graph, const ToMrpt& to_mrpt, const FromMrpt& from_mrpt) {
   Network network;
@@ -188,7 +189,7 @@ Result solveByMrpt(const Graph& graph) {
       [](const CPose3D& pose) { return graph::toValue(geometry::fromMrpt(pose)); });
 }
 
-/// The contenders take turns, so that what else the machine does meets all of them alike.
+/// The solvers run in turn, so that other load on the machine affects all of them alike.
 std::vector<Result> medians(const Graph& graph, const std::vector<std::function<Result(const Graph&)>>& contenders,
                             int runs) {
   std::vector<Result> results(contenders.size());
@@ -223,7 +224,7 @@ int main(int argc, char** argv) {
       Graph graph = graph::readG2o(*path).graph;
       std::string made;
       if (start != "file") {
-        const Seconds seconds = secondsOf([&] { graph::initialiseRotationsFirst(graph); });
+        const Seconds seconds = secondsOf([&] { graph::initializeRotationsFirst(graph); });
         made = " (" + std::to_string(seconds.cpu).substr(0, 5) + " s)";
       }
       std::printf("| %s | %s%s | %.6g |", name.c_str(), start.c_str(), made.c_str(), graph::g2oChi2(graph));

@@ -1,5 +1,5 @@
-// Accuracy and time of MRPT's own graph-SLAM engine, and beside it of omnimapper-graphslam, on simulated logs with
-// ground truth. Each is a process of its own, timed from its start to its end.
+// Accuracy and time of MRPT's own graph-SLAM engine and of omnimapper-graphslam on simulated logs with ground truth.
+// Each runs as a separate process and is timed from start to end.
 
 // clang-format off
 #include <mrpt/opengl/CSphere.h>  // first: headers of MRPT's graph-SLAM need it and do not include it
@@ -51,8 +51,8 @@ std::optional<base::Stamp> stampOfScan(const mrpt::obs::CSensoryFrame::Ptr& fram
   return scan ? std::optional(scan->timestamp) : std::nullopt;
 }
 
-// Runs the engine over the log and writes each node of its final graph with the stamp of the scan that came with it;
-// the root belongs to the first scan.
+// Runs the engine on the log and writes each node of its final graph with the stamp of its scan. The root has the stamp
+// of the first scan.
 void runPeer(const std::string& ini, const std::string& log, const std::string& tum) {
   using Network = mrpt::graphs::CNetworkOfPoses2DInf;
   mrpt::graphslam::deciders::CFixedIntervalsNRD<Network> nodes;
@@ -83,11 +83,11 @@ void runPeer(const std::string& ini, const std::string& log, const std::string& 
   eval::writeTum(tum, trajectory);
 }
 
-// MRPT's stock settings with its printing turned down to errors; without a window manager nothing is drawn either.
+// Copies MRPT's default settings, but prints only errors. Nothing is drawn, because the engine gets no window manager.
 void writeQuietIni(const std::string& stock, const std::string& quiet) {
   std::ifstream in(stock);
   std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (text.empty()) throw base::Error(base::ExitCode::unreadable_input, stock + ": cannot read MRPT's settings");
+  if (text.empty()) throw base::Error(base::ExitCode::unreadable_input, stock + ": MRPT's settings cannot be read");
   text = std::regex_replace(text, std::regex("class_verbosity *= *[0-9]+"), "class_verbosity = 3");
   base::writeFile(quiet, [&](std::ostream& out) { out << text; });
 }
@@ -100,7 +100,8 @@ struct Run {
   eval::Trajectory trajectory;
 };
 
-// Runs a command, its output in a file, and returns wall and processor time. Throws if it fails.
+// Runs a command with its output in a file, and returns wall and processor time. Throws base::Error if the command
+// fails.
 Run timeCommand(std::vector<std::string> command, const std::string& output) {
   std::vector<char*> arguments;
   for (auto& word : command) arguments.push_back(word.data());
@@ -109,7 +110,7 @@ Run timeCommand(std::vector<std::string> command, const std::string& output) {
   const pid_t child = ::fork();
   if (child == 0) {
     const int fd = ::open(output.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0644);
-    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);  // MRPT's engine waits for a key where it can
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);  // MRPT's engine waits for a key if it has a terminal
     ::dup2(fd, STDOUT_FILENO);
     ::dup2(fd, STDERR_FILENO);
     ::execvp(arguments[0], arguments.data());
@@ -122,7 +123,7 @@ Run timeCommand(std::vector<std::string> command, const std::string& output) {
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     std::ifstream printed(output);
     std::cerr << printed.rdbuf();
-    throw base::Error(base::ExitCode::internal, command[0] + " failed; what it printed stands above");
+    throw base::Error(base::ExitCode::internal, command[0] + " failed; its output is above");
   }
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
@@ -130,7 +131,7 @@ Run timeCommand(std::vector<std::string> command, const std::string& output) {
   return {wall.count(), seconds(usage.ru_utime) + seconds(usage.ru_stime), {}};
 }
 
-// The run of median wall time out of several.
+// The run with the median wall time of several.
 Run medianRun(int runs, const std::vector<std::string>& command, const std::string& output, const std::string& tum) {
   std::vector<Run> all;
   for (int i = 0; i < runs; ++i) {
@@ -141,7 +142,7 @@ Run medianRun(int runs, const std::vector<std::string>& command, const std::stri
   return all[all.size() / 2];
 }
 
-// The truth at the stamps where the peer has a node, so that both are judged at the same moments.
+// The truth at the stamps of the peer's nodes, so that both programs are evaluated at the same times.
 eval::Trajectory truthAtNodes(const eval::Trajectory& truth, const eval::Trajectory& nodes) {
   eval::Trajectory at_nodes;
   for (const auto& pair : eval::associate(nodes, truth, base::durationFromSeconds(0.001))) {
@@ -213,16 +214,17 @@ int run(Arguments arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app("Markdown table of time and absolute trajectory error at the stamps of the peer's nodes.");
-  app.add_option("--ours", arguments.ours, "path of omnimapper-graphslam, run on the same logs");
+  CLI::App app("Prints a Markdown table of time and absolute trajectory error at the stamps of the peer's nodes.");
+  app.add_option("--ours", arguments.ours, "path of omnimapper-graphslam, which is run on the same logs");
   app.add_option("--ini", arguments.our_ini, "its INI file");
-  app.add_option("--option", arguments.our_options, "further argument for it, such as --option=--set --option=a.b=c");
-  app.add_option("--log", arguments.logs, "rawlog with its .GT.txt beside it; default: both of MRPT's demos");
+  app.add_option("--option", arguments.our_options,
+                 "further argument of omnimapper-graphslam, such as --option=--set --option=a.b=c");
+  app.add_option("--log", arguments.logs, "rawlog with a .GT.txt beside it; default: both of MRPT's demo logs");
   app.add_option("--peer-ini", arguments.peer_ini, "settings of the peer; default: MRPT's own");
-  app.add_option("--runs", arguments.runs, "runs of each; the one of median wall time counts")
+  app.add_option("--runs", arguments.runs, "runs of each; the one with the median wall time counts")
       ->check(CLI::Range(1, 99));
-  app.add_option("-o,--output", arguments.output, "keep trajectories and printed text in this folder");
-  app.add_option("--run-peer", arguments.run_peer, "INI LOG TUM: run the peer alone, untimed")->expected(3);
+  app.add_option("-o,--output", arguments.output, "folder in which trajectories and printed text are kept");
+  app.add_option("--run-peer", arguments.run_peer, "INI LOG TUM: only run the peer, without timing")->expected(3);
   try {
     app.parse(argc, argv);
     return run(arguments);

@@ -1,7 +1,6 @@
-// The occupancy grid of a map: built at once, and brought up to date after a closure that moves a fifth of the key
-// frames, against MRPT's grid, which has to be built anew. The map is tried with once, twice and four times its key
-// frames, each copy shifted by a few centimetres as a second way through the building would be. Prints a Markdown
-// table.
+// Times the occupancy grid of a map: built from scratch, and updated after a closure that moves a fifth of the key
+// frames, beside MRPT's grid, which has to be built anew. The map is used with once, twice and four times its key
+// frames; each copy is shifted by a few centimetres, like another pass through the building. Prints a Markdown table.
 //
 // Example: bench-grid -m out/aces/map.omnimap -m out/intel/map.omnimap
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -44,7 +43,7 @@ map::Map repeated(const map::Map& once, int times) {
   return all;
 }
 
-/// The last fifth of each session turned and shifted as a closure does, more and more towards the end.
+/// The map with the last fifth of each session turned and shifted as by a closure, increasingly towards the end.
 map::Map closed(const map::Map& before) {
   map::Map after = before;
   const auto& frames = before.key_frames;
@@ -61,7 +60,7 @@ map::Map closed(const map::Map& before) {
   return after;
 }
 
-/// MRPT's grid as it would be used: the area of the scans, every scan inserted.
+/// Builds MRPT's grid over the area of the scans and inserts every scan.
 std::size_t buildWithMrpt(const map::Map& map, const exports::ScanGrid& area, double max_range) {
   mrpt::maps::COccupancyGridMap2D grid(static_cast<float>(area.min_x), static_cast<float>(area.maxX()),
                                        static_cast<float>(area.min_y), static_cast<float>(area.maxY()),
@@ -78,7 +77,7 @@ std::size_t buildWithMrpt(const map::Map& map, const exports::ScanGrid& area, do
   return grid.getSizeX();
 }
 
-/// Processor time of this thread: other programs on the machine do not count.
+/// Stopwatch for the processor time of this thread, which other programs on the machine do not affect.
 class ThreadWatch {
  public:
   double seconds() const { return now() - start_; }
@@ -144,7 +143,7 @@ int main(int argc, char** argv) {
   exports::ScanGridOptions options;
   app.add_option("-m,--map", maps, "map.omnimap of a run")->required()->check(CLI::ExistingFile);
   app.add_option("--resolution_m", options.resolution, "Side of a cell");
-  app.add_option("--max_range_m", options.max_range, "Beams are entered up to this length");
+  app.add_option("--max_range_m", options.max_range, "Beams are inserted up to this length");
   CLI11_PARSE(app, argc, argv);
   options.max_cells = 1e9;
   try {

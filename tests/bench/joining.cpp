@@ -1,6 +1,6 @@
-// Sessions that may begin anywhere: a log is cut in two at several places, one part is mapped and the other continues
-// that map with [session] start = anywhere, either way round. Compared with the map of the log in one piece. Prints a
-// Markdown table.
+// Sessions that may begin anywhere: a log is cut in two at several places. One part is mapped, and the other continues
+// that map with [session] start = anywhere, in both orders. The result is compared with the map of the log in one
+// piece. Prints a Markdown table.
 //
 // Example: bench-joining -i ini/laser2d.ini -r aces.rawlog -o out/joining
 #include <omnimapper/base/Progress.h>
@@ -74,18 +74,18 @@ eval::Trajectory trajectoryOf(const map::Map& map) {
   return eval::sortedByStamp(std::move(poses), "map");
 }
 
-// [m] that the newest session had driven where it was joined.
-double wayUntilJoined(const map::Map& map) {
+// Distance [m] that the newest session had travelled when it was aligned with the map.
+double travelUntilAligned(const map::Map& map) {
   const auto& session = map.sessions.back();
-  double way = 0;
+  double travel = 0;
   const map::KeyFrame* before = nullptr;
   for (const auto& frame : map.key_frames) {
     if (frame.id.session != session.number) continue;
-    if (before) way += (frame.map_from_base.translation() - before->map_from_base.translation()).norm();
+    if (before) travel += (frame.map_from_base.translation() - before->map_from_base.translation()).norm();
     if (frame.id == session.joined_at) break;
     before = &frame;
   }
-  return way;
+  return travel;
 }
 
 void printRow(const std::string& name, const mapper::RunResult& first, const mapper::RunResult& second,
@@ -93,14 +93,14 @@ void printRow(const std::string& name, const mapper::RunResult& first, const map
   eval::PairingOptions pairing;
   pairing.alignment = eval::Alignment::yaw;
   const auto error = eval::absoluteTrajectoryError(trajectoryOf(both), whole, pairing).translation;
-  std::string joined = "no";
+  std::string aligned = "no";
   char text[64];
   if (both.sessions.back().joined) {
-    std::snprintf(text, sizeof text, "after %.1f m", wayUntilJoined(both));
-    joined = text;
+    std::snprintf(text, sizeof text, "after %.1f m", travelUntilAligned(both));
+    aligned = text;
   }
-  std::printf("| %s | %.0f, %.0f | %s | %.3f, %.2f | %.1f, %.1f |\n", name.c_str(), first.way, second.way,
-              joined.c_str(), error.rmse, error.max, first.wall_seconds, second.wall_seconds);
+  std::printf("| %s | %.0f, %.0f | %s | %.3f, %.2f | %.1f, %.1f |\n", name.c_str(), first.travel, second.travel,
+              aligned.c_str(), error.rmse, error.max, first.wall_seconds, second.wall_seconds);
   std::fflush(stdout);
 }
 
@@ -109,11 +109,11 @@ void printRow(const std::string& name, const mapper::RunResult& first, const map
 int main(int argc, char** argv) {
   Setup setup;
   std::vector<double> cuts{0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
-  CLI::App app("Cuts a log in two and joins the parts without a word of where the second begins.");
+  CLI::App app("Cuts a log in two and aligns the parts, without giving the pose at which the second begins.");
   app.add_option("-i,--ini", setup.ini)->required();
   app.add_option("-r,--rawlog", setup.log)->required();
   app.add_option("-o,--output", setup.out)->required();
-  app.add_option("--cuts", cuts, "parts of the log's time");
+  app.add_option("--cuts", cuts, "where to cut, in parts of the log's time");
   app.add_option("--threads", setup.threads);
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
@@ -124,8 +124,8 @@ int main(int argc, char** argv) {
   const auto whole = trajectoryOf(mapIn(setup.out + "/whole"));
   const auto [begin, end] = spanOf(setup.log);
   std::printf(
-      "| cut at, first mapped | way of the first, the second [m] | joined | apart from the map in one piece: rmse, "
-      "max [m] | wall time of the first, the second [s] |\n|---|---|---|---|---|\n");
+      "| cut at, first mapped | length of the first, the second [m] | aligned | distance from the map in one piece: "
+      "rmse, max [m] | wall time of the first, the second [s] |\n|---|---|---|---|---|\n");
   for (const double cut : cuts) {
     const auto stamp = begin + base::durationFromSeconds(cut * base::secondsBetween(begin, end));
     const std::string name = setup.out + "/" + std::to_string(static_cast<int>(std::lround(100 * cut)));

@@ -1,9 +1,9 @@
-// Joint compatibility branch and bound and nearest neighbour, ours beside MRPT's, on the same random scenes of points:
-// what is matched right, wrong and not at all, in how many scenes the matches do not pass the joint gate, and the time
-// of the processor. All are given the same measurements, predictions and joint covariance. Prints a Markdown table.
+// Joint compatibility branch and bound and nearest neighbour, our implementation and MRPT's, on the same random scenes
+// of points: right, wrong and missed matches, the number of scenes whose matches do not pass the joint gate together,
+// and processor time. All get the same measurements, predictions and joint covariance. Prints a Markdown table.
 //
-// MRPT's search has no bound on its nodes: each of its calls runs in a process of its own, which is ended after --limit
-// seconds. What it had not finished counts for nothing in its row but the number of such scenes.
+// MRPT's search has no limit on its nodes, so each of its calls runs in a separate process, which is ended after
+// --limit seconds. Such a scene only counts as unfinished.
 //
 // Example: bench-joint_compatibility --seeds 100 --limit 1
 #include <sys/resource.h>
@@ -26,7 +26,7 @@ using namespace omnimapper;
 using bench::Answer;
 using bench::PointScene;
 
-/// The answer of a process of its own, none if it takes longer than so many seconds of the processor.
+/// Runs `associate` in a child process. None if that takes more than `seconds` of processor time.
 std::optional<Answer> within(int seconds, std::size_t measurements, const std::function<Answer()>& associate) {
   int ends[2];
   if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
@@ -60,9 +60,9 @@ struct Contender {
   std::function<std::optional<Answer>(const PointScene&)> associate;
 };
 
-struct Tally {
+struct Statistics {
   std::size_t right = 0, wrong = 0, missed = 0, of_landmarks = 0, measurements = 0;
-  int unfinished = 0, torn = 0;
+  int unfinished = 0, torn = 0;  // torn: scenes whose matches do not pass the joint gate
   std::vector<double> times;
 
   void add(const PointScene& scene, const std::optional<Answer>& answer) {
@@ -95,22 +95,22 @@ struct Tally {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Joint compatibility and nearest neighbour, ours beside MRPT's.");
+  CLI::App app("Compares joint compatibility and nearest neighbour, our implementation and MRPT's.");
   unsigned seeds = 100;
   int limit = 1, max_nodes = 20000;
   std::vector<std::size_t> landmarks = {10, 20, 40, 80}, measurements = {5, 10, 15, 20};
   bench::SceneNoise noise;
   std::vector<double> sigmas = {0.05, 0.3};
-  app.add_option("--seeds", seeds, "scenes of each row; default 100");
-  app.add_option("--limit", limit, "of a scene, for MRPT's search [s]; default 1");
-  app.add_option("--landmarks", landmarks, "of each size of scene; default 10 20 40 80");
-  app.add_option("--measurements", measurements, "of each size of scene; default 5 10 15 20");
-  app.add_option("--landmark_sigma_m", sigmas, "how well landmarks are known; default 0.05 0.3");
-  app.add_option("--clutter", noise.clutter, "share of measurements that are of no landmark; default 0.2");
-  app.add_option("--max_nodes", max_nodes, "of our search; default 20000, as the plugins'");
+  app.add_option("--seeds", seeds, "scenes per row; default 100");
+  app.add_option("--limit", limit, "processor time of MRPT's search for one scene [s]; default 1");
+  app.add_option("--landmarks", landmarks, "number of landmarks for each size of scene; default 10 20 40 80");
+  app.add_option("--measurements", measurements, "number of measurements for each size of scene; default 5 10 15 20");
+  app.add_option("--landmark_sigma_m", sigmas, "standard deviations of landmarks in the map; default 0.05 0.3");
+  app.add_option("--clutter", noise.clutter, "share of measurements of no landmark; default 0.2");
+  app.add_option("--max_nodes", max_nodes, "largest number of nodes of our search; default 20000, as in the plugins");
   CLI11_PARSE(app, argc, argv);
   if (landmarks.size() != measurements.size()) {
-    std::fprintf(stderr, "as many --measurements as --landmarks, please\n");
+    std::fprintf(stderr, "--measurements needs as many values as --landmarks\n");
     return 1;
   }
   using namespace mrpt::slam;
@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
     return [=](const PointScene& scene) -> std::optional<Answer> {
       if (method == assocNN) return bench::mrpts(scene, method, metric);
       return within(limit, scene.truth.size(), [&] {
-        bench::mrpts(scene, assocNN, metric);  // what a new process does the first time is not counted
+        bench::mrpts(scene, assocNN, metric);  // warm-up: one-time work of a new process is not timed
         return bench::mrpts(scene, method, metric);
       });
     };
@@ -143,13 +143,13 @@ int main(int argc, char** argv) {
     noise.landmark = sigma;
     for (std::size_t size = 0; size < landmarks.size(); ++size) {
       for (const auto& [name, associate] : contenders) {
-        Tally tally;
+        Statistics statistics;
         for (unsigned seed = 1; seed <= seeds; ++seed) {
           const PointScene scene(landmarks[size], measurements[size], noise, seed);
-          tally.add(scene, associate(scene));
+          statistics.add(scene, associate(scene));
         }
         std::printf("| %.2f m | %zu, %zu | %s | %s |\n", sigma, landmarks[size], measurements[size], name.c_str(),
-                    tally.text().c_str());
+                    statistics.text().c_str());
         std::fflush(stdout);
       }
     }

@@ -1,6 +1,6 @@
-// MRPT's logs of points seen by range and bearing, mapped by the engine and by MRPT's extended Kalman filters with the
-// settings that come with them, in the same run: errors of trajectory and landmarks, time for a part of the log and for
-// all of it. Prints a Markdown table.
+// MRPT's logs of points that are measured by range and bearing, mapped by our engine and by MRPT's extended Kalman
+// filters with the settings that come with them, in the same run: errors of trajectory and landmarks, and time for a
+// part of the log and for all of it. Prints a Markdown table.
 //
 // Example: OPENBLAS_NUM_THREADS=1 bench-kf_slam --runs 3
 #include <mrpt/config/CConfigFile.h>
@@ -38,7 +38,7 @@ const std::vector<Log> kLogs = {{"kf-slam_demo", "EKF-SLAM_test_2d.ini", true},
                                 {"kf-slam_6D_demo_noncentered", "EKF-SLAM_6D_noncentered_test.ini", false},
                                 {"kf-slam_6D_demo_DA", "EKF-SLAM_6D_test_datassoc.ini", false}};
 
-/// Rows of numbers of a text file; lines that begin with % are left out.
+/// Rows of numbers of a text file, without lines that begin with %.
 std::vector<std::vector<double>> rowsOf(const std::string& path) {
   std::vector<std::vector<double>> rows;
   std::ifstream file(path);
@@ -50,25 +50,25 @@ std::vector<std::vector<double>> rowsOf(const std::string& path) {
   return rows;
 }
 
-/// A map and what it says of the way.
+/// Positions of trajectory and landmarks by one mapper.
 struct Outcome {
-  std::map<std::size_t, Vector3d> way;  ///< by number of the observation
+  std::map<std::size_t, Vector3d> trajectory;  ///< by number of the observation
   std::vector<Vector3d> landmarks;
   double seconds = 0;
 };
 
 struct Errors {
-  double way = 0, landmarks = 0;  ///< root mean squares [m]
+  double trajectory = 0, landmarks = 0;  ///< root mean square errors [m]
 };
 
-// A landmark counts for the nearest that is there: numbers have no say, since one of the logs has none.
+// Each landmark is compared with the nearest true one. Their numbers are not used, since one of the logs has none.
 Errors errorsOf(const Outcome& outcome, const Log& log) {
-  const auto way = rowsOf(kMrpt + "datasets/" + log.name + "_ground_truth_robot_path.txt");
+  const auto true_trajectory = rowsOf(kMrpt + "datasets/" + log.name + "_ground_truth_robot_path.txt");
   const auto landmarks = rowsOf(kMrpt + "datasets/" + log.name + "_ground_truth.txt");
   Errors errors;
-  for (const auto& [frame, place] : outcome.way) {
-    const auto& row = way.at(frame);
-    errors.way += (place - Vector3d(row[0], row[1], row[2])).squaredNorm();
+  for (const auto& [frame, place] : outcome.trajectory) {
+    const auto& row = true_trajectory.at(frame);
+    errors.trajectory += (place - Vector3d(row[0], row[1], row[2])).squaredNorm();
   }
   for (const Vector3d& landmark : outcome.landmarks) {
     double nearest = 1e9;
@@ -76,7 +76,8 @@ Errors errorsOf(const Outcome& outcome, const Log& log) {
       nearest = std::min(nearest, (landmark - Vector3d(row[0], row[1], row[2])).squaredNorm());
     errors.landmarks += nearest;
   }
-  errors.way = std::sqrt(errors.way / static_cast<double>(std::max<std::size_t>(1, outcome.way.size())));
+  errors.trajectory =
+      std::sqrt(errors.trajectory / static_cast<double>(std::max<std::size_t>(1, outcome.trajectory.size())));
   errors.landmarks =
       std::sqrt(errors.landmarks / static_cast<double>(std::max<std::size_t>(1, outcome.landmarks.size())));
   return errors;
@@ -99,7 +100,8 @@ Vector3d pointOf(const mrpt::math::TPoint3D& point) {
   return {point.x, point.y, point.z};
 }
 
-// The logs were made faster than their clock ticks, and several steps have one stamp: a step each tenth of a second.
+// Several steps of the logs share a stamp, because the logs were made faster than their clock ticks. Each step gets a
+// new stamp, a tenth of a second after the one before.
 void stampAnew(mrpt::obs::CRawlog& rawlog) {
   for (std::size_t i = 0; i < rawlog.size(); ++i) {
     if (rawlog.getType(i) != mrpt::obs::CRawlog::etSensoryFrame) continue;
@@ -108,7 +110,7 @@ void stampAnew(mrpt::obs::CRawlog& rawlog) {
   }
 }
 
-/// `share` of the steps of the log.
+/// Runs MRPT's filter on the first `share` of the steps of the log.
 template <class Filter, class Pose, class Point>
 Outcome filtered(mrpt::obs::CRawlog& rawlog, const Log& log, double share) {
   Filter filter;
@@ -126,7 +128,7 @@ Outcome filtered(mrpt::obs::CRawlog& rawlog, const Log& log, double share) {
     filter.processActionObservation(action, frame);
     Pose pose;
     filter.getCurrentRobotPose(pose);
-    outcome.way[step + 1] = placeOf(pose);  // no action comes before the first frame: the filter passes it over
+    outcome.trajectory[step + 1] = placeOf(pose);  // the filter skips the first frame, which has no action before it
   }
   outcome.seconds = since(start);
   Pose pose;
@@ -144,15 +146,15 @@ Outcome mapped(const std::vector<mrpt::obs::CObservation::Ptr>& observations, co
   const auto engine =
       omnimapper::testing::makeEngine(ini, {std::string("mapper.motion=") + (log.planar ? "planar" : "spatial")});
   std::size_t steps = 0, step = 0;
-  const auto isSeen = [](const auto& observation) {
+  const auto isMeasurement = [](const auto& observation) {
     return IS_CLASS(*observation, mrpt::obs::CObservationBearingRange);
   };
-  for (const auto& observation : observations) steps += isSeen(observation);
+  for (const auto& observation : observations) steps += isMeasurement(observation);
   const auto most = static_cast<std::size_t>(share * static_cast<double>(steps));
   Outcome outcome;
   const auto start = std::chrono::steady_clock::now();
   for (const auto& observation : observations) {
-    step += isSeen(observation);
+    step += isMeasurement(observation);
     if (step > most) break;
     engine->add(observation);
   }
@@ -161,9 +163,10 @@ Outcome mapped(const std::vector<mrpt::obs::CObservation::Ptr>& observations, co
   const auto view = engine->view();
   std::map<base::Stamp, std::size_t> numbers;
   for (const auto& observation : observations)
-    if (isSeen(observation)) numbers.emplace(observation->timestamp, numbers.size());
+    if (isMeasurement(observation)) numbers.emplace(observation->timestamp, numbers.size());
   for (const auto& frame : view.map.key_frames)
-    outcome.way[numbers.at(frame.stamp)] = {frame.map_from_base.x(), frame.map_from_base.y(), frame.map_from_base.z()};
+    outcome.trajectory[numbers.at(frame.stamp)] = {frame.map_from_base.x(), frame.map_from_base.y(),
+                                                   frame.map_from_base.z()};
   for (const auto& [id, landmark] : view.map.landmarks) {
     if (landmark.state != map::Landmark::State::active) continue;
     const auto& value = view.graph.value(landmark.variables.front());
@@ -181,25 +184,26 @@ Outcome best(const std::function<Outcome()>& work, int runs) {
 void print(const Log& log, const std::string& who, double share, const Outcome& outcome) {
   const Errors errors = errorsOf(outcome, log);
   std::printf("| %s | %.0f %% | %s | %zu | %zu | %.4f | %.4f | %.3f |\n", log.name.c_str(), 100 * share, who.c_str(),
-              outcome.way.size(), outcome.landmarks.size(), errors.way, errors.landmarks, outcome.seconds);
+              outcome.trajectory.size(), outcome.landmarks.size(), errors.trajectory, errors.landmarks,
+              outcome.seconds);
   std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("MRPT's demonstration logs of range and bearing: our engine beside MRPT's filters.");
+  CLI::App app("Maps MRPT's demonstration logs of range and bearing by our engine and MRPT's filters.");
   std::string ini_path = omnimapper::testing::sourceFile("ini/landmarks.ini");
   std::string only;
   int runs = 3;
   app.add_option("--ini", ini_path, "INI of the mapper")->capture_default_str();
-  app.add_option("--log", only, "this log alone, such as kf-slam_demo");
-  app.add_option("--runs", runs, "the least time of so many")->capture_default_str();
+  app.add_option("--log", only, "only this log, such as kf-slam_demo");
+  app.add_option("--runs", runs, "number of runs, of which the shortest time counts")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   std::ifstream file(ini_path);
   const std::string ini((std::istreambuf_iterator<char>(file)), {});
   std::printf(
-      "| log | part | who | poses | landmarks | trajectory [m] | landmarks [m] | time [s] |\n"
+      "| log | part | mapper | poses | landmarks | trajectory [m] | landmarks [m] | time [s] |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (const Log& log : kLogs) {
     if (!only.empty() && log.name != only) continue;

@@ -1,5 +1,5 @@
-// Relocalisation without a guess: each scan that has a reference pose is located in the map made of all the others at
-// their reference poses, or true ones. Prints a Markdown table, and writes a CSV of every scan and an SVG of where it
+// Relocalization without a guess: each scan that has a reference or true pose is located in the map made of all the
+// other scans at their poses. Prints a Markdown table, and writes a CSV with every scan and an SVG that shows where it
 // failed.
 //
 // Example: bench-kidnapping --logs ../shared/data/laser2d -o out/kidnapping
@@ -30,14 +30,14 @@ using matching::MapScan;
 using mrpt::math::TPose2D;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kNear = 0.25;    // [m] of a right answer
-constexpr double kTurn = 3;       // [deg]
-constexpr double kElsewhere = 1;  // [m] of a mistake that is another place, not an error of the pose
+constexpr double kNear = 0.25;    // [m] largest error of a right answer
+constexpr double kTurn = 3;       // [deg] the same
+constexpr double kElsewhere = 1;  // [m] error above which a wrong answer is at another place
 
 struct Outcome {
   Location location;
   double best_distance = INFINITY, best_turn = INFINITY;  // [m] [deg] of the first candidate
-  int rank = -1;                                          // of the right candidate
+  int rank = -1;                                          // of the right candidate; -1: there is none
   double milliseconds = 0;
 
   bool found() const { return location.answer == Location::Answer::found; }
@@ -110,7 +110,7 @@ void printRow(const std::string& name, const std::vector<Outcome>& outcomes) {
   std::fflush(stdout);
 }
 
-// [m] [rad] by which the beams moved a candidate from where the matcher had it.
+// Distance [m] and angle [rad] by which the likelihood of the beams moved a candidate from the matcher's pose.
 std::pair<double, double> settled(const matching::LocationCandidate& candidate) {
   const auto& matched = candidate.match.reference_from_scan;
   const auto& pose = candidate.map_from_sensor;
@@ -135,7 +135,8 @@ void writeCsv(const std::string& path, const std::vector<Outcome>& outcomes, int
   }
 }
 
-// Walls in grey; a dot for each scan: green right, blue not answered, red wrong, with a line to what was answered.
+// Draws walls in grey and a dot for each scan: green if the answer is right, blue if there is none, red if it is wrong,
+// with a line to the answer.
 void writeSvg(const std::string& path, const std::vector<MapScan>& scans, const std::vector<Outcome>& outcomes,
               int every) {
   double low_x = INFINITY, low_y = INFINITY, high_x = -INFINITY, high_y = -INFINITY;
@@ -167,9 +168,9 @@ void writeSvg(const std::string& path, const std::vector<MapScan>& scans, const 
     const TPose2D& truth = scans[k * every].map_from_sensor;
     const bool wrong = outcomes[k].found() && outcomes[k].rank != 0;
     if (wrong) {
-      const TPose2D& told = outcomes[k].location.candidates.front().map_from_sensor;
-      svg << "<path stroke=\"red\" stroke-width=\"0.1\" d=\"M" << truth.x << " " << -truth.y << "L" << told.x << " "
-          << -told.y << "\"/>\n";
+      const TPose2D& answer = outcomes[k].location.candidates.front().map_from_sensor;
+      svg << "<path stroke=\"red\" stroke-width=\"0.1\" d=\"M" << truth.x << " " << -truth.y << "L" << answer.x << " "
+          << -answer.y << "\"/>\n";
     }
     svg << "<circle r=\"" << (outcomes[k].found() && !wrong ? 0.15 : 0.35) << "\" cx=\"" << truth.x << "\" cy=\""
         << -truth.y << "\" fill=\""
@@ -181,7 +182,8 @@ void writeSvg(const std::string& path, const std::vector<MapScan>& scans, const 
   svg << "</svg>\n";
 }
 
-// Of MRPT's simulated logs, which have 10 scans a second, one every 0.5 m or 0.5 rad.
+// The scans of a log of the folder or, if it has none of this name, of one of MRPT's simulated logs. These have 10
+// scans a second, of which one every 0.5 m or 0.5 rad is used.
 std::vector<MapScan> scansOf(const std::string& folder, const std::string& name) {
   if (std::filesystem::exists(folder + "/" + name + ".clf.bz2")) return bench::referenceScans(folder, name);
   const auto path =
@@ -202,8 +204,8 @@ int main(int argc, char** argv) {
   app.add_option("--logs", logs, "folder with NAME.clf.bz2 and NAME.reference.tum")->required();
   app.add_option("-o,--output", out, "folder for the CSV and SVG files")->required();
   app.add_option("--names", names,
-                 "of the logs; one that is not in the folder is one of MRPT's simulated graph-SLAM logs");
-  app.add_option("--every", every, "every n-th scan is located")->check(CLI::PositiveNumber);
+                 "names of the logs; a name that is not in the folder is one of MRPT's simulated graph-SLAM logs");
+  app.add_option("--every", every, "locate every n-th scan")->check(CLI::PositiveNumber);
   app.add_option("--threads", threads)->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   std::filesystem::create_directories(out);

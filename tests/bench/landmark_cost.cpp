@@ -1,5 +1,6 @@
-// What a key frame costs in maps of 100, 200, 400 and 800 landmarks: a row of rooms, four walls each, driven along and
-// back, with odometry and the lines of a laser. Prints a Markdown table; doc/results/planes.md shows it.
+// The cost of a key frame in maps of 100, 200, 400 and 800 landmarks. The robot drives along a row of rooms with four
+// walls each and back, with odometry and the lines of a laser. Prints a Markdown table, which doc/results/planes.md
+// shows.
 //
 //   bench-landmark_cost
 #include <mrpt/obs/CObservationOdometry.h>
@@ -32,10 +33,12 @@ form  = wall
 
 constexpr double kRoom = 4;  // [m]
 
-/// The walls that are seen from a place in the corridor: those of its room, one side of the door ahead and behind.
+/// The walls that are visible from a position in the corridor: those of its room, and one side of the doors ahead and
+/// behind.
 std::vector<Segment2> wallsAround(double x) {
   const double from = kRoom * std::floor(x / kRoom), to = from + kRoom;
-  const double half = std::fmod(from / kRoom, 2) == 0 ? 2.0 : 2.4;  // no wall goes on in the next room
+  // Rooms alternate in width, so that no wall continues in the next room.
+  const double half = std::fmod(from / kRoom, 2) == 0 ? 2.0 : 2.4;
   return {
       {{to, half}, {from, half}}, {{from, -half}, {to, -half}}, {{to, 0.6}, {to, half}}, {{from, half}, {from, 0.6}}};
 }
@@ -69,11 +72,11 @@ class Drive {
     auto lines = std::make_shared<obs::CObservationLaserLines>();
     lines->timestamp = stamp;
     lines->sensorLabel = lines->source_label = "laser";
-    for (const Segment2& wall : wallsAround(truth.x)) lines->lines.push_back(seen(wall));
+    for (const Segment2& wall : wallsAround(truth.x)) lines->lines.push_back(lineOf(wall));
     log_.push_back(lines);
   }
 
-  obs::LaserLine seen(const Segment2& wall) {
+  obs::LaserLine lineOf(const Segment2& wall) {
     const geometry::Se2 base_from_map = inverse(truth_);
     const Vector2d shift(normal(0.005), normal(0.005));
     const Vector2d a = base_from_map * wall.from + shift, b = base_from_map * wall.to + shift;
@@ -96,11 +99,11 @@ class Drive {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("What a key frame costs in maps of many landmarks.");
+  CLI::App app("Measures the cost of a key frame in maps of many landmarks.");
   unsigned seed = 1;
   std::vector<int> rooms_of_runs = {25, 50, 100, 200};
   app.add_option("--seed", seed);
-  app.add_option("--rooms", rooms_of_runs, "of each run; four landmarks each");
+  app.add_option("--rooms", rooms_of_runs, "number of rooms of each run; each has four landmarks");
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "| rooms | landmarks | key frames | walls plugin | engine | solves | per key frame in all |\n"

@@ -1,6 +1,6 @@
-// Straight walls in 2D scans: both of our methods and MRPT's RANSAC in one run. First rooms with clutter of which the
-// truth is known, at several numbers of beams; then, where logs are given, how steady the walls of consecutive scans
-// are while the robot hardly moves. Prints Markdown tables.
+// Straight walls in 2D scans by both of our methods and MRPT's RANSAC in one run: first in simulated rooms with
+// clutter, whose truth is known, with several numbers of beams; then, if logs are given, how much the walls of
+// consecutive scans differ while the robot hardly moves. Prints Markdown tables.
 //
 // Example: bench-laser_lines --log intel.clf.bz2 --log aces.clf.bz2
 #include <mrpt/math/ransac_applications.h>
@@ -43,7 +43,7 @@ Lines ours(const perception::LaserLineExtractor& extractor, const CObservation2D
   return segments;
 }
 
-// MRPT's RANSAC tells each of its rounds on the standard output, which cannot be switched off and takes time.
+// Silences standard output: MRPT's RANSAC prints each of its iterations, which cannot be switched off and takes time.
 struct Silence {
   Silence() : was(std::cout.rdbuf(nullptr)) {}
   ~Silence() {
@@ -53,7 +53,7 @@ struct Silence {
   std::streambuf* was;
 };
 
-// MRPT tells lines without ends: they are given those of their points, parted where a gap is, as ours are.
+// MRPT's lines have no ends. They get the ends of their points, and are split at gaps as our lines are.
 Lines mrptRansac(const CObservation2DRangeScan& scan, double threshold, const perception::LaserLineOptions& options) {
   std::vector<double> xs, ys;
   for (std::size_t i = 0; i < scan.getScanSize(); ++i) {
@@ -99,10 +99,8 @@ double timeOf(const Finder& find, const CObservation2DRangeScan& scan) {
 
 void printRooms(const std::vector<Method>& methods, int rooms, int clutter) {
   std::printf(
-      "%d rooms with %d things in each for each row\n\n| beams | method | recall | precision | ends [cm] mean | median "
-      "| time "
-      "[ms] "
-      "median | 95 %% |\n|---|---|---|---|---|---|---|---|\n",
+      "%d rooms with %d objects in each for each row\n\n| beams | method | recall | precision | ends [cm] mean | "
+      "median | time [ms] median | 95 %% |\n|---|---|---|---|---|---|---|---|\n",
       rooms, clutter);
   for (const int beams : {181, 361, 1081}) {
     testing::LineScanOptions options;
@@ -132,7 +130,7 @@ struct Steadiness {
   std::vector<double> turns, offsets, times;  // [rad] [m] [ms]
 };
 
-// A line of the scan before is seen again where one lies along it, over half of it.
+// A line of the earlier scan is found again if a line of the later scan covers at least half of it.
 void compare(const Lines& before, const Lines& after, Steadiness& result) {
   for (const auto& line : before) {
     if (length(line) < 1) continue;
@@ -157,7 +155,7 @@ void compare(const Lines& before, const Lines& after, Steadiness& result) {
   }
 }
 
-// Pairs of consecutive scans between which the odometry tells next to no motion.
+// Pairs of consecutive scans between which the odometry measures almost no motion.
 std::vector<std::pair<CObservation2DRangeScan::Ptr, CObservation2DRangeScan::Ptr>> standingPairs(
     const std::string& path, std::size_t most) {
   source::CarmenLog log(path);
@@ -214,11 +212,11 @@ int main(int argc, char** argv) {
   std::vector<std::string> logs;
   int rooms = 200, clutter = 8;
   std::size_t most = 500;
-  CLI::App app("Straight walls in 2D scans: ours and MRPT's RANSAC.");
-  app.add_option("--log", logs, "CARMEN logs whose walls are to be steady");
+  CLI::App app("Compares straight walls in 2D scans by our methods and MRPT's RANSAC.");
+  app.add_option("--log", logs, "CARMEN logs in which walls of consecutive scans are compared");
   app.add_option("--rooms", rooms, "simulated scans for each number of beams");
-  app.add_option("--clutter", clutter, "poles and boxes in each room");
-  app.add_option("--pairs", most, "at most about that many pairs of scans of each log");
+  app.add_option("--clutter", clutter, "number of poles and boxes in each room");
+  app.add_option("--pairs", most, "largest number of pairs of scans of each log, approximately");
   CLI11_PARSE(app, argc, argv);
   mrpt::random::getRandomGenerator().randomize(1);
 

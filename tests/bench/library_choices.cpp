@@ -1,6 +1,6 @@
-// Where a library could replace our own code, both in one run: the nearest point of a scan (nanoflann's KD-tree), the
-// smallest rectangle around a footprint (OpenCV's minAreaRect), and PCD files that are damaged (PCL's reader, where it
-// is installed). Prints the rows that doc/decisions/libraries.md shows.
+// Compares our own code with libraries that could replace it: the nearest point of a scan (nanoflann's KD-tree), the
+// smallest rectangle around a footprint (OpenCV's minAreaRect), and damaged PCD files (PCL's reader, if it is
+// installed). Prints the rows that doc/decisions/libraries.md shows.
 //
 // Example: bench-library_choices --log aces.rawlog
 #include <PointIndex.h>
@@ -26,7 +26,7 @@ using namespace omnimapper;
 using Clock = std::chrono::steady_clock;
 using Points = std::vector<Eigen::Vector2f>;
 
-constexpr float kReach = 0.5F;  // [m] of a search
+constexpr float kReach = 0.5F;  // [m] largest distance of a search
 
 double microsecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::micro>(Clock::now() - begin).count();
@@ -51,7 +51,7 @@ std::vector<Points> scansOf(const std::string& log) {
   return scans;
 }
 
-// As nanoflann asks for points.
+// The interface by which nanoflann reads points.
 struct PointTable {
   const Points& points;
   std::size_t kdtree_get_point_count() const { return points.size(); }
@@ -69,12 +69,12 @@ bool isFound(const Tree& tree, const Eigen::Vector2f& point) {
   float squared = 0;
   nanoflann::KNNResultSet<float, unsigned> result(1);
   result.init(&index, &squared);
-  squared = kReach * kReach;  // where the search for one begins
+  squared = kReach * kReach;  // the search radius, from which the tree search starts
   tree.findNeighbors(result, point.data(), nanoflann::SearchParams());
   return result.size() > 0 && squared < kReach * kReach;
 }
 
-// A scan against those before it, ten times as a match comes nearer, as our matcher asks.
+// Searches the points of a scan in the scans before it, ten times with a converging pose, as our matcher does.
 void compareSearches(const std::vector<Points>& scans, std::size_t in_map) {
   double build_grid = 0, build_tree = 0, ask_grid = 0, ask_likely = 0, ask_tree = 0;
   std::size_t maps = 0, asked = 0, unlike = 0;
@@ -121,7 +121,7 @@ void compareSearches(const std::vector<Points>& scans, std::size_t in_map) {
               ask_grid / m, ask_likely / m, ask_tree / m, unlike, asked);
 }
 
-// Footprints of turned boxes with noise.
+// Compares rectangles around noisy footprints of rotated boxes.
 void compareRectangles() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -157,7 +157,7 @@ void compareRectangles() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Our own code beside the libraries that could replace it.");
+  CLI::App app("Compares our own code with libraries that could replace it.");
   std::string log;
   app.add_option("--log", log, "rawlog with a 2D laser")->required();
   CLI11_PARSE(app, argc, argv);

@@ -1,7 +1,8 @@
-// Things that were moved while the robot was elsewhere (thesis 4.6.3): how many of them are found out, how many are
-// taken for moved that were not, and what it does to the trajectory, over worlds and drives of many seeds. Prints a
-// Markdown table, and draws one of the maps. With --together nothing is carried away; instead that share of all markers
-// moves by one metre in one direction while the robot is in the corridor (thesis 4.6.4), and there is one row a share.
+// Markers that are moved while the robot is elsewhere (thesis 4.6.3): how many of them are detected, how many others
+// are taken for moved, and how the error of the trajectory changes, over worlds and drives of many seeds. Prints a
+// Markdown table, and draws one of the maps. With --together nothing is carried away. Instead the given share of all
+// markers moves by one metre in one direction while the robot is in the corridor (thesis 4.6.4), and the table has a
+// row for each share.
 //
 // Examples: bench-moveable_things --seeds 50 --svg doc/results/moveable_things.svg
 //           bench-moveable_things --seeds 10 --together 0.1 0.5 1 --laser
@@ -31,12 +32,12 @@ using namespace omnimapper;
 using mrpt::obs::CObservationBearingRange;
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
-/// What moves by the same way at one time.
+/// Markers that all move by the same vector at the same time.
 struct Together {
   double share = 0;       // of all markers
-  double way = 1;         // [m]
-  double time = 36;       // [s], by rawlogs/two_offices.ini the robot is in the corridor then
-  std::set<int> numbers;  // of those that do
+  double distance = 1;    // [m]
+  double time = 36;       // [s]; in rawlogs/two_offices.ini the robot is in the corridor then
+  std::set<int> numbers;  // of the markers that move
   Eigen::Vector3d shift{0, 0, 0};
 
   void choose(const sim::World& world, std::size_t seed) {
@@ -47,11 +48,11 @@ struct Together {
     all.resize(static_cast<std::size_t>(std::lround(share * static_cast<double>(all.size()))));
     numbers.insert(all.begin(), all.end());
     const double angle = std::uniform_real_distribution<double>(0, 2 * geometry::kPi)(random);
-    shift = way * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+    shift = distance * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
   }
 };
 
-/// A drive with what is true of it.
+/// A simulated drive with its observations and its truth.
 struct Drive {
   sim::Simulation simulation;
   Observations observations;
@@ -68,14 +69,14 @@ struct Drive {
     together.choose(simulation.world(), seed);
     for (const auto& observation : observations) moveTogether(*observation);
   }
-  /// Measurements after the move are of where it went, with the noise they had.
+  /// Changes measurements after the move so that they are of the new position, with their original noise.
   void moveTogether(mrpt::obs::CObservation& observation) const {
-    auto* seen = dynamic_cast<CObservationBearingRange*>(&observation);
-    if (!seen || secondsAt(seen->timestamp) < together.time) return;
-    const auto map_from_sensor =
-        *simulation.mapFromBase().at(secondsAt(seen->timestamp)) * geometry::fromMrpt(seen->sensorLocationOnRobot);
+    auto* measured = dynamic_cast<CObservationBearingRange*>(&observation);
+    if (!measured || secondsAt(measured->timestamp) < together.time) return;
+    const auto map_from_sensor = *simulation.mapFromBase().at(secondsAt(measured->timestamp)) *
+                                 geometry::fromMrpt(measured->sensorLocationOnRobot);
     const Eigen::Vector3d shift = map_from_sensor.rotation.conjugate() * together.shift;
-    for (auto& one : seen->sensedData) {
+    for (auto& one : measured->sensedData) {
       if (together.numbers.count(one.landmarkID) == 0) continue;
       const double level = one.range * std::cos(one.pitch);
       const Eigen::Vector3d there = shift + Eigen::Vector3d(level * std::cos(one.yaw), level * std::sin(one.yaw),
@@ -86,31 +87,31 @@ struct Drive {
     }
   }
   double secondsAt(base::Stamp stamp) const { return base::secondsBetween(simulation.start(), stamp); }
-  /// Where a landmark was [m, frame of the world].
+  /// Position of a landmark at a time [m, frame of the world].
   Eigen::Vector3d placeOf(const sim::PointLandmark& point, double time) const {
-    const bool went = time >= together.time && together.numbers.count(point.id) > 0;
-    const Eigen::Vector3d shift = went ? together.shift : Eigen::Vector3d::Zero();
+    const bool is_moved = time >= together.time && together.numbers.count(point.id) > 0;
+    const Eigen::Vector3d shift = is_moved ? together.shift : Eigen::Vector3d::Zero();
     for (const auto& body : simulation.world().bodies)
       if (body.name == point.body) return *body.track.at(std::max(time, 0.0)) * point.in_body + shift;
     return point.in_body + shift;
   }
-  /// Numbers of those that are at the end elsewhere than at the start.
+  /// Numbers of the landmarks whose position at the end differs from that at the start.
   std::set<int> moved() const {
     std::set<int> numbers;
     for (const auto& point : simulation.world().point_landmarks)
       if ((placeOf(point, 0) - placeOf(point, simulation.duration())).norm() > 0.01) numbers.insert(point.id);
     return numbers;
   }
-  /// Moved ones that key frames of `view` saw at least twice in each of two places.
+  /// Numbers of the moved landmarks that key frames of `view` measured at least twice at each of their two positions.
   std::set<int> movedAndSeenInBoth(const mapper::View& view) const {
     std::map<int, std::map<bool, int>> measurements;
     std::map<int, const sim::PointLandmark*> points;
     for (const auto& point : simulation.world().point_landmarks) points[point.id] = &point;
     for (const auto& frame : view.map.key_frames) {
       for (const auto& observation : frame.observations) {
-        const auto* seen = dynamic_cast<const CObservationBearingRange*>(observation.get());
-        if (!seen) continue;
-        for (const auto& one : seen->sensedData) {
+        const auto* measured = dynamic_cast<const CObservationBearingRange*>(observation.get());
+        if (!measured) continue;
+        for (const auto& one : measured->sensedData) {
           const auto& point = *points.at(one.landmarkID);
           const bool at_first = (placeOf(point, secondsAt(frame.stamp)) - placeOf(point, 0)).norm() < 0.01;
           ++measurements[one.landmarkID][at_first];
@@ -122,7 +123,7 @@ struct Drive {
       if (measurements[number][true] > 1 && measurements[number][false] > 1) both.insert(number);
     return both;
   }
-  /// Root mean square over key frames, seen from the first of them [m].
+  /// Root mean square error [m] of the key frames, relative to the first of them.
   double trajectoryError(const mapper::View& view) const {
     const auto truthAt = [&](base::Stamp stamp) { return *simulation.mapFromBase().at(secondsAt(stamp)); };
     const auto first = truthAt(view.map.key_frames.front().stamp);
@@ -139,12 +140,12 @@ struct Drive {
 Observations withoutNumbers(const Observations& all, const std::set<int>& numbers) {
   Observations kept;
   for (const auto& observation : all) {
-    const auto* seen = dynamic_cast<const CObservationBearingRange*>(observation.get());
-    if (!seen) {
+    const auto* measured = dynamic_cast<const CObservationBearingRange*>(observation.get());
+    if (!measured) {
       kept.push_back(observation);
       continue;
     }
-    auto copy = std::make_shared<CObservationBearingRange>(*seen);
+    auto copy = std::make_shared<CObservationBearingRange>(*measured);
     auto& data = copy->sensedData;
     data.erase(std::remove_if(data.begin(), data.end(), [&](const auto& one) { return numbers.count(one.landmarkID); }),
                data.end());
@@ -169,7 +170,7 @@ std::size_t countOf(const std::set<int>& all, const std::set<int>& among) {
       std::count_if(all.begin(), all.end(), [&](int number) { return among.count(number) > 0; }));
 }
 
-// Poses red, landmarks green, moved things blue with dotted lines, as Figure 49 of the thesis.
+// Draws poses in red, landmarks in green and moved landmarks in blue with dotted lines, as in Figure 49 of the thesis.
 void draw(const mapper::View& view, const std::string& path) {
   std::vector<Eigen::Vector3d> poses, points;
   std::vector<map::LandmarkShape> moved;
@@ -217,14 +218,14 @@ void draw(const mapper::View& view, const std::string& path) {
   out << "</svg>\n";
 }
 
-/// What is the same in all runs.
+/// Settings that all runs have in common.
 struct Setting {
   std::string world, ini_text;
   std::vector<std::string> world_settings, settings;
-  std::string without_search;  // a setting
+  std::string without_search;  // the setting that turns the search off
 };
 
-/// One log, mapped with the search, without what moved, and without the search.
+/// Results of one log, which is mapped with the search, without the moved markers, and without the search.
 struct Outcome {
   std::size_t moved = 0, in_both = 0, found = 0, found_of_others = 0, wrong = 0;
   double error = 0, without_moved = 0, not_found_out = 0;  // [m]
@@ -263,8 +264,8 @@ Outcome runSeed(const Setting& setting, const Together& together, std::size_t se
   return outcome;
 }
 
-/// Of many runs, means of what is in metres.
-struct Tally {
+/// Results of many runs: sums of counts, and means of errors and times.
+struct Statistics {
   Outcome sum;
   std::size_t within = 0, runs = 0;
   double worst_ratio = 0, sum_of_ratios = 0;
@@ -274,54 +275,55 @@ struct Tally {
     for (const auto count :
          {&Outcome::moved, &Outcome::in_both, &Outcome::found, &Outcome::found_of_others, &Outcome::wrong})
       sum.*count += one.*count;
-    for (const auto figure :
+    for (const auto value :
          {&Outcome::error, &Outcome::without_moved, &Outcome::not_found_out, &Outcome::seconds, &Outcome::search})
-      sum.*figure += one.*figure;
+      sum.*value += one.*value;
     const double ratio = one.error / one.without_moved;
     within += ratio <= 1.1;
     worst_ratio = std::max(worst_ratio, ratio);
     sum_of_ratios += ratio;
   }
-  double mean(double Outcome::*figure) const { return sum.*figure / static_cast<double>(runs); }
+  double mean(double Outcome::*value) const { return sum.*value / static_cast<double>(runs); }
 };
 
-// Thesis 4.6.3.
+// The experiment of thesis 4.6.3.
 void carriedAway(const Setting& setting, std::size_t first, std::size_t seeds, const std::string& svg) {
   std::printf(
       "| seed | moved | seen in both | found of these | of others | false | error [m] | without the moved [m] | "
-      "moved not found out [m] | time [s] | of it the search [s] |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  Tally tally;
+      "not found out [m] | time [s] | search alone [s] |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  Statistics statistics;
   for (std::size_t seed = first; seed < first + seeds; ++seed) {
     const Outcome one = runSeed(setting, {}, seed, seed == first ? svg : "");
     std::printf("| %zu | %zu | %zu | %zu | %zu | %zu | %.4f | %.4f | %.4f | %.2f | %.3f |\n", seed, one.moved,
                 one.in_both, one.found, one.found_of_others, one.wrong, one.error, one.without_moved, one.not_found_out,
                 one.seconds, one.search);
     std::fflush(stdout);
-    tally.add(one);
+    statistics.add(one);
   }
   std::printf(
-      "\nfound %zu of %zu that were seen in both places, %zu false; error %.4f m, without the moved %.4f m, moved not "
-      "found out %.4f m; search %.2f s of %.2f s\nerror over that without the moved ones: of the means %.3f, mean of "
-      "the runs %.3f, worst %.3f, within 1.1 in %zu of %zu\n",
-      tally.sum.found, tally.sum.in_both, tally.sum.wrong, tally.mean(&Outcome::error),
-      tally.mean(&Outcome::without_moved), tally.mean(&Outcome::not_found_out), tally.mean(&Outcome::search),
-      tally.mean(&Outcome::seconds), tally.sum.error / tally.sum.without_moved,
-      tally.sum_of_ratios / static_cast<double>(seeds), tally.worst_ratio, tally.within, seeds);
+      "\nfound %zu of %zu that were seen in both places, %zu false; error %.4f m, without the moved %.4f m, not found "
+      "out %.4f m; search %.2f s of %.2f s\nratio of the error to that without the moved ones: of the means %.3f, mean "
+      "of the runs %.3f, worst %.3f, at most 1.1 in %zu of %zu\n",
+      statistics.sum.found, statistics.sum.in_both, statistics.sum.wrong, statistics.mean(&Outcome::error),
+      statistics.mean(&Outcome::without_moved), statistics.mean(&Outcome::not_found_out),
+      statistics.mean(&Outcome::search), statistics.mean(&Outcome::seconds),
+      statistics.sum.error / statistics.sum.without_moved, statistics.sum_of_ratios / static_cast<double>(seeds),
+      statistics.worst_ratio, statistics.within, seeds);
 }
 
-// Thesis 4.6.4.
+// The experiment of thesis 4.6.4.
 void movedTogether(const Setting& setting, const std::vector<double>& shares, std::size_t first, std::size_t seeds) {
   std::printf(
-      "| share | moved | seen in both | found of these | false | error [m] | without the moved [m] | moved not found "
-      "out [m] |\n|---|---|---|---|---|---|---|---|\n");
+      "| share | moved | seen in both | found of these | false | error [m] | without the moved [m] | not found out "
+      "[m] |\n|---|---|---|---|---|---|---|---|\n");
   for (const double share : shares) {
-    Tally tally;
+    Statistics statistics;
     Together together;
     together.share = share;
-    for (std::size_t seed = first; seed < first + seeds; ++seed) tally.add(runSeed(setting, together, seed, ""));
-    std::printf("| %.0f %% | %zu | %zu | %zu | %zu | %.3f | %.3f | %.3f |\n", 100 * share, tally.sum.moved,
-                tally.sum.in_both, tally.sum.found, tally.sum.wrong, tally.mean(&Outcome::error),
-                tally.mean(&Outcome::without_moved), tally.mean(&Outcome::not_found_out));
+    for (std::size_t seed = first; seed < first + seeds; ++seed) statistics.add(runSeed(setting, together, seed, ""));
+    std::printf("| %.0f %% | %zu | %zu | %zu | %zu | %.3f | %.3f | %.3f |\n", 100 * share, statistics.sum.moved,
+                statistics.sum.in_both, statistics.sum.found, statistics.sum.wrong, statistics.mean(&Outcome::error),
+                statistics.mean(&Outcome::without_moved), statistics.mean(&Outcome::not_found_out));
     std::fflush(stdout);
   }
 }
@@ -329,7 +331,7 @@ void movedTogether(const Setting& setting, const std::vector<double>& shares, st
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Things that were moved, found out: counts and trajectory error over seeds.");
+  CLI::App app("Counts detected moves of markers and measures the trajectory error over seeds.");
   Setting setting{omnimapper::testing::sourceFile("rawlogs/two_offices.ini"), {}, {}, {}, {}};
   std::string mapping = omnimapper::testing::sourceFile("ini/moveables.ini"), svg;
   std::size_t seeds = 5, first = 1;
@@ -337,13 +339,13 @@ int main(int argc, char** argv) {
   bool laser = false;
   app.add_option("--world", setting.world, "INI of the simulator")->capture_default_str();
   app.add_option("--ini", mapping, "INI of the mapper")->capture_default_str();
-  app.add_option("--seeds", seeds, "how many")->capture_default_str();
-  app.add_option("--first", first, "the first of them")->capture_default_str();
+  app.add_option("--seeds", seeds, "number of seeds")->capture_default_str();
+  app.add_option("--first", first, "first seed")->capture_default_str();
   app.add_option("--simulate", setting.world_settings, "section.key=value for the simulator; may be repeated");
   app.add_option("--set", setting.settings, "section.key=value for the mapper; may be repeated");
-  app.add_option("--together", shares, "shares of the markers that move together, each 0 to 1");
-  app.add_flag("--laser", laser, "a laser beside: it measures the motion, and walls are landmarks");
-  app.add_option("--svg", svg, "draws the map of the first seed");
+  app.add_option("--together", shares, "shares of the markers that move together, each from 0 to 1");
+  app.add_flag("--laser", laser, "add a laser, which measures the motion and whose walls are landmarks");
+  app.add_option("--svg", svg, "file for a drawing of the map of the first seed");
   CLI11_PARSE(app, argc, argv);
 
   std::ifstream file(mapping);

@@ -1,6 +1,6 @@
-// Things on tables: ours, PCL's organised chain and PCL's supervoxels in one run, on labelled clouds of table-top
-// scenes or on what omnimapper-simulate leaves with `labels = true`. Prints Markdown tables. PCL's rows are there where
-// bench-objects was built with it. Times are those of the processor, of one thread.
+// Objects on tables by our finder, PCL's chain for organized clouds and PCL's supervoxels in one run, on labelled
+// clouds of table-top scenes or on a log of omnimapper-simulate with `labels = true`. Prints Markdown tables. PCL's
+// rows appear if bench-objects was built with PCL. Times are processor times of one thread.
 //
 // Example: bench-objects --clouds objects/mosd
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -27,10 +27,10 @@ namespace {
 using namespace omnimapper;
 using namespace omnimapper::bench;
 
-constexpr std::uint32_t kFirstThing = 20;  // labels from here on are of things
-constexpr std::uint32_t kNeither = 10;     // what stands on the floor as things do, but is furniture: does not count
-constexpr double kFewest = 300;            // points of a thing that is to be found
-constexpr double kRight = 0.5;             // intersection over union
+constexpr std::uint32_t kFirstObject = 20;  // labels from here on are those of objects
+constexpr std::uint32_t kNeither = 10;  // label of furniture, which stands on the floor like objects but is not counted
+constexpr double kFewest = 300;         // least number of points of an object that counts
+constexpr double kRight = 0.5;          // least intersection over union of a right detection
 
 ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, const std::string& name) {
   perception::PlaneOptions sensor;
@@ -43,30 +43,30 @@ ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, c
   return {name, [=](const LabelledCloud& cloud) {
             const auto& points = cloud.points;
             const perception::DepthImage image(points.z.data(), points.width, points.height, cloud.camera);
-            Things things;
+            Objects objects;
             for (auto& found : finder.find(image, segmenter.segment(image), -Eigen::Vector3d::UnitY()))
-              things.push_back(std::move(found.pixels));
-            return things;
+              objects.push_back(std::move(found.pixels));
+            return objects;
           }};
 }
 
-/// One that was found, on whatever cloud.
+/// One detection, in any of the clouds.
 struct Detection {
   std::size_t pixels;
-  bool right;  // covers a thing at an intersection over union of at least a half
+  bool right;  // its intersection over union with an object is at least kRight
 };
 
 struct Result {
   std::vector<Detection> detections;
-  int things = 0, merged = 0;  // merged: things of which another shares the detection that covers most of it
-  double overlap = 0;          // sum over things of the best intersection over union
+  int objects = 0, merged = 0;  // merged: objects that are mostly covered by one detection together with another object
+  double overlap = 0;           // sum over objects of the best intersection over union
   std::vector<double> milliseconds;
 };
 
-void compare(const source::PcdCloud& cloud, const Things& found, Result& result) {
+void compare(const source::PcdCloud& cloud, const Objects& found, Result& result) {
   std::map<std::uint32_t, double> sizes;
   for (const auto label : cloud.labels) {
-    if (label >= kFirstThing) ++sizes[label];
+    if (label >= kFirstObject) ++sizes[label];
   }
   for (auto size = sizes.begin(); size != sizes.end();) size = size->second < kFewest ? sizes.erase(size) : ++size;
   std::map<std::uint32_t, double> best;
@@ -85,16 +85,16 @@ void compare(const source::PcdCloud& cloud, const Things& found, Result& result)
     }
     result.detections.push_back({found[i].size(), most >= kRight});
   }
-  std::map<std::size_t, int> things_of;
-  for (const auto& [label, i] : covers) ++things_of[i];
-  for (const auto& [label, i] : covers) result.merged += things_of[i] > 1;
+  std::map<std::size_t, int> objects_of;
+  for (const auto& [label, i] : covers) ++objects_of[i];
+  for (const auto& [label, i] : covers) result.merged += objects_of[i] > 1;
   for (const auto& [label, size] : sizes) {
-    ++result.things;
+    ++result.objects;
     result.overlap += best[label];
   }
 }
 
-/// Recall and precision where detections of fewer pixels are left out.
+/// Recall and precision if detections with fewer than `fewest` pixels are left out.
 struct Point {
   std::size_t fewest = 0;
   double recall = 0, precision = 0;
@@ -108,12 +108,12 @@ std::vector<Point> curveOf(const Result& result) {
   double right = 0;
   for (std::size_t i = 0; i < detections.size(); ++i) {
     right += detections[i].right;
-    curve.push_back({detections[i].pixels, right / result.things, right / static_cast<double>(i + 1)});
+    curve.push_back({detections[i].pixels, right / result.objects, right / static_cast<double>(i + 1)});
   }
   return curve;
 }
 
-// The most things at a precision that is no less.
+// The point with the highest recall among those with at least this precision.
 Point bestAt(const std::vector<Point>& curve, double precision) {
   Point best;
   for (const Point& point : curve) {
@@ -122,7 +122,7 @@ Point bestAt(const std::vector<Point>& curve, double precision) {
   return best;
 }
 
-// Where clusters of fewer points do not count.
+// Recall and precision if clusters of fewer than `fewest` points do not count.
 Point at(const std::vector<Point>& curve, std::size_t fewest) {
   Point last;
   for (const Point& point : curve) {
@@ -131,7 +131,8 @@ Point at(const std::vector<Point>& curve, std::size_t fewest) {
   return last;
 }
 
-// Clouds of PCD files, by a camera whose calibration they do not tell but show.
+// Reads clouds from PCD files. The calibration of the camera is estimated from the clouds, since the files do not have
+// it.
 std::vector<LabelledCloud> readClouds(const std::string& folder) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
@@ -146,26 +147,26 @@ std::vector<LabelledCloud> readClouds(const std::string& folder) {
   return clouds;
 }
 
-// For each number of a surface in a simulated world, the label of the thing it belongs to; 1 for what is level or a
-// wall.
-std::map<std::uint32_t, std::uint32_t> thingsOfSurfaces(const std::string& folder) {
+// For each number of a surface in a simulated world, the label of the object that it belongs to, kNeither for frames of
+// furniture, and 1 for all other surfaces.
+std::map<std::uint32_t, std::uint32_t> objectsOfSurfaces(const std::string& folder) {
   std::ifstream file(folder + "/landmarks.json");
   const auto world = nlohmann::json::parse(file);
-  std::map<std::string, std::uint32_t> things;
+  std::map<std::string, std::uint32_t> objects;
   for (const auto& object : world["objects"])
-    things.emplace(object["name"], kFirstThing + static_cast<std::uint32_t>(things.size()));
+    objects.emplace(object["name"], kFirstObject + static_cast<std::uint32_t>(objects.size()));
   std::map<std::uint32_t, std::uint32_t> labels;
   for (const auto& surface : world["surfaces"]) {
-    const auto thing = things.find(surface["body"]);
+    const auto object = objects.find(surface["body"]);
     const std::string name = surface["name"];
     const bool is_frame = name.size() > 6 && name.substr(name.size() - 6) == "/frame";
-    labels[surface["label"]] = thing != things.end() ? thing->second : is_frame ? kNeither : 1;
+    labels[surface["label"]] = object != objects.end() ? object->second : is_frame ? kNeither : 1;
   }
   return labels;
 }
 
 LabelledCloud cloudOf(const mrpt::obs::CObservation3DRangeScan& scan, const cv::Mat& surfaces,
-                      const std::map<std::uint32_t, std::uint32_t>& things) {
+                      const std::map<std::uint32_t, std::uint32_t>& objects) {
   LabelledCloud cloud;
   const auto& camera = scan.cameraParams;
   cloud.camera = {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
@@ -179,16 +180,16 @@ LabelledCloud cloudOf(const mrpt::obs::CObservation3DRangeScan& scan, const cv::
       points.x.push_back(z * static_cast<float>((x - camera.cx()) / camera.fx()));
       points.y.push_back(z * static_cast<float>((y - camera.cy()) / camera.fy()));
       points.z.push_back(z);
-      const auto thing = things.find(surfaces.at<std::uint16_t>(y, x));
-      points.labels.push_back(range > 0 && thing != things.end() ? thing->second : 0);
+      const auto object = objects.find(surfaces.at<std::uint16_t>(y, x));
+      points.labels.push_back(range > 0 && object != objects.end() ? object->second : 0);
     }
   }
   return cloud;
 }
 
-// What omnimapper-simulate left: depth images, and the surface that each pixel truly sees.
+// Reads the log of omnimapper-simulate: depth images, and the true surface of each pixel.
 std::vector<LabelledCloud> readSimulated(const std::string& folder) {
-  const auto things = thingsOfSurfaces(folder);
+  const auto objects = objectsOfSurfaces(folder);
   std::vector<std::string> pictures;
   for (const auto& entry : std::filesystem::directory_iterator(folder + "/truth/labels"))
     pictures.push_back(entry.path());
@@ -199,7 +200,7 @@ std::vector<LabelledCloud> readSimulated(const std::string& folder) {
   while (const auto observation = log.next()) {
     const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
     if (!scan) continue;
-    clouds.push_back(cloudOf(*scan, cv::imread(pictures.at(clouds.size()), cv::IMREAD_UNCHANGED), things));
+    clouds.push_back(cloudOf(*scan, cv::imread(pictures.at(clouds.size()), cv::IMREAD_UNCHANGED), objects));
   }
   return clouds;
 }
@@ -207,17 +208,20 @@ std::vector<LabelledCloud> readSimulated(const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Things on tables: ours and PCL's two ways in one run");
+  CLI::App app("Compares objects on tables by our finder and two methods of PCL.");
   std::string folder, simulated;
   double tilt_deg = 75;
   int rounds = 3;
   std::size_t fewest = 1000;
   auto* input = app.add_option_group("input")->require_option(1);
-  input->add_option("--clouds", folder, "folder of organised PCD files with labels, 20 and up for things");
-  input->add_option("--simulated", simulated, "folder that omnimapper-simulate made, one camera with labels = true");
-  app.add_option("--tilt", tilt_deg, "of tables from the camera's own level at most [deg]: its pose is not used");
-  app.add_option("--fewest", fewest, "points of a cluster that counts in the columns recall and precision");
-  app.add_option("--rounds", rounds, "times each cloud is done");
+  input->add_option("--clouds", folder, "folder of organized PCD files with labels, 20 and above for objects");
+  input->add_option("--simulated", simulated,
+                    "folder that omnimapper-simulate wrote, with one camera that has labels = true");
+  app.add_option("--tilt", tilt_deg,
+                 "largest tilt of tables from the level of the camera [deg], whose pose is not used");
+  app.add_option("--fewest", fewest,
+                 "least number of points of a cluster that counts in the columns recall and precision");
+  app.add_option("--rounds", rounds, "number of runs on each cloud");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   const auto clouds = folder.empty() ? readSimulated(simulated) : readClouds(folder);
@@ -231,15 +235,15 @@ int main(int argc, char** argv) {
     for (const auto& cloud : clouds) {
       for (std::size_t m = 0; m < methods.size(); ++m) {
         const double start = processorTime();
-        const Things found = methods[m].run(cloud);
+        const Objects found = methods[m].run(cloud);
         results[m].milliseconds.push_back(processorTime() - start);
         if (round == 0) compare(cloud.points, found, results[m]);
       }
     }
   }
-  std::printf("%zu clouds, %d things, %d times each\n\n", clouds.size(), results[0].things, rounds);
+  std::printf("%zu clouds, %d objects, %d times each\n\n", clouds.size(), results[0].objects, rounds);
   std::printf(
-      "| method | recall | precision | recall at precision 0.7 | 0.9 | 1 | things merged | mean overlap | median "
+      "| method | recall | precision | recall at precision 0.7 | 0.9 | 1 | objects merged | mean overlap | median "
       "[ms] "
       "| 95 %% |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -247,7 +251,7 @@ int main(int argc, char** argv) {
     const Point usual = at(curve, fewest);
     std::printf("| %s | %.3f | %.3f | %.3f | %.3f | %.3f | %d | %.3f | %.2f | %.2f |\n", methods[m].name.c_str(),
                 usual.recall, usual.precision, bestAt(curve, 0.7).recall, bestAt(curve, 0.9).recall,
-                bestAt(curve, 1).recall, results[m].merged, results[m].overlap / results[m].things,
+                bestAt(curve, 1).recall, results[m].merged, results[m].overlap / results[m].objects,
                 quantile(results[m].milliseconds, 0.5), quantile(results[m].milliseconds, 0.95));
   }
 }

@@ -1,6 +1,7 @@
-// How many range camera frames a second everything that is found in them takes: planes, things, five kinds of edges.
-// Two ways to use several threads: a frame for each, as omnimapper-perceive and the mapper do, or a kind of feature for
-// each. Frames are in memory; times are those of the wall clock, so nothing else should run. Prints a Markdown table.
+// Frames of a range camera per second when everything is extracted from them: planes, objects and five kinds of edges.
+// Several threads are used in two ways: a task is a frame, as in omnimapper-perceive and the mapper, or a kind of
+// feature of a frame. Frames are in memory. Times are wall times, so no other program should run. Prints a Markdown
+// table.
 //
 // Example: bench-perception_rate --tum tum_fr1_rpy --threads 2
 #include <omnimapper/base/Memory.h>
@@ -32,7 +33,7 @@ Scans readScans(const std::string& folder, int every) {
   return scans;
 }
 
-// Frames a second, when each thread takes a frame and does all work on it, or when each piece of work is a task.
+// Frames per second, where a task is either all work on a frame or one piece of that work.
 double rateOf(const Scans& scans, const std::vector<Work>& work, int threads, bool frame_is_a_task) {
   using Clock = std::chrono::steady_clock;
   base::WorkerPool pool(threads);
@@ -65,33 +66,33 @@ void printRow(const std::string& name, const Scans& scans, const std::vector<Wor
 int main(int argc, char** argv) {
   std::string folder;
   int every = 3, threads = 2, rounds = 5;
-  CLI::App app("Frames a second of everything that is found in the frames of a range camera.");
+  CLI::App app("Measures how many frames of a range camera per second all extractors process.");
   app.add_option("--tum", folder, "folder of depth and colour images in the TUM layout")->required();
-  app.add_option("--every", every, "only every n-th pair of images")->check(CLI::PositiveNumber);
-  app.add_option("--threads", threads, "at most")->check(CLI::PositiveNumber);
-  app.add_option("--rounds", rounds, "how often")->check(CLI::PositiveNumber);
+  app.add_option("--every", every, "use only every n-th pair of images")->check(CLI::PositiveNumber);
+  app.add_option("--threads", threads, "largest number of threads")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "number of rounds")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
 
   const auto scans = readScans(folder, every);
   perception::ObjectExtractor::Options options;
-  options.objects.max_tilt = M_PI / 2;  // which way is up is not told
+  options.objects.max_tilt = M_PI / 2;  // the images have no information on which way is up
   const perception::PlaneExtractor planes(options.planes, options.outlines);
-  const perception::ObjectExtractor things(options);
+  const perception::ObjectExtractor objects(options);
   const perception::EdgeExtractor edges({});
   const Work find_planes = [&](const Scan& scan) { return planes.extract(scan) != nullptr; };
-  const Work find_things = [&](const Scan& scan) { return things.extract(scan).planes != nullptr; };
+  const Work find_objects = [&](const Scan& scan) { return objects.extract(scan).planes != nullptr; };
   const Work find_edges = [&](const Scan& scan) { return !edges.extract(scan).empty(); };
 
   std::printf(
-      "%zu frames, %d times\n\n| what | threads | a task is a | frames/s median | least | most "
+      "%zu frames, %d times\n\n| what | threads | a task is a | frames/s, median | least | most "
       "|\n|---|---|---|---|---|---|\n",
       scans.size(), rounds);
   for (int n = 1; n <= threads; ++n) {
     printRow("planes", scans, {find_planes}, n, true, rounds);
-    printRow("planes and things", scans, {find_things}, n, true, rounds);
+    printRow("planes and objects", scans, {find_objects}, n, true, rounds);
     printRow("five kinds of edges", scans, {find_edges}, n, true, rounds);
-    printRow("everything", scans, {find_things, find_edges}, n, true, rounds);
-    if (n > 1) printRow("everything", scans, {find_things, find_edges}, n, false, rounds);
+    printRow("everything", scans, {find_objects, find_edges}, n, true, rounds);
+    if (n > 1) printRow("everything", scans, {find_objects, find_edges}, n, false, rounds);
   }
 }

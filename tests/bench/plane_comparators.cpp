@@ -1,7 +1,7 @@
-// Planes by each comparator of PlaneExtractor, and by PCL's, in one run: on recorded frames (time) and on simulated
-// rooms with sheets of other colours on their walls (agreement with the truth). Prints Markdown tables. PCL's rows are
-// there where bench-plane_comparators was built with it; its back-projection is not timed. Times are those of the
-// processor, of one thread.
+// Planes by each comparator of PlaneExtractor and by those of PCL in one run: on recorded frames (time) and on
+// simulated rooms with coloured sheets on their walls (agreement with the truth). Prints Markdown tables. PCL's rows
+// appear if bench-plane_comparators was built with PCL; its back-projection is not timed. Times are processor times of
+// one thread.
 //
 // Example: bench-plane_comparators --tum tum_fr1_rpy --every 10 --rooms 20
 #include <omnimapper/perception/PlaneSegmenter.h>
@@ -123,12 +123,12 @@ int main(int argc, char** argv) {
   std::string tum;
   int every = 10, rounds = 2, count = 20;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
-  CLI::App app("Planes of depth images and pictures by each comparator, ours and PCL's.");
+  CLI::App app("Compares planes in depth and colour images by each comparator of ours and PCL's.");
   app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth and rgb");
-  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
-  app.add_option("--rounds", rounds, "how often each")->check(CLI::PositiveNumber);
+  app.add_option("--every", every, "use only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "number of runs on each frame")->check(CLI::PositiveNumber);
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--rooms", count, "how many simulated rooms; 0 leaves them out");
+  app.add_option("--rooms", count, "number of simulated rooms; 0: none");
   CLI11_PARSE(app, argc, argv);
   if (!tum.empty()) printTimes(readRgbd(tum, every, {camera[0], camera[1], camera[2], camera[3]}), rounds);
   if (count > 0) printRooms(count);

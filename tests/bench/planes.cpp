@@ -1,6 +1,6 @@
-// Planes of depth images: ours, its stages and its peers in one run, on recorded frames (time) and on simulated rooms
-// with a Kinect's noise (time and agreement with the truth). Prints Markdown tables. PCL's and OpenCV's rows are there
-// where bench-planes was built with them. Times are those of the processor, of one thread.
+// Planes in depth images by our segmentation, its stages and its peers in one run: on recorded frames (time) and on
+// simulated rooms with a Kinect's noise (time and agreement with the truth). Prints Markdown tables. PCL's rows appear
+// if bench-planes was built with PCL. Times are processor times of one thread.
 //
 // Example: bench-planes --depth tum_fr1_rpy/depth --every 5 --rooms 20
 #include <omnimapper/base/Memory.h>
@@ -22,7 +22,7 @@ namespace {
 using namespace omnimapper;
 using namespace omnimapper::bench;
 
-// Each name is a shared library of methods from elsewhere.
+// All methods. `libraries`: paths of shared libraries with further ones.
 std::vector<PlanePeer> methods(const std::vector<std::string>& libraries) {
   std::vector<PlanePeer> all = ourPlanes();
   for (const auto& peers : {pclPlanes(), openCvPlanes()}) all.insert(all.end(), peers.begin(), peers.end());
@@ -41,7 +41,7 @@ std::vector<DepthFrame> readFrames(const std::string& folder, int every, double 
   std::vector<DepthFrame> frames;
   for (std::size_t i = 0; i < files.size(); i += static_cast<std::size_t>(every)) {
     const cv::Mat png = cv::imread(files[i], cv::IMREAD_UNCHANGED);
-    if (png.type() != CV_16U) throw std::runtime_error(files[i] + " is no 16-bit depth image");
+    if (png.type() != CV_16U) throw std::runtime_error(files[i] + " is not a 16-bit depth image");
     DepthFrame frame{png.cols, png.rows, unit, camera, {}};
     for (int y = 0; y < png.rows; ++y) {
       const auto* row = png.ptr<std::uint16_t>(y);
@@ -78,7 +78,7 @@ void printTimes(const std::vector<PlanePeer>& all, const std::vector<DepthFrame>
   }
 }
 
-// How far our planes of these labels are from the truth: angles of normals [deg] and distances [mm].
+// Errors of our planes against the truth: angles of normals [deg] and distances [mm].
 struct Errors {
   std::vector<double> angles, distances;
 
@@ -127,7 +127,7 @@ void printRooms(std::vector<PlanePeer> all, int rooms, double noise_factor) {
       rooms, 1e3 * noise.sigma, sums[0].true_planes);
   for (std::size_t m = 0; m < all.size(); ++m) {
     const auto& s = sums[m];
-    if (s.reported == 0) continue;  // normals alone
+    if (s.reported == 0) continue;  // a method that only computes normals
     std::printf("| %s | %.3f | %.3f | %.3f | %d | %d | %d | %d | %d | %.2f |\n", all[m].name.c_str(),
                 s.found / static_cast<double>(s.true_planes), s.reported_right / std::max(1.0, s.reported * 1.0),
                 s.pixelsRight(), s.correct, s.over, s.under, s.missed, s.noise, quantile(times[m], 0.5));
@@ -145,15 +145,16 @@ int main(int argc, char** argv) {
   double unit = 1.0 / 5000, noise_factor = 1;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
   std::vector<std::string> libraries;
-  CLI::App app("Planes of depth images by ours and others.");
+  CLI::App app("Compares planes in depth images by our segmentation and others.");
   app.add_option("--depth", folder, "folder of 16-bit depth images (PNG)");
-  app.add_option("--every", every, "only every n-th of them")->check(CLI::PositiveNumber);
-  app.add_option("--rounds", rounds, "how often each")->check(CLI::PositiveNumber);
-  app.add_option("--unit", unit, "of their depths [m]");
+  app.add_option("--every", every, "use only every n-th image")->check(CLI::PositiveNumber);
+  app.add_option("--rounds", rounds, "number of runs on each image")->check(CLI::PositiveNumber);
+  app.add_option("--unit", unit, "unit of the depths [m]");
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--rooms", rooms, "how many simulated rooms; 0 leaves them out");
-  app.add_option("--noise", noise_factor, "of the rooms, in parts of the default");
-  app.add_option("--peer", libraries, "shared library of other methods; PlanePeerLibrary.h says what it holds");
+  app.add_option("--rooms", rooms, "number of simulated rooms; 0: none");
+  app.add_option("--noise", noise_factor, "noise in the rooms, as a factor of the default");
+  app.add_option("--peer", libraries,
+                 "shared library with other methods; PlanePeerLibrary.h lists the functions that it must have");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   const auto all = methods(libraries);

@@ -1,8 +1,8 @@
 // Motion between consecutive images of a depth camera by every kind of registration, against motion capture: the
-// thesis's Table 8, with PCL's methods (where bench-registration was built with it) and OpenCV's in the same run.
-// Prints a Markdown table. Times are those of the processor, of one thread, from the images on, without reading files.
-// The guess of a pair is the motion that the same method found for the pair before, or none (--from-rest). Pairs of a
-// simulated place are each of another place (--simulated-pairs).
+// thesis's Table 8, with the methods of PCL (if bench-registration was built with PCL) and OpenCV in the same run.
+// Prints a Markdown table. Times are processor times of one thread, without reading files. The guess of a pair is the
+// motion that the same method found for the pair before, or no motion (--from-rest). With --simulated-pairs each pair
+// is from another simulated place.
 //
 // Example: bench-registration --tum tum_fr1_rpy
 //          bench-registration --rawlog out/home/home.rawlog --truth out/home/truth.tum
@@ -85,7 +85,8 @@ matching::RgbdPyramid pyramidOf(const RgbdFrame& frame) {
   return {depthOf(frame), &colour};
 }
 
-// Corners alone, or corners and then the whole images, from where the corners say.
+// Registration by corners alone, or by corners and then by the whole images, starting at the motion that the corners
+// give.
 RegistrationPeer features(const std::string& name, bool then_dense) {
   return {
       name, "SIFT", 1,
@@ -138,7 +139,7 @@ RegistrationPeer openCvDense() {
               for (int k = 0; k < 3; ++k) start.at<double>(r, k) = rotation(r, k);
               start.at<double>(r, 3) = guess.translation(r);
             }
-            // It moves the first frame given onto the second.
+            // OpenCV's result maps points of its first frame to its second one.
             auto from = frame(second), to = frame(first);
             return odometry->compute(from, to, found, start) && !found.empty()
                        ? std::optional(Registered{toSe3(found), {}})
@@ -154,7 +155,8 @@ Se3 rigid(const std::vector<Eigen::Vector3d>& to, const std::vector<Eigen::Vecto
   return {Eigen::Quaterniond(Eigen::Matrix3d(found.topLeftCorner<3, 3>())).normalized(), found.topRightCorner<3, 1>()};
 }
 
-// SIFT by OpenCV, the nearest descriptor with Lowe's ratio, the motion by RANSAC over three pairs of points (3 cm).
+// SIFT by OpenCV: nearest descriptors with Lowe's ratio test, then the motion by RANSAC over three pairs of points (3
+// cm).
 std::optional<Registered> bySift(const RgbdFrame& first, const RgbdFrame& second, const Se3&) {
   auto sift = cv::SIFT::create();
   std::vector<cv::KeyPoint> keys_a, keys_b;
@@ -237,10 +239,10 @@ std::vector<RegistrationPeer> methods() {
 struct Errors {
   std::vector<double> position, angle, time;  // [mm] [deg] [ms]
   std::size_t failed = 0;
-  std::vector<double> normalised;  // squared error in standard deviations, by degree of freedom
+  std::vector<double> normalized;  // squared error in standard deviations, per degree of freedom
   void add(const Registered& estimate, const Se3& truth) {
     const auto off = geometry::minus(estimate.first_from_second, truth);
-    if (estimate.covariance) normalised.push_back(off.dot(estimate.covariance->ldlt().solve(off)) / 6);
+    if (estimate.covariance) normalized.push_back(off.dot(estimate.covariance->ldlt().solve(off)) / 6);
     position.push_back(1e3 * off.head<3>().norm());
     angle.push_back(off.tail<3>().norm() * 180 / M_PI);
   }
@@ -252,7 +254,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
-// `late`: by how much stamps of images come after the light [s].
+// `late`: delay [s] of the stamps of images after the exposure.
 PosedFrames readTumPosed(const std::string& folder, const perception::Pinhole& camera, double late) {
   PosedFrames posed{readRgbd(folder, 1, camera), {}};
   const auto truth = eval::readTum(folder + "/groundtruth.txt");
@@ -272,13 +274,13 @@ PosedFrames thinned(const PosedFrames& all, std::size_t every) {
   return some;
 }
 
-// Images i - 1 and i are a pair, for i from 1 on in steps.
+// Which images are pairs: images i - 1 and i, for i = 1, 1 + step, ...
 struct Pairing {
-  bool is_all = false;     // no pair is left out for slow methods
-  bool are_apart = false;  // an image belongs to one pair alone
-  bool from_rest = false;  // the guess is no motion
+  bool is_all = false;        // slow methods use all pairs, too
+  bool are_disjoint = false;  // each image belongs to one pair only
+  bool from_rest = false;     // the guess is no motion
   std::size_t stepOf(const RegistrationPeer& method) const {
-    return are_apart ? 2 : is_all ? 1 : static_cast<std::size_t>(method.every);
+    return are_disjoint ? 2 : is_all ? 1 : static_cast<std::size_t>(method.every);
   }
 };
 
@@ -289,14 +291,14 @@ Errors errorsOf(const RegistrationPeer& method, const PosedFrames& posed, const 
   Se3 guess;
   for (std::size_t i = 1; i < frames.size(); i += step) {
     const bool is_known = poses[i] && poses[i - 1];
-    // A method that leaves pairs out has no pair before: its guess is the true one of then, which is as good.
+    // A method that skips pairs has no result for the pair before. Its guess is the true motion of that pair.
     if (step > 1 && i > 1 && poses[i - 2] && poses[i - 1]) guess = inverse(*poses[i - 2]) * *poses[i - 1];
     if (pairing.from_rest) guess = {};
     const double begin = processorTime();
     const auto found = method.run(frames[i - 1], frames[i], guess);
     errors.time.push_back(processorTime() - begin);
     errors.failed += !found;
-    // Who fails is taken at the guess, and begins anew.
+    // If the method fails, the guess counts as its result, and the next guess is no motion.
     const Registered taken = found.value_or(Registered{guess, {}});
     if (is_known) errors.add(taken, inverse(*poses[i - 1]) * *poses[i]);
     guess = found ? found->first_from_second : Se3{};
@@ -310,7 +312,7 @@ void printRow(const RegistrationPeer& method, const Errors& errors) {
               method.row.c_str(), method.name.c_str(), errors.position.size(), errors.failed, rms(errors.position),
               p.mean, p.deviation, rms(errors.angle), a.mean, a.deviation, quantile(errors.time, 0.5),
               quantile(errors.time, 0.95),
-              errors.normalised.empty() ? "" : base::fixed(std::sqrt(spreadOf(errors.normalised).mean), 2).c_str());
+              errors.normalized.empty() ? "" : base::fixed(std::sqrt(spreadOf(errors.normalized).mean), 2).c_str());
   std::fflush(stdout);
 }
 
@@ -322,23 +324,24 @@ int main(int argc, char** argv) {
   double late = 0;
   int every = 1, simulated = 0;
   Pairing pairing;
-  CLI::App app("Motion between consecutive depth images, by every kind of registration.");
+  CLI::App app("Compares methods that estimate the motion between consecutive depth images.");
   app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt");
-  app.add_option("--camera", camera, "its fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--late", late, "[s] by which its stamps are late; of freiburg1's depths 0.025 to 0.03");
-  app.add_option("--rawlog", rawlog, "a rawlog in its place");
-  app.add_option("--truth", truth, "true poses of its base, a TUM file");
-  app.add_option("--every", every, "only every n-th of the frames")->check(CLI::PositiveNumber);
-  app.add_option(
-         "--simulated-pairs", simulated,
-         "in their place so many pairs of images 2 to 3 cm and 1 to 2 deg apart, each of another simulated place; "
-         "their guess is no motion")
+  app.add_option("--camera", camera, "fx fy cx cy of its camera [px]; the default is freiburg1's")->expected(4);
+  app.add_option("--late", late,
+                 "[s] delay of its stamps after the exposure; 0.025 to 0.03 for the depths of freiburg1");
+  app.add_option("--rawlog", rawlog, "a rawlog, instead of --tum");
+  app.add_option("--truth", truth, "TUM file with the true poses of the rawlog's base");
+  app.add_option("--every", every, "use only every n-th frame")->check(CLI::PositiveNumber);
+  app.add_option("--simulated-pairs", simulated,
+                 "number of simulated pairs, instead of --tum or --rawlog: images that are 2 to 3 cm and 1 to 2 deg "
+                 "apart, each pair in another place; the guess is no motion")
       ->check(CLI::PositiveNumber);
-  app.add_option("--place", place, "INI of these places, whose seeds are 1, 2, ...; its first sensor is an DepthCamera")
+  app.add_option("--place", place,
+                 "INI of the simulated places, whose seeds are 1, 2, ...; its first sensor must be an RgbdCamera")
       ->check(CLI::ExistingFile)
       ->capture_default_str();
-  app.add_option("--only", only, "only methods with this in their row or name");
-  app.add_flag("--all-pairs", pairing.is_all, "slow methods try all pairs, too");
+  app.add_option("--only", only, "only methods whose row or name contains this text");
+  app.add_flag("--all-pairs", pairing.is_all, "slow methods use all pairs, too");
   app.add_flag("--from-rest", pairing.from_rest, "the guess of each pair is no motion");
   app.add_option(
       "--write-pairs", written,
@@ -348,8 +351,8 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   cv::setNumThreads(1);
-  pairing.are_apart = simulated > 0;
-  pairing.from_rest = pairing.from_rest || pairing.are_apart;
+  pairing.are_disjoint = simulated > 0;
+  pairing.from_rest = pairing.from_rest || pairing.are_disjoint;
   const auto read = [&] {
     if (simulated > 0) return simulatedPairs(place, simulated);
     return thinned(rawlog.empty() ? readTumPosed(tum, {camera[0], camera[1], camera[2], camera[3]}, late)
@@ -358,12 +361,12 @@ int main(int argc, char** argv) {
   };
   const PosedFrames posed = read();
   if (!written.empty()) {
-    writePairs(written, posed, pairing.are_apart ? 2 : 1);
+    writePairs(written, posed, pairing.are_disjoint ? 2 : 1);
     return 0;
   }
   std::printf(
       "%zu frames\n\n| points | method | pairs (failed) | position RMSE [mm] | mean ± s.d. | angle RMSE [deg] | mean ± "
-      "s.d. | median [ms] | 95 %% | normalised error |\n|---|---|---|---|---|---|---|---|---|---|\n",
+      "s.d. | median [ms] | 95 %% | normalized error |\n|---|---|---|---|---|---|---|---|---|---|\n",
       posed.frames.size());
   for (const auto& method : methods()) {
     if (!only.empty() && (method.row + " " + method.name).find(only) == std::string::npos) continue;

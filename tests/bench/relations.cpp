@@ -1,6 +1,6 @@
-// The box of thesis 4.5.2.4 without relations between its landmarks, with those that are found, with all true ones, and
-// with wrong ones among them; and whether the covariances can be believed. Prints Markdown, and draws figures 42 to 44;
-// doc/results/relations.md shows both.
+// The box of thesis 4.5.2.4 without relations between its landmarks, with relations that are found, with all true ones,
+// and with wrong ones among them; and whether the covariances are consistent with the errors. Prints Markdown and draws
+// figures 42 to 44. doc/results/relations.md shows both.
 //
 //   bench-relations --seeds 100 --svg doc/results/relations.svg
 #include <omnimapper/draw/Svg.h>
@@ -20,7 +20,7 @@ using plugins::RelationBox;
 struct Row {
   const char* name;
   RelationBox::With with;
-  double wrong_share;  // of the 27 true relations
+  double wrong_share;  // number of wrong relations, in parts of the 27 true ones
   bool tested;
 };
 
@@ -35,14 +35,14 @@ void drawPanel(draw::Svg& svg, double left, const std::string& title, const Rela
   };
   drawWalls(truth.walls, "#9a9a9a", 1);
   drawWalls(layout.walls, "#2471a3", 1.6);
-  std::vector<Eigen::Vector2d> way;
-  for (const auto& pose : layout.poses) way.push_back(axes.pixel(pose));
-  svg.polyline(way, "#c0392b", 0.8);
-  for (const auto& at : way) svg.dot(at, 1.8, "#c0392b");
+  std::vector<Eigen::Vector2d> trajectory;
+  for (const auto& pose : layout.poses) trajectory.push_back(axes.pixel(pose));
+  svg.polyline(trajectory, "#c0392b", 0.8);
+  for (const auto& at : trajectory) svg.dot(at, 1.8, "#c0392b");
   for (const auto& point : layout.points) svg.dot(axes.pixel(point), 2.6, "#1e8449");
 }
 
-// Thesis figures 42, 43 and 44.
+// Draws figures 42, 43 and 44 of the thesis.
 void drawMetrics(const std::string& path, unsigned seed) {
   const RelationBox box(seed);
   const auto without = RelationBox(seed).run(RelationBox::With::no_relations, 0, true),
@@ -50,19 +50,19 @@ void drawMetrics(const std::string& path, unsigned seed) {
   std::ofstream out(path);
   draw::Svg svg(out, 1100, 430);
   drawPanel(svg, 50, "initial belief", box.initialBelief(), box.truth());
-  drawPanel(svg, 415, "optimised, without relations", without.found, box.truth());
-  drawPanel(svg, 780, "optimised, with relations found", with.found, box.truth());
+  drawPanel(svg, 415, "optimized, without relations", without.found, box.truth());
+  drawPanel(svg, 780, "optimized, with relations found", with.found, box.truth());
   svg.text({550, 418}, "poses red, points green, walls blue; true walls thin grey", draw::Svg::Anchor::middle);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Relations between landmarks in the box of thesis 4.5.2.4.");
+  CLI::App app("Evaluates relations between landmarks in the box of thesis 4.5.2.4.");
   unsigned seeds = 100;
-  app.add_option("--seeds", seeds, "Runs of each row; default 100");
+  app.add_option("--seeds", seeds, "Runs per row; default 100");
   std::string svg;
-  app.add_option("--svg", svg, "Draws the first run: before, without and with relations");
+  app.add_option("--svg", svg, "File for a drawing of the first run: before optimization, without and with relations");
   CLI11_PARSE(app, argc, argv);
   if (!svg.empty()) drawMetrics(svg, 1);
 

@@ -1,9 +1,9 @@
-// Whether a map survives what nobody tuned for: every 2D laser log at hand, as it is and in eight variants (reversed,
-// thinned, without or with bad wheels, with a narrow laser, from the middle on), mapped with one INI. Prints a Markdown
-// table of absolute trajectory errors and writes a CSV with everything else; --before puts the CSV of an earlier run
-// beside it.
+// Robustness against data for which nothing was tuned: every available 2D laser log, unchanged and in its other
+// variants (reversed, thinned, without or with bad wheels, with a narrow laser, from the middle on), is mapped with one
+// INI. Prints a Markdown table of absolute trajectory errors and writes a CSV with all results. --before adds the
+// errors of an earlier CSV that differ.
 //
-// A map is wrong if its error is over 1 m (UntunedLogs.h says against what).
+// A map is wrong if its error is more than 1 m. UntunedLogs.h describes the references.
 //
 // Example: bench-robustness -o out/robustness
 #include <omnimapper/eval/RelativePoseError.h>
@@ -39,17 +39,17 @@ struct Run {
   std::size_t key_frames = 0, closures = 0, refused = 0;
   std::string verdict;
 
-  // Without a map it is not wrong, but not right either.
+  // A run without a map counts neither as wrong nor as right.
   bool isMapped() const { return std::isfinite(ate); }
   bool isWrong() const { return isMapped() && ate > untuned::kWrong; }
 };
 
-double relativeError(const eval::Trajectory& estimate, const eval::Trajectory& reference, double way) {
+double relativeError(const eval::Trajectory& estimate, const eval::Trajectory& reference, double travel) {
   try {
-    return eval::relativePoseError(estimate, reference, untuned::pairing(), {way, eval::DeltaUnit::metres})
+    return eval::relativePoseError(estimate, reference, untuned::pairing(), {travel, eval::DeltaUnit::metres})
         .translation.rmse;
   } catch (const base::Error&) {
-    return NAN;  // a log that is shorter
+    return NAN;  // the log is shorter than that
   }
 }
 
@@ -187,15 +187,16 @@ int main(int argc, char** argv) {
   std::string ini = tests::sourceFile("ini/laser2d.ini"), out, before;
   std::vector<std::string> names, variant_names, settings;
   int jobs = 2;
-  CLI::App app("Maps every 2D laser log at hand in nine variants and prints how wrong the maps are.");
-  app.add_option("-i,--ini", ini, "(ini/laser2d.ini)");
-  app.add_option("-o,--output", out, "folder for logs, maps and results.csv; variants that it holds are used again")
+  CLI::App app("Maps every available 2D laser log in several variants and prints the errors of the maps.");
+  app.add_option("-i,--ini", ini, "INI of the mapper (ini/laser2d.ini)");
+  app.add_option("-o,--output", out,
+                 "folder for logs, maps and results.csv; logs that are there already are used again")
       ->required();
-  app.add_option("--logs", names, "only these")->delimiter(',');
-  app.add_option("--variants", variant_names, "only these")->delimiter(',');
+  app.add_option("--logs", names, "only these logs")->delimiter(',');
+  app.add_option("--variants", variant_names, "only these variants")->delimiter(',');
   app.add_option("--set", settings, "section.key=value");
-  app.add_option("--jobs", jobs, "maps at once")->check(CLI::PositiveNumber);
-  app.add_option("--before", before, "results.csv of an earlier run, to stand beside this one's")
+  app.add_option("--jobs", jobs, "number of maps that are made at the same time")->check(CLI::PositiveNumber);
+  app.add_option("--before", before, "results.csv of an earlier run; errors that differ from it are shown")
       ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
   obs::registerClasses();

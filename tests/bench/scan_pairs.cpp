@@ -1,9 +1,11 @@
-// Matches pairs of scans of a CARMEN log whose relative poses were checked by hand: our matcher and MRPT's ICP in one
-// run, and any other program through files. First from odometry's guess, then from a grid of starts around the checked
-// pose: the basin. Prints Markdown tables and draws the basin as SVG.
+// Matches pairs of scans of a CARMEN log whose relative poses were checked by hand, by our matcher and MRPT's ICP in
+// one run and by any other program through files. The matches start first from the guess of the odometry, then from a
+// grid of poses around the checked one, which gives the basin of convergence. Prints Markdown tables and draws the
+// basin as SVG.
 //
 // Example: bench-scan_pairs --log aces.clf.bz2 --relations aces.relations --svg doc/results/scan_matching_basin.svg
-// Another program: --tasks FILE writes what there is to do, --peer NAME=FILE reads what it found (see ScanPairs.h).
+// For another program, --tasks FILE writes the matches to be computed, and --peer NAME=FILE reads its results (see
+// ScanPairs.h).
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/slam/CICP.h>
 #include <omnimapper/matching/ScanMatcherOptions.h>
@@ -37,7 +39,7 @@ double since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-// The time of everything from the points in the order of the beams: lines of both scans, index, match.
+// The time includes everything from the points on: fitting lines in both scans, building the index, and matching.
 Outcome matchLines(const matching::ScanMatcher& matcher, const ScanPair& pair, const TPose2D& start) {
   const auto begin = Clock::now();
   const auto reference = matcher.prepare(matching::fitLines(pair.reference->points));
@@ -45,7 +47,7 @@ Outcome matchLines(const matching::ScanMatcher& matcher, const ScanPair& pair, c
   return {found.reference_from_scan, since(begin)};
 }
 
-// In a map scans are prepared once and matched often.
+// Without the time of preparing the scans, since in a map a scan is prepared once and matched often.
 Outcome matchPrepared(const matching::ScanMatcher& matcher, const ScanPair& pair, const TPose2D& start) {
   const auto reference = matcher.prepare(matching::fitLines(pair.reference->points));
   const auto scan = matching::fitLines(pair.scan->points);
@@ -63,7 +65,7 @@ mrpt::maps::CSimplePointsMap mapOf(const RecordedScan& scan) {
 
 Outcome matchIcp(const ScanPair& pair, const TPose2D& start, mrpt::slam::TICPAlgorithm algorithm, unsigned decimation,
                  bool with_maps) {
-  mrpt::slam::CICP icp;  // the rest as MRPT has it
+  mrpt::slam::CICP icp;  // all other options are MRPT's defaults
   icp.options.ICP_algorithm = algorithm;
   icp.options.corresponding_points_decimation = decimation;
   icp.options.skip_cov_calculation = true;
@@ -132,7 +134,7 @@ void printBasin(const Basin& basin) {
 }
 
 void printBasinHead() {
-  std::printf("\nBasin: share [%%] of matches that come right, by distance and turn of the start\n\n| method |");
+  std::printf("\nBasin: share [%%] of right matches, by distance and turn of the start\n\n| method |");
   std::string line = "\n|---|";
   for (const auto& [low, high] : kRings) {
     for (const auto& [flat, steep] : kTurns) {
@@ -143,7 +145,7 @@ void printBasinHead() {
   std::printf(" all |%s---|\n", line.c_str());
 }
 
-std::vector<Eigen::Vector2f> seen(const testing::FloorPlan& plan, const TPose2D& pose, testing::Dice& dice) {
+std::vector<Eigen::Vector2f> simulateScan(const testing::FloorPlan& plan, const TPose2D& pose, testing::Dice& dice) {
   std::vector<Eigen::Vector2f> points;
   for (int i = -90; i < 90; ++i) {
     const double angle = i * kDegree;
@@ -155,20 +157,20 @@ std::vector<Eigen::Vector2f> seen(const testing::FloorPlan& plan, const TPose2D&
   return points;
 }
 
-// A bare corridor 3 m wide, seen 8 m far: what moved along it nobody can tell from the scans.
+// A bare corridor that is 3 m wide, with beams up to 8 m: scans do not determine the motion along it.
 void printCorridor(const matching::ScanMatcher& matcher) {
   testing::FloorPlan corridor;
   corridor.addPolygon({{-60, -1.5}, {60, -1.5}, {60, 1.5}, {-60, 1.5}});
   testing::Dice dice(1);
   const int matches = 100;
-  int told = 0;
+  int degenerate = 0;
   double invented = 0, across = 0, turned = 0, off = 0;
   for (int i = 0; i < matches; ++i) {
     const TPose2D motion(dice.uniform(-0.5, 0.5), dice.uniform(-0.3, 0.3), dice.uniform(-20, 20) * kDegree);
     const TPose2D guess = motion + TPose2D(dice.normal(0.2), dice.normal(0.1), dice.normal(3 * kDegree));
-    const auto reference = matcher.prepare(matching::fitLines(seen(corridor, {0, 0, 0}, dice)));
-    const auto found = matcher.match(*reference, matching::fitLines(seen(corridor, motion, dice)), guess);
-    told += found.degenerate;
+    const auto reference = matcher.prepare(matching::fitLines(simulateScan(corridor, {0, 0, 0}, dice)));
+    const auto found = matcher.match(*reference, matching::fitLines(simulateScan(corridor, motion, dice)), guess);
+    degenerate += found.degenerate;
     const auto& pose = found.reference_from_scan;
     invented = std::max(invented, std::abs(pose.x - guess.x));
     across = std::max(across, std::abs(pose.y - motion.y));
@@ -178,9 +180,9 @@ void printCorridor(const matching::ScanMatcher& matcher) {
     off = std::max(off, std::abs(std::remainder(std::atan2(open.y(), open.x()) + pose.phi, 180 * kDegree)));
   }
   std::printf(
-      "\nBare corridor, %d simulated matches: %d say that a direction is open, at most %.2f deg from the corridor's; "
-      "largest motion invented along it %.1f cm; largest error across %.1f cm, of the heading %.2f deg\n",
-      matches, told, off / kDegree, 100 * invented, 100 * across, turned / kDegree);
+      "\nBare corridor, %d simulated matches: %d report an undetermined direction, at most %.2f deg from the "
+      "corridor's; largest motion estimated along it %.1f cm; largest error across %.1f cm, of the heading %.2f deg\n",
+      matches, degenerate, off / kDegree, 100 * invented, 100 * across, turned / kDegree);
 }
 
 }  // namespace
@@ -189,14 +191,14 @@ int main(int argc, char** argv) {
   std::string log, relations, svg, tasks_file, label = "FLASER", only;
   std::vector<std::string> peers, basin_peers;
   std::size_t basin_every = 24;
-  CLI::App app("Pairs of scans matched by ours, MRPT's and other matchers.");
+  CLI::App app("Compares matches of pairs of scans by our matcher, MRPT's and others.");
   app.add_option("--log", log, "CARMEN log with 180 beams")->required();
-  app.add_option("--relations", relations, "relative poses that were checked by hand")->required();
-  app.add_option("--svg", svg, "where to draw the basin");
-  app.add_option("--tasks", tasks_file, "writes what another program is to match");
-  app.add_option("--peer", peers, "NAME=FILE of what another program found");
-  app.add_option("--basin-every", basin_every, "the basin is that of every n-th pair; 0 leaves it out");
-  app.add_option("--only", only, "only methods whose name begins so");
+  app.add_option("--relations", relations, "file of relative poses that were checked by hand")->required();
+  app.add_option("--svg", svg, "file for a drawing of the basin");
+  app.add_option("--tasks", tasks_file, "file for the matches that another program is to compute");
+  app.add_option("--peer", peers, "NAME=FILE with the results of another program");
+  app.add_option("--basin-every", basin_every, "compute the basin for every n-th pair; 0: none");
+  app.add_option("--only", only, "only methods whose name begins with this text");
   CLI11_PARSE(app, argc, argv);
 
   const auto scans = readScans(log, label);

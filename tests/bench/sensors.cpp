@@ -1,6 +1,7 @@
-// What laser and camera each give a map of planes (thesis 5.5.2): simulated places, mapped by wheel odometry with the
-// lines of the laser, the planes of the camera, and both, and by scan matching alone. Prints errors of trajectories and
-// landmarks by the sensors that saw them as Markdown, and draws figures 64 and 65; doc/results/planes.md shows both.
+// How laser and camera each contribute to a map of planes (thesis 5.5.2). Simulated places are mapped by wheel odometry
+// with the lines of the laser, the planes of the camera, and both, and by scan matching alone. Prints the errors of
+// trajectories and the number of landmarks by the sensors that measured them as Markdown, and draws figures 64 and 65.
+// doc/results/planes.md shows both.
 //
 //   bench-sensors --simulated out/home out/office out/laboratory -o out/sensors --svg doc/results/sensors.svg
 #include <omnimapper/draw/Svg.h>
@@ -31,10 +32,10 @@ struct Counts {
   std::size_t laser = 0, camera = 0, both = 0;
 };
 
-/// What figures 64 and 65 show of one place.
-struct Figures {
+/// Data of figures 64 and 65 for one place.
+struct PlaceMetrics {
   std::string name;
-  std::vector<Eigen::Vector2d> lines, planes;  ///< matched in a key frame, by its number
+  std::vector<Eigen::Vector2d> lines, planes;  ///< x: number of a key frame, y: number of matches in it
   std::size_t key_frames = 0;
   Counts landmarks;
 };
@@ -58,16 +59,16 @@ Counts countBySensor(const map::Map& map) {
   for (const auto& [id, landmark] : map.landmarks) {
     if (landmark.state != map::Landmark::State::active) continue;
     bool by_line = false, by_plane = false;
-    for (const auto& [label, seen] : dynamic_cast<const plugins::PlanePayload&>(*landmark.payload).seen_by) {
-      by_line |= seen.lines > 0;
-      by_plane |= seen.planes > 0;
+    for (const auto& [label, count] : dynamic_cast<const plugins::PlanePayload&>(*landmark.payload).seen_by) {
+      by_line |= count.lines > 0;
+      by_plane |= count.planes > 0;
     }
     ++(by_line && by_plane ? counts.both : by_line ? counts.laser : counts.camera);
   }
   return counts;
 }
 
-// Mean over every ten key frames that have an observation of that class.
+// Mean number of matches in each block of ten key frames that have an observation of that class.
 template <class Observation>
 std::vector<Eigen::Vector2d> matchedByFrame(const mapper::SavedMap& saved, const std::string& kind) {
   constexpr int kBlock = 10;
@@ -77,8 +78,9 @@ std::vector<Eigen::Vector2d> matchedByFrame(const mapper::SavedMap& saved, const
   int in_block = 0;
   for (const auto& frame : saved.map.key_frames) {
     ++number;
-    const auto& seen = frame.observations;
-    if (std::none_of(seen.begin(), seen.end(), [](const auto& o) { return IS_CLASS(*o, Observation); })) continue;
+    const auto& observations = frame.observations;
+    if (std::none_of(observations.begin(), observations.end(), [](const auto& o) { return IS_CLASS(*o, Observation); }))
+      continue;
     const auto& factors = saved.graph.factorsOf(frame.pose);
     sum += Eigen::Vector2d(number, std::count_if(factors.begin(), factors.end(), [&](base::FactorId id) {
                              return saved.graph.factor(id).factor->kind() == kind;
@@ -91,7 +93,7 @@ std::vector<Eigen::Vector2d> matchedByFrame(const mapper::SavedMap& saved, const
   return means;
 }
 
-Figures printRow(const Setup& setup, const bench::SimulatedPlace& place) {
+PlaceMetrics printRow(const Setup& setup, const bench::SimulatedPlace& place) {
   const auto scans =
       bench::mapSimulated(place, setup.scans_ini, {}, setup.out + "/" + place.name() + "_scans", setup.threads);
   std::printf("| %s | %.4f m |", place.name().c_str(), scans.error.rmse);
@@ -109,7 +111,7 @@ Figures printRow(const Setup& setup, const bench::SimulatedPlace& place) {
 constexpr double kLeft = 50, kColumn = 340, kSide = 270, kHeight = 190;
 const std::string kLaser = "#2471a3", kCamera = "#c0392b", kBoth = "#7d3c98";
 
-void drawMatched(draw::Svg& svg, double left, const Figures& metrics) {
+void drawMatched(draw::Svg& svg, double left, const PlaceMetrics& metrics) {
   double most = 1;
   for (const auto* curve : {&metrics.lines, &metrics.planes})
     for (const auto& point : *curve) most = std::max(most, point.y());
@@ -140,18 +142,18 @@ void drawLandmarks(draw::Svg& svg, double left, const Counts& counts) {
   }
 }
 
-void drawMetrics(const std::string& path, const std::vector<Figures>& all) {
+void drawMetrics(const std::string& path, const std::vector<PlaceMetrics>& all) {
   std::ofstream out(path);
   draw::Svg svg(out, kLeft + kColumn * static_cast<double>(all.size()), 560);
   double left = kLeft;
-  for (const Figures& metrics : all) {
+  for (const PlaceMetrics& metrics : all) {
     drawMatched(svg, left, metrics);
     drawLandmarks(svg, left, metrics.landmarks);
     left += kColumn;
   }
   svg.text({kLeft, 545},
            "above: lines of the laser (blue) and planes of the camera (red) that were matched in a key frame, means of "
-           "ten; below: landmarks by who saw them",
+           "ten; below: landmarks by the sensors that measured them",
            draw::Svg::Anchor::start);
 }
 
@@ -161,10 +163,10 @@ int main(int argc, char** argv) {
   Setup setup;
   std::vector<std::string> folders;
   std::string svg;
-  CLI::App app("What laser and camera each give a map of planes, in simulated places.");
-  app.add_option("--simulated", folders, "folders that omnimapper-simulate made")->required();
+  CLI::App app("Evaluates how laser and camera each contribute to a map of planes, in simulated places.");
+  app.add_option("--simulated", folders, "folders that omnimapper-simulate wrote")->required();
   app.add_option("-o,--output", setup.out, "folder for the maps")->required();
-  app.add_option("--svg", svg, "draws figures 64 and 65 of the thesis");
+  app.add_option("--svg", svg, "file for figures 64 and 65 of the thesis");
   app.add_option("--ini", setup.landmarks_ini, "INI of the maps of planes")->capture_default_str();
   app.add_option("--scans", setup.scans_ini, "INI of scan matching alone")->capture_default_str();
   app.add_option("--threads", setup.threads);
@@ -173,7 +175,7 @@ int main(int argc, char** argv) {
   std::printf(
       "| place | scan matching alone | laser lines | camera planes | both | landmarks: laser, camera, both |\n"
       "|---|---|---|---|---|---|\n");
-  std::vector<Figures> metrics;
+  std::vector<PlaceMetrics> metrics;
   for (const auto& folder : folders) metrics.push_back(printRow(setup, {folder}));
   if (!svg.empty()) drawMetrics(svg, metrics);
 }

@@ -1,13 +1,13 @@
-// How far maps by door signs are from the truth: with signs as the mapper finds out which is which, with the true
-// associations, and without signs. Each seed is an odometry of its own along one drive, whose images are perceived
+// Errors of maps by door signs against the truth: with signs that the mapper associates itself, with the true
+// associations, and without signs. Each seed simulates another odometry for the same drive, whose images are perceived
 // once.
 //
 //   omnimapper-simulate -i rawlogs/signs_30.ini --set simulation.sensors=camera -o out/signs_30
 //   omnimapper-perceive -i ini/signs.ini -r out/signs_30/signs_30.rawlog -o out/signs.rawlog
 //   bench-sign_maps out/signs_30 out/signs.rawlog --seeds 20 -o out/sign_maps
 //
-// True associations: every sign that was found gets a number of its own for a text, what is no sign is left out, and
-// whatever has the same number is one sign, however far it is from where it is expected.
+// True associations: the text of each detection is replaced by the number of the true sign, detections that are no sign
+// are left out, and detections with the same number are associated, however far they are from the prediction.
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
@@ -39,30 +39,31 @@ struct Request {
   std::vector<std::string> settings;
   int seeds = 10, first_seed = 1, threads = 1;
   double min_confidence = 0;
-  std::vector<double> told_offset = {0, 0};  // [deg] pan and tilt that are told less those that are true
+  std::vector<double> reported_offset = {0, 0};  // [deg] reported minus true pan and tilt
   bool with_laser = false, list = false;
 };
 
-enum Way { kWith, kTrue, kWithout, kWays };
-constexpr std::array<const char*, kWays> kNames = {"with signs", "true associations", "without signs"};
+enum Variant { kWith, kTrue, kWithout, kVariants };
+constexpr std::array<const char*, kVariants> kNames = {"with signs", "true associations", "without signs"};
 
 struct Mapped {
   double error = 0;                                // [m] rmse
-  std::vector<std::pair<double, double>> by_time;  // [s] [m] of the final trajectory, the first pose on the true one
-  std::vector<std::pair<double, double>> online;   // the same of the newest pose when it was new
+  std::vector<std::pair<double, double>> by_time;  // [s] [m] error of the final trajectory, aligned at the first pose
+  std::vector<std::pair<double, double>> online;   // the same of each pose when it was the newest
   int proposed = 0, accepted = 0, wrongly_accepted = 0, wrongly_refused = 0, wrong_merges = 0;
-  Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();       // [rad] found offsets
-  int measurements = 0, wrong_measurements = 0, spare = 0;  // landmarks more than true signs that are in the map
+  Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();  // [rad] estimated offsets
+  int measurements = 0, wrong_measurements = 0;
+  int spare = 0;  // landmarks in excess of the true signs that are in the map
 };
 
-struct Trial {
+struct SeedResult {
   int seed = 0;
-  std::array<Mapped, kWays> ways;
-  double toTrue() const { return ways[kWith].error / ways[kTrue].error; }
-  double toNone() const { return ways[kWith].error / ways[kWithout].error; }
+  std::array<Mapped, kVariants> maps;
+  double toTrue() const { return maps[kWith].error / maps[kTrue].error; }
+  double toNone() const { return maps[kWith].error / maps[kWithout].error; }
 };
 
-// The truth comes with it, at more stamps.
+// Simulates the drive with this seed and returns its true trajectory, which has more stamps than `truth`.
 eval::Trajectory simulate(const Request& request, int seed, const SignTruth& truth, const std::string& folder) {
   auto config = base::Config::fromFile(request.simulated_ini);
   config.set(std::string("simulation.sensors=") + (request.with_laser ? "laser, odometry" : "odometry"));
@@ -74,19 +75,19 @@ eval::Trajectory simulate(const Request& request, int seed, const SignTruth& tru
   pairing.longest_gap = base::durationFromSeconds(0.5);
   constexpr double kSame = 0.01;  // [m]
   if (eval::absoluteTrajectoryError(truth.trajectory, trajectory, pairing).translation.max > kSame)
-    throw base::Error(base::ExitCode::unreadable_input,
-                      request.simulated_ini + ": its drive is not that of " + request.folder + "; give it with --ini");
+    throw base::Error(base::ExitCode::unreadable_input, request.simulated_ini + ": its drive differs from that of " +
+                                                            request.folder + "; give it with --ini");
   return trajectory;
 }
 
-std::vector<std::string> settingsOf(const Request& request, Way way, const SignTruth& truth) {
+std::vector<std::string> settingsOf(const Request& request, Variant variant, const SignTruth& truth) {
   const double span = base::secondsBetween(truth.first, truth.last);
   std::vector<std::string> settings = {"mapper.output_plugins=trajectory, summary, watch",
                                        "watch.class=SignWatchOutput", "source.end_s=" + base::fixed(span, 7)};
-  std::string measured = way == kWithout ? "" : "sign_landmarks";
+  std::string measured = variant == kWithout ? "" : "sign_landmarks";
   if (request.with_laser) {
     settings.emplace_back("perception.extractors=laser_points, laser_lines");
-    measured = "walls, " + std::string(way == kWithout ? "" : "sign_landmarks, ") + "relations";
+    measured = "walls, " + std::string(variant == kWithout ? "" : "sign_landmarks, ") + "relations";
   } else {
     settings.emplace_back("perception.extractors=");
     settings.emplace_back("mapper.pose_plugins=odometry, no_motion");
@@ -94,13 +95,14 @@ std::vector<std::string> settingsOf(const Request& request, Way way, const SignT
   }
   settings.push_back("mapper.measurement_plugins=" + measured);
   settings.insert(settings.end(), request.settings.begin(), request.settings.end());
-  if (way == kTrue) {  // no gate is left
+  if (variant == kTrue) {  // settings that turn all gates off
     for (const char* setting :
          {"association=nearest", "association_confidence=0.999999999", "association_inflation=100"})
       settings.push_back(std::string("sign_landmarks.") + setting);
-    // By wheels alone a measurement of the first round is metres from where it is expected on the second: bearings that
-    // are so far off do not find out of it (27.8 m with seed 6 of signs_200). So a new landmark is made there, and that
-    // both are one acts unasked. With a laser there are hypotheses of others, which must not.
+    // With wheels alone the drift after the first round is metres, and from bearings that are so far off their
+    // prediction the solver does not converge (27.8 m with seed 6 of signs_200). So a new landmark is made there, and
+    // the hypothesis that both are one sign acts without a test. With a laser there are other hypotheses, which must be
+    // tested.
     settings.emplace_back(request.with_laser ? "sign_landmarks.recent_m=1e6" : "hypotheses.test=none");
   }
   return settings;
@@ -108,24 +110,24 @@ std::vector<std::string> settingsOf(const Request& request, Way way, const SignT
 
 constexpr double kDegree = geometry::kPi / 180;
 
-// A log whose camera tells another pan and tilt than it has.
+// Writes a copy of the log in which the reported pan and tilt of the camera differ from the true ones.
 void writeWithOffset(const std::string& from, const std::vector<double>& degrees, const std::string& to) {
   source::RawlogSource log(from);
   source::writeRawlog(to, [&](source::RawlogWriter& out) {
     while (const auto observation = log.next()) {
       if (auto* signs = dynamic_cast<obs::CObservationDoorSigns*>(observation.get())) {
         const auto pose = geometry::fromMrpt(signs->sensorPose) * geometry::inverse(geometry::sensorFromOptical());
-        const geometry::Se3 told{Eigen::AngleAxisd(degrees[0] * kDegree, Eigen::Vector3d::UnitZ()) * pose.rotation *
-                                     Eigen::AngleAxisd(degrees[1] * kDegree, Eigen::Vector3d::UnitY()),
-                                 Eigen::Vector3d(pose.translation)};
-        signs->sensorPose = geometry::toMrpt(told * geometry::sensorFromOptical());
+        const geometry::Se3 reported{Eigen::AngleAxisd(degrees[0] * kDegree, Eigen::Vector3d::UnitZ()) * pose.rotation *
+                                         Eigen::AngleAxisd(degrees[1] * kDegree, Eigen::Vector3d::UnitY()),
+                                     Eigen::Vector3d(pose.translation)};
+        signs->sensorPose = geometry::toMrpt(reported * geometry::sensorFromOptical());
       }
       out.add(*observation);
     }
   });
 }
 
-// Without signs a trajectory has other stamps.
+// The trajectory at the stamps of the images, because a map without signs has other stamps.
 eval::Trajectory atImages(const eval::Trajectory& trajectory, const SignTruth& truth) {
   eval::Trajectory result;
   for (const auto& [stamp, signs] : truth.found)
@@ -167,7 +169,7 @@ void count(const SignWatch& watch, Mapped& mapped) {
   for (const auto& [sign, landmarks] : of_sign) mapped.spare += static_cast<int>(landmarks.size()) - 1;
 }
 
-// What the mapper took for one, or did not, on standard error.
+// Prints on standard error which landmarks the mapper associated, and which it did not.
 void list(const SignWatch& watch, const SignTruth& truth) {
   const auto titled = [&](base::LandmarkId id) {
     const auto title = watch.titles.find(id);
@@ -192,20 +194,20 @@ void list(const SignWatch& watch, const SignTruth& truth) {
   }
   for (const auto& [sign, landmarks] : of_sign) {
     if (landmarks.size() < 2) continue;
-    std::fprintf(stderr, "%s is more than once:\n", truth.names[sign].c_str());
+    std::fprintf(stderr, "%s has more than one landmark:\n", truth.names[sign].c_str());
     for (const auto id : landmarks)
-      std::fprintf(stderr, "    %s in the end %u\n", titled(id).c_str(),
+      std::fprintf(stderr, "    %s, merged into %u\n", titled(id).c_str(),
                    watch.kept.count(id) > 0 ? watch.kept.at(id).index : id.index);
   }
 }
 
-Mapped mapOneWay(const Request& request, Way way, const SignTruth& truth, const eval::Trajectory& trajectory,
-                 const std::string& folder) {
+Mapped mapVariant(const Request& request, Variant variant, const SignTruth& truth, const eval::Trajectory& trajectory,
+                  const std::string& folder) {
   auto config = base::Config::fromFile(request.ini);
-  for (const auto& setting : settingsOf(request, way, truth)) config.set(setting);
+  for (const auto& setting : settingsOf(request, variant, truth)) config.set(setting);
   mapper::RunRequest run;
-  run.logs = {folder + "/log/log.rawlog", way == kTrue ? request.out + "/true_signs.rawlog" : request.signs};
-  run.output_folder = folder + "/" + std::array{"with", "true", "without"}[way];
+  run.logs = {folder + "/log/log.rawlog", variant == kTrue ? request.out + "/true_signs.rawlog" : request.signs};
+  run.output_folder = folder + "/" + std::array{"with", "true", "without"}[variant];
   run.threads = request.threads;
   std::filesystem::create_directories(run.output_folder);
   SignWatch watch(truth);
@@ -224,20 +226,21 @@ Mapped mapOneWay(const Request& request, Way way, const SignTruth& truth, const 
   mapped.pan_tilt = watch.pan_tilt.value_or(mapped.pan_tilt);
   count(watch, mapped);
   if (request.list) {
-    std::fprintf(stderr, "== %s, %s: %.3f m, %zu poses, %d measurements\n", folder.c_str(), kNames[way], mapped.error,
-                 estimate.size(), mapped.measurements);
+    std::fprintf(stderr, "== %s, %s: %.3f m, %zu poses, %d measurements\n", folder.c_str(), kNames[variant],
+                 mapped.error, estimate.size(), mapped.measurements);
     list(watch, truth);
   }
   return mapped;
 }
 
-Trial tryOut(const Request& request, int seed, const SignTruth& truth) {
+SeedResult evaluate(const Request& request, int seed, const SignTruth& truth) {
   const std::string folder = request.out + "/seed_" + std::to_string(seed);
   const auto trajectory = simulate(request, seed, truth, folder + "/log");
-  Trial trial{seed, {}};
-  for (int way = 0; way < kWays; ++way)
-    trial.ways[static_cast<std::size_t>(way)] = mapOneWay(request, static_cast<Way>(way), truth, trajectory, folder);
-  return trial;
+  SeedResult result{seed, {}};
+  for (int variant = 0; variant < kVariants; ++variant)
+    result.maps[static_cast<std::size_t>(variant)] =
+        mapVariant(request, static_cast<Variant>(variant), truth, trajectory, folder);
+  return result;
 }
 
 double medianOf(std::vector<double> values) {
@@ -249,49 +252,47 @@ double medianOf(std::vector<double> values) {
 
 void printHeading(const Request& request, const SignTruth& truth) {
   std::printf(
-      "%s, %s: %zu signs, of which %d have a text that another one has, too%s. In %.0f s %zu are found, and %zu times "
-      "something on a poster and %zu times something else.\n\n",
+      "%s, %s: %zu signs, of which %d have a text that another sign has, too%s. In %.0f s there are %zu detections of "
+      "signs, %zu of posters and %zu of something else.\n\n",
       std::filesystem::path(request.folder).filename().c_str(),
       request.with_laser ? "wheels, laser and camera" : "wheels and camera", truth.signs, truth.repeated,
       truth.repeated < 5 ? " (FEWER THAN FIVE)" : "", base::secondsBetween(truth.first, truth.last), truth.of_signs,
       truth.of_posters, truth.elsewhere);
   std::printf(
       "| seed | with signs [m] | true associations [m] | without signs [m] | with / true | with / without | closures: "
-      "proposed, accepted | wrong ones accepted | right ones not taken | wrong merges | measurements, of another sign "
-      "| "
-      "true "
-      "ones | landmarks too many | pan, tilt off by [deg] |\n"
+      "proposed, accepted | wrong ones accepted | right ones not accepted | wrong merges | measurements, of another "
+      "sign | measurements with true associations | spare landmarks | pan, tilt off by [deg] |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
-void print(const Trial& trial) {
-  const auto& with = trial.ways[kWith];
+void print(const SeedResult& result) {
+  const auto& with = result.maps[kWith];
   std::printf("| %d | %.3f | %.3f | %.3f | %.2f | %.2f | %d, %d | %d | %d | %d | %d, %d | %d | %d | %.2f, %.2f |\n",
-              trial.seed, with.error, trial.ways[kTrue].error, trial.ways[kWithout].error, trial.toTrue(),
-              trial.toNone(), with.proposed, with.accepted, with.wrongly_accepted, with.wrongly_refused,
-              with.wrong_merges, with.measurements, with.wrong_measurements, trial.ways[kTrue].measurements, with.spare,
-              with.pan_tilt[0] / kDegree, with.pan_tilt[1] / kDegree);
+              result.seed, with.error, result.maps[kTrue].error, result.maps[kWithout].error, result.toTrue(),
+              result.toNone(), with.proposed, with.accepted, with.wrongly_accepted, with.wrongly_refused,
+              with.wrong_merges, with.measurements, with.wrong_measurements, result.maps[kTrue].measurements,
+              with.spare, with.pan_tilt[0] / kDegree, with.pan_tilt[1] / kDegree);
   std::fflush(stdout);
 }
 
-void printSummary(const std::vector<Trial>& trials) {
+void printSummary(const std::vector<SeedResult>& results) {
   const auto row = [&](const char* name, double (*of)(std::vector<double>)) {
     const auto over = [&](const auto& value) {
       std::vector<double> values;
-      for (const Trial& trial : trials) values.push_back(value(trial));
+      for (const SeedResult& result : results) values.push_back(value(result));
       return of(values);
     };
     std::printf("| %s |", name);
-    for (std::size_t way = 0; way < kWays; ++way)
-      std::printf(" %.3f |", over([&](const Trial& trial) { return trial.ways[way].error; }));
-    std::printf(" %.2f | %.2f | | | | | | | | |\n", over([](const Trial& trial) { return trial.toTrue(); }),
-                over([](const Trial& trial) { return trial.toNone(); }));
+    for (std::size_t variant = 0; variant < kVariants; ++variant)
+      std::printf(" %.3f |", over([&](const SeedResult& result) { return result.maps[variant].error; }));
+    std::printf(" %.2f | %.2f | | | | | | | | |\n", over([](const SeedResult& result) { return result.toTrue(); }),
+                over([](const SeedResult& result) { return result.toNone(); }));
   };
   row("median", medianOf);
   row("worst", [](std::vector<double> values) { return *std::max_element(values.begin(), values.end()); });
 }
 
-// As many points as a small plot shows.
+// At most some 150 of the points, which is enough for a small plot.
 std::vector<std::pair<double, double>> thinned(const std::vector<std::pair<double, double>>& points) {
   constexpr std::size_t kMost = 150;
   std::vector<std::pair<double, double>> some;
@@ -300,41 +301,43 @@ std::vector<std::pair<double, double>> thinned(const std::vector<std::pair<doubl
   return some;
 }
 
-void plot(const Request& request, std::vector<Trial> trials) {
-  std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.toNone() < b.toNone(); });
-  const Trial& trial = trials[(trials.size() - 1) / 2];
+void plot(const Request& request, std::vector<SeedResult> results) {
+  std::sort(results.begin(), results.end(),
+            [](const SeedResult& a, const SeedResult& b) { return a.toNone() < b.toNone(); });
+  const SeedResult& result = results[(results.size() - 1) / 2];
   const auto path = request.out + "/error_by_time.svg";
   omnimapper::bench::plotCurves(path,
                                 std::filesystem::path(request.folder).filename().string() + ", seed " +
-                                    std::to_string(trial.seed) + ": error from the start on, final trajectories",
+                                    std::to_string(result.seed) +
+                                    ": error of the final trajectories, aligned at the start",
                                 "time [s]", "error of the position [m]",
-                                {{"without signs", "#c0392b", thinned(trial.ways[kWithout].by_time)},
-                                 {"with signs, while it drives", "#aab7b8", thinned(trial.ways[kWith].online)},
-                                 {"with signs", "#2471a3", thinned(trial.ways[kWith].by_time)},
-                                 {"with true associations", "#1e8449", thinned(trial.ways[kTrue].by_time)}});
-  std::fprintf(stderr, "%s: seed %d, the median of with / without\n", path.c_str(), trial.seed);
+                                {{"without signs", "#c0392b", thinned(result.maps[kWithout].by_time)},
+                                 {"with signs, while driving", "#aab7b8", thinned(result.maps[kWith].online)},
+                                 {"with signs", "#2471a3", thinned(result.maps[kWith].by_time)},
+                                 {"with true associations", "#1e8449", thinned(result.maps[kTrue].by_time)}});
+  std::fprintf(stderr, "%s: seed %d, the median of with / without\n", path.c_str(), result.seed);
 }
 
 void run(Request request) {
   std::filesystem::create_directories(request.out);
-  if (request.told_offset != std::vector<double>{0, 0}) {
-    const std::string told = request.out + "/offset_signs.rawlog";
-    writeWithOffset(request.signs, request.told_offset, told);
-    request.signs = told;
+  if (request.reported_offset != std::vector<double>{0, 0}) {
+    const std::string offset_signs = request.out + "/offset_signs.rawlog";
+    writeWithOffset(request.signs, request.reported_offset, offset_signs);
+    request.signs = offset_signs;
   }
   const SignTruth truth(request.folder, request.signs, request.out + "/true_signs.rawlog", request.min_confidence);
   printHeading(request, truth);
-  std::vector<Trial> trials;
+  std::vector<SeedResult> results;
   for (int seed = request.first_seed; seed < request.first_seed + request.seeds; ++seed) {
     std::fprintf(stderr, "seed %d\n", seed);
-    trials.push_back(tryOut(request, seed, truth));
-    print(trials.back());
+    results.push_back(evaluate(request, seed, truth));
+    print(results.back());
   }
-  printSummary(trials);
-  plot(request, trials);
+  printSummary(results);
+  plot(request, results);
 }
 
-// That which the simulator wrote into the folder.
+// The INI that the simulator wrote into the folder.
 std::string iniIn(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".ini") return entry.path();
@@ -348,22 +351,22 @@ IMPLEMENTS_MRPT_OBJECT(SignWatchOutputFactory, omnimapper::mapper::OutputPluginF
 
 int main(int argc, char** argv) {
   bench::Request request;
-  CLI::App app("How far maps by door signs are from the truth, with and without them and with true associations.");
-  app.add_option("folder", request.folder, "what omnimapper-simulate wrote")->required();
-  app.add_option("signs", request.signs, "its camera log, perceived")->required();
+  CLI::App app("Measures the errors of maps by door signs: with and without signs, and with true associations.");
+  app.add_option("folder", request.folder, "folder that omnimapper-simulate wrote")->required();
+  app.add_option("signs", request.signs, "perceived log of its camera")->required();
   app.add_option("--ini", request.simulated_ini, "INI of the place (the one in the folder)");
   app.add_option("-i,--mapper-ini", request.ini, "INI of the mapper (ini/signs.ini)");
-  app.add_option("--seeds", request.seeds, "so many of them")->check(CLI::Range(1, 1000));
-  app.add_option("--first-seed", request.first_seed, "the first");
+  app.add_option("--seeds", request.seeds, "number of seeds")->check(CLI::Range(1, 1000));
+  app.add_option("--first-seed", request.first_seed, "first seed");
   app.add_option("--threads", request.threads, "worker threads");
   app.add_option("--true-of", request.min_confidence,
-                 "true associations only of signs of which a line is at least so sure (0: of all that are found)");
+                 "use true associations only of detections with a line of at least this confidence (0: of all)");
   app.add_option("--set", request.settings, "section.key=value for the mapper");
-  app.add_option("--told-offset", request.told_offset, "pan and tilt that the camera tells less the true ones [deg]")
+  app.add_option("--reported-offset", request.reported_offset, "reported minus true pan and tilt of the camera [deg]")
       ->expected(2);
-  app.add_flag("--with-laser", request.with_laser, "the whole INI but closures by scans, on a log with a laser");
-  app.add_flag("--list", request.list, "list what was taken for one and what was not, on standard error");
-  app.add_option("-o,--output", request.out, "folder");
+  app.add_flag("--with-laser", request.with_laser, "use the whole INI except closures by scans, on a log with a laser");
+  app.add_flag("--list", request.list, "list accepted and refused associations on standard error");
+  app.add_option("-o,--output", request.out, "output folder");
   CLI11_PARSE(app, argc, argv);
   try {
     if (request.simulated_ini.empty()) request.simulated_ini = bench::iniIn(request.folder);

@@ -1,9 +1,9 @@
-// How door signs are found and read in photographs: of data/signs, or of a folder like it.
+// How well door signs are found and read in photographs of data/signs or a similar folder.
 //
 //   bench-sign_photos ../shared/data/signs/photos ../shared/data/signs/closeups -o out/sign_photos
 //
-// A folder has NAME.jpg, for those with a NAME.mask.png the true region of the sign, and labels.csv with the columns
-// image, number, other_text; without that file the name of an image is what it reads, up to the first dot.
+// A folder has images NAME.jpg, the true region of the sign as NAME.mask.png for some of them, and labels.csv with the
+// columns image, number and other_text. Without that file the number is the name of the image up to the first dot.
 
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/signs/DoorSignExtractor.h>
@@ -92,8 +92,8 @@ bool isOn(const ObservedDoorSign& sign, const cv::Mat& mask) {
   return cv::Rect({0, 0}, mask.size()).contains(at) && mask.at<std::uint8_t>(at) != 0;
 }
 
-// Letters and digits alone, in capitals: blanks are as the reader sees them, and "_" stands for a blank in a file's
-// name.
+// Keeps only letters, digits and hyphens, in capitals. Blanks are ignored because the reader places them freely, and
+// "_" because it stands for a blank in a file's name.
 std::string plain(const std::string& text) {
   std::string result;
   for (const char c : text)
@@ -105,14 +105,14 @@ bool hasDigit(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-// The number that a label means: "E25-125_Women" E25-125, and "E25_FLOOR_1", which is a storey's sign, FLOOR 1.
+// The number in a label: E25-125 for "E25-125_Women", and FLOOR1 for "E25_FLOOR_1", which is the sign of a storey.
 std::string numberOf(const std::string& label) {
   const auto floor = label.find("FLOOR");
   return plain(floor != std::string::npos ? label.substr(floor) : label.substr(0, label.find('_')));
 }
 
-// Whether a line is the number, or two lines of one sign joined by a hyphen; `confidence` of the better one, or of the
-// less sure of the two.
+// Whether a line, or two lines of one sign joined by a hyphen, are the number. `confidence` is the largest among all
+// such readings; that of two lines is the lower of both.
 bool reads(const std::vector<ObservedDoorSign>& signs, const std::string& number, double& confidence) {
   const std::string wanted = numberOf(number);
   bool is_read = false;
@@ -133,7 +133,7 @@ bool reads(const std::vector<ObservedDoorSign>& signs, const std::string& number
 struct Cut {
   std::string name;
   cv::Rect kept;
-  bool is_cropped;  // else what is left out is black
+  bool is_cropped;  // the left-out part is cut off; else it is black
 };
 
 std::vector<Cut> cutsOf(const cv::Size& size) {
@@ -163,14 +163,14 @@ cv::Mat blackInTheMiddle(const cv::Mat& picture, bool is_row) {
   return result;
 }
 
-// Words with digits that are called sure and that the photograph does not have as a whole.
+// Words with digits that were read with a high confidence but are not in the photograph as a whole.
 std::string wrongAndSure(const std::vector<ObservedDoorSign>& signs, const Photo& photo) {
   std::string label = photo.number + " " + photo.others;
   std::replace(label.begin(), label.end(), '_', ' ');
   std::vector<std::string> words;
   std::istringstream in(label);
   for (std::string word; in >> word;) words.push_back(plain(word));
-  // What stands on several lines or apart: FLOOR 1, E25 and 125.
+  // Parts of the number that may be on different lines: FLOOR 1, E25 and 125.
   if (photo.number.find('_') != std::string::npos) {
     words.push_back(numberOf(photo.number));
     const auto hyphen = words.front().find('-');
@@ -211,15 +211,15 @@ void draw(const Photo& photo, const std::vector<ObservedDoorSign>& signs, const 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("How door signs are found and read in photographs.");
+  CLI::App app("Evaluates how well door signs are found and read in photographs.");
   std::vector<std::string> folders;
   std::string out = "out/sign_photos";
   bool with_cuts = false, by_tesseract = false, by_onnx_runtime = false;
   app.add_option("folders", folders, "folders of photographs")->required();
-  app.add_option("-o", out, "where the photographs with what was found go");
-  app.add_flag("--cuts", with_cuts, "also with a third of each photograph left out, at ten places");
-  app.add_flag("--tesseract", by_tesseract, "read by Tesseract");
-  app.add_flag("--onnxruntime", by_onnx_runtime, "compute the networks by ONNX Runtime");
+  app.add_option("-o", out, "folder for the photographs with the detections drawn in");
+  app.add_flag("--cuts", with_cuts, "also read each photograph with a third of it left out, in ten variants");
+  app.add_flag("--tesseract", by_tesseract, "read with Tesseract");
+  app.add_flag("--onnxruntime", by_onnx_runtime, "run the networks with ONNX Runtime");
   CLI11_PARSE(app, argc, argv);
   using Options = omnimapper::signs::DoorSignOptions;
   Options options;

@@ -1,10 +1,10 @@
-// How well the lines of simulated door signs are read, and whether the confidence holds.
+// How well the lines of simulated door signs are read, and whether the confidences agree with the share of right lines.
 //
 //   omnimapper-simulate -i rawlogs/signs_30.ini --set simulation.sensors=camera -o out/signs_30
 //   bench-sign_reading out/signs_30 --evidence out/signs_30.csv
 //
-// Lines are compared with those of the sign that signs_seen.csv has at that place of the image: a line is right if it
-// has some of its words, in their order, and nothing else.
+// Each line is compared with the sign that signs_seen.csv has at that position of the image. It is right if it consists
+// of some of the words of one line of that sign, in their order, and of nothing else.
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/net/Network.h>
@@ -40,7 +40,7 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-// By the number of the image.
+// The true signs of each image, by its number.
 std::map<int, std::vector<TrueSign>> readTruth(const std::string& file) {
   std::map<int, std::vector<TrueSign>> truth;
   std::ifstream in(file);
@@ -90,13 +90,14 @@ struct Read {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("How well the lines of simulated door signs are read.");
+  CLI::App app("Evaluates how well the lines of simulated door signs are read.");
   std::vector<std::string> folders;
   std::string evidence;
   bool by_opencv = false;
-  app.add_option("folders", folders, "what omnimapper-simulate wrote")->required();
-  app.add_option("--evidence", evidence, "file for what tells how far each reading can be trusted");
-  app.add_flag("--opencv", by_opencv, "compute the networks by OpenCV");
+  app.add_option("folders", folders, "folders that omnimapper-simulate wrote")->required();
+  app.add_option("--evidence", evidence,
+                 "CSV file for the features from which the confidence of each reading is computed");
+  app.add_flag("--opencv", by_opencv, "run the networks with OpenCV");
   CLI11_PARSE(app, argc, argv);
   const auto models = net::modelsFolder();
   const auto network = [&](const std::string& name) {
@@ -115,7 +116,9 @@ int main(int argc, char** argv) {
   constexpr int kBins = 10;
   std::vector<int> all(kBins), right(kBins);
   int sure = 0, sure_and_right = 0, elsewhere = 0;
-  std::map<int, std::array<int, 3>> by_height;  // capitals of whole signs, in steps of 4 px: seen, number read, sure
+  // Counts of whole signs by the height of their capitals in steps of 4 px: all, first line read, and that with a high
+  // confidence.
+  std::map<int, std::array<int, 3>> by_height;
   for (const auto& folder : folders) {
     const auto name = folder.substr(folder.find_last_of('/') + 1);
     const auto truth = readTruth(folder + "/signs_seen.csv");
@@ -130,8 +133,8 @@ int main(int argc, char** argv) {
       ++measurement;
       const auto picture = image->image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
       const auto found = truth.find(measurement);
-      const std::vector<TrueSign> seen = found == truth.end() ? std::vector<TrueSign>() : found->second;
-      std::vector<double> best(seen.size(), -1);
+      const std::vector<TrueSign> true_signs = found == truth.end() ? std::vector<TrueSign>() : found->second;
+      std::vector<double> best(true_signs.size(), -1);
       std::vector<signs::ReadLine> lines;
       for (const auto& text : detector.detect(picture)) {
         if (signs::heightOf(text.quad) < 8) continue;
@@ -139,9 +142,9 @@ int main(int argc, char** argv) {
       }
       for (const auto& [quad, reading] : lines) {
         const auto middle = signs::middleOf(quad);
-        const auto sign =
-            std::find_if(seen.begin(), seen.end(), [&](const TrueSign& s) { return signs::contains(s.quad, middle); });
-        if (sign == seen.end()) {
+        const auto sign = std::find_if(true_signs.begin(), true_signs.end(),
+                                       [&](const TrueSign& s) { return signs::contains(s.quad, middle); });
+        if (sign == true_signs.end()) {
           ++elsewhere;
           continue;
         }
@@ -149,7 +152,7 @@ int main(int argc, char** argv) {
         const bool is_right = std::any_of(sign->lines.begin(), sign->lines.end(),
                                           [&](const auto& truly) { return isOf(reading.text, truly); });
         if (is_right && isOf(reading.text, sign->lines.front())) {
-          auto& b = best[static_cast<std::size_t>(sign - seen.begin())];
+          auto& b = best[static_cast<std::size_t>(sign - true_signs.begin())];
           b = std::max(b, confidence);
         }
         const auto bin = static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(confidence * kBins)));
@@ -167,8 +170,8 @@ int main(int argc, char** argv) {
               << e.weakest_letter << ',' << e.agreement << ',' << e.clearance << ',' << e.height_px << ','
               << sign->capitals << ',' << sign->incidence << ',' << sign->visible << '\n';
       }
-      for (std::size_t i = 0; i < seen.size(); ++i) {
-        const auto& s = seen[i];
+      for (std::size_t i = 0; i < true_signs.size(); ++i) {
+        const auto& s = true_signs[i];
         const bool is_whole =
             s.visible > 0.99 && s.incidence < 60 && std::all_of(s.quad.begin(), s.quad.end(), [&](const auto& corner) {
               return corner.x() > 0 && corner.y() > 0 && corner.x() < static_cast<float>(picture.cols) &&

@@ -1,9 +1,9 @@
-// How long the thesis's way to find door signs takes in pictures: what is salient, and what a support vector machine
-// says of it; and how many regions that are.
+// Times the thesis's method for finding door signs in pictures: salient regions, which a support vector machine
+// classifies. Also prints the number of regions.
 //
 //   bench-sign_saliency out/signs/dark out/signs/white ../shared/data/signs/photos --width 1280
 //
-// A folder has JPEG or PNG pictures. Times are of the processor, of one thread, the least of three.
+// A folder has JPEG or PNG pictures. Times are processor times of one thread, the shortest of three.
 
 #include <omnimapper/base/Error.h>
 #include <omnimapper/signs/SalientSignDetector.h>
@@ -48,10 +48,10 @@ double leastTimeOf(const Work& work) {
 void report(const std::string& folder, int width) {
   const signs::SaliencyProposer proposer({});
   const signs::SignClassifier classifier = signs::SignClassifier::known();
-  std::vector<double> finding, telling, all, regions;
+  std::vector<double> finding, classifying, all, regions;
   for (const auto& path : picturesOf(folder)) {
     mrpt::img::CImage image;
-    if (!image.loadFromFile(path)) throw base::Error(base::ExitCode::unreadable_input, path + ": is no picture");
+    if (!image.loadFromFile(path)) throw base::Error(base::ExitCode::unreadable_input, path + ": is not a picture");
     if (width > 0) {
       const auto height = image.getHeight() * static_cast<unsigned>(width) / image.getWidth();
       image.scaleImage(image, static_cast<unsigned>(width), static_cast<unsigned>(height), mrpt::img::IMG_INTERP_AREA);
@@ -59,26 +59,28 @@ void report(const std::string& folder, int width) {
     const auto pixels = signs::pixelsOf(image);
     std::vector<signs::Corners> found;
     finding.push_back(leastTimeOf([&] { found = proposer.propose(pixels); }));
-    telling.push_back(leastTimeOf([&] { classifier.probabilities(pixels, found); }));
-    all.push_back(finding.back() + telling.back());
+    classifying.push_back(leastTimeOf([&] { classifier.probabilities(pixels, found); }));
+    all.push_back(finding.back() + classifying.back());
     regions.push_back(static_cast<double>(found.size()));
   }
   std::printf("| %s | %zu | %.0f | %.1f | %.1f | %.1f | %.1f |\n", fs::path(folder).filename().c_str(), all.size(),
-              bench::quantile(regions, 0.5), bench::quantile(finding, 0.5), bench::quantile(telling, 0.5),
+              bench::quantile(regions, 0.5), bench::quantile(finding, 0.5), bench::quantile(classifying, 0.5),
               bench::quantile(all, 0.5), bench::quantile(all, 0.95));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("How long door signs take to be found by saliency.");
+  CLI::App app("Times the detection of door signs by saliency.");
   std::vector<std::string> folders;
   int width = 0;
   app.add_option("folders", folders, "folders of pictures")->required();
-  app.add_option("--width", width, "pictures are scaled to it first [px]; 0: as they are")->check(CLI::Range(0, 8192));
+  app.add_option("--width", width, "width to which pictures are scaled first [px]; 0: not scaled")
+      ->check(CLI::Range(0, 8192));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
-  std::printf("| pictures | count | regions | finding them [ms] | telling them [ms] | both, median | both, 95 %% |\n");
+  std::printf(
+      "| pictures | count | regions | finding them [ms] | classifying them [ms] | both, median | both, 95 %% |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
   try {
     for (const auto& folder : folders) report(folder, width);

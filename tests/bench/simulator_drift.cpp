@@ -1,5 +1,5 @@
-// Drift of the simulator's wheel odometry beside that of ACES, over the same way: the simulated wheels drive the
-// trajectory that was mapped from the recording. Prints a Markdown table and writes SVG plots.
+// Compares the drift of the simulator's wheel odometry with that of ACES over the same path: the simulated wheels drive
+// the trajectory that was mapped from the recording. Prints a Markdown table and writes SVG plots.
 //
 // Example: bench-simulator_drift --log aces.clf.bz2 --trajectory out/aces/trajectory.tum -o doc/results
 #include <mrpt/obs/CObservationOdometry.h>
@@ -19,10 +19,10 @@ namespace {
 
 using namespace omnimapper;
 using geometry::Se2;
-using Poses = std::map<double, Se2>;  // over seconds
+using Poses = std::map<double, Se2>;  // by time [s]
 
 constexpr double kDegrees = 180 / M_PI;
-const std::vector<double> kWays{1, 2, 4, 8, 16, 24, 48};  // [m]
+const std::vector<double> kDistances{1, 2, 4, 8, 16, 24, 48};  // [m]
 
 std::optional<Se2> interpolate(const Poses& poses, double time) {
   const auto after = poses.lower_bound(time);
@@ -33,18 +33,18 @@ std::optional<Se2> interpolate(const Poses& poses, double time) {
   return geometry::plus(before->second, share * geometry::minus(after->second, before->second));
 }
 
-/// Root mean squares over stretches of one way.
+/// Errors over all stretches of one distance travelled.
 struct Errors {
   double count = 0;
-  double place = 0, heading = 0;  ///< of the end, seen from the start: sums of squares [m^2, rad^2]
-  double bent = 0;                ///< of all places once both stretches are laid over each other [m^2]
+  double place = 0, heading = 0;  ///< of the end relative to the start: sums of squares [m^2, rad^2]
+  double bent = 0;                ///< of all positions after the best rigid alignment of both stretches: sum [m^2]
   double mean_heading = 0;        ///< sum [rad]
 
   double rms(double Errors::*sum) const { return std::sqrt(this->*sum / count); }
 };
 
-// Mean square of the distances once `a` is moved onto `b` as well as a rigid motion can.
-double bentBy(const std::vector<std::pair<Se2, Se2>>& both, std::size_t first, std::size_t last) {
+// Mean squared distance between the positions of odometry and truth after the best rigid alignment of the stretch.
+double bendOf(const std::vector<std::pair<Se2, Se2>>& both, std::size_t first, std::size_t last) {
   Eigen::Vector2d mean_a(0, 0), mean_b(0, 0);
   const double count = static_cast<double>(last - first + 1);
   for (std::size_t i = first; i <= last; ++i) {
@@ -61,38 +61,39 @@ double bentBy(const std::vector<std::pair<Se2, Se2>>& both, std::size_t first, s
   return std::max(0.0, squares - 2 * std::hypot(cosine, sine)) / count;
 }
 
-/// Poses of both at the same times, and the way until each [m].
+/// Poses of odometry and truth at the same times, and the distance travelled until each [m].
 struct Pairs {
   std::vector<std::pair<Se2, Se2>> both;  // odometry, truth
-  std::vector<double> way;
+  std::vector<double> travel;
 
   Pairs(const Poses& odometry, const Poses& truth, double lag) {
     for (const auto& [time, pose] : truth) {
-      const auto told = interpolate(odometry, time + lag);
-      if (!told) continue;
-      way.push_back(both.empty() ? 0 : way.back() + (told->translation() - both.back().first.translation()).norm());
-      both.emplace_back(*told, pose);
+      const auto measured = interpolate(odometry, time + lag);
+      if (!measured) continue;
+      travel.push_back(
+          both.empty() ? 0 : travel.back() + (measured->translation() - both.back().first.translation()).norm());
+      both.emplace_back(*measured, pose);
     }
   }
-  /// Of the end of a stretch seen from its start: told - true.
+  /// Error of the end of a stretch relative to its start: measured - true.
   Eigen::Vector3d errorOver(std::size_t first, std::size_t last) const {
     return geometry::minus(geometry::inverse(both[first].second) * both[last].second,
                            geometry::inverse(both[first].first) * both[last].first);
   }
-  /// Calls see(first, last) for each stretch of this way.
-  template <class See>
-  void eachStretch(double length, const See& see) const {
+  /// Calls visit(first, last) for each stretch of this distance travelled [m].
+  template <class Visit>
+  void eachStretch(double length, const Visit& visit) const {
     for (std::size_t i = 0, j = 0; i < both.size(); ++i) {
-      while (j < both.size() && way[j] - way[i] < length) ++j;
+      while (j < both.size() && travel[j] - travel[i] < length) ++j;
       if (j == both.size()) break;
-      see(i, j);
+      visit(i, j);
     }
   }
 };
 
 void add(const Poses& odometry, const Poses& truth, double lag, std::map<double, Errors>& sums) {
   const Pairs pairs(odometry, truth, lag);
-  for (const double length : kWays) {
+  for (const double length : kDistances) {
     Errors& errors = sums[length];
     pairs.eachStretch(length, [&](std::size_t first, std::size_t last) {
       const Eigen::Vector3d error = pairs.errorOver(first, last);
@@ -100,13 +101,13 @@ void add(const Poses& odometry, const Poses& truth, double lag, std::map<double,
       errors.place += error.head<2>().squaredNorm();
       errors.heading += error.z() * error.z();
       errors.mean_heading += error.z();
-      errors.bent += bentBy(pairs.both, first, last);
+      errors.bent += bendOf(pairs.both, first, last);
     });
   }
 }
 
-// What wheels of a wrong base (error of heading over turning) and of two sizes (over way) explain, by least squares
-// over stretches of 8 m, and what remains.
+// Prints a least-squares fit of the heading error over stretches of 8 m: a part proportional to the turning (wrong
+// wheel base), a part proportional to the distance travelled (unequal wheels), and the residual.
 void printFit(const Poses& odometry, const Poses& truth, double lag) {
   const Pairs pairs(odometry, truth, lag);
   std::vector<double> turned{0};
@@ -116,7 +117,7 @@ void printFit(const Poses& odometry, const Poses& truth, double lag) {
   Eigen::Vector2d right(0, 0);
   double squares = 0, count = 0;
   pairs.eachStretch(8, [&](std::size_t first, std::size_t last) {
-    const Eigen::Vector2d cause(turned[last] - turned[first], pairs.way[last] - pairs.way[first]);
+    const Eigen::Vector2d cause(turned[last] - turned[first], pairs.travel[last] - pairs.travel[first]);
     const double error = pairs.errorOver(first, last).z();
     normal += cause * cause.transpose();
     right += error * cause;
@@ -128,7 +129,7 @@ void printFit(const Poses& odometry, const Poses& truth, double lag) {
               kDegrees * fit.y(), kDegrees * std::sqrt(std::max(0.0, (squares - fit.dot(right)) / count)));
 }
 
-// Odometry's stamps may lag behind the scans': the lag at which short ways agree best [s].
+// Stamps of the odometry may lag behind those of the scans. Returns the lag [s] at which short stretches agree best.
 double lagOf(const Poses& odometry, const Poses& truth) {
   double best = 0, least = 1e9;
   for (double lag = -0.3; lag <= 0.3; lag += 0.02) {
@@ -151,7 +152,7 @@ Poses readOdometry(const std::string& path) {
   return poses;
 }
 
-// About two poses a second: what scan matching adds to single ones is no turning of the robot's.
+// Reads about two poses a second, because the noise of scan matching in each pose would count as turning of the robot.
 Poses readTrajectory(const std::string& path) {
   Poses poses;
   for (const auto& pose : eval::readTum(path)) {
@@ -180,10 +181,10 @@ void plot(const std::string& path, const std::string& title, const std::string& 
           double Errors::*sum, const std::map<double, Errors>& recorded, const std::map<double, Errors>& simulated) {
   const auto curve = [&](const std::string& name, const std::string& colour, const std::map<double, Errors>& errors) {
     bench::PlottedCurve result{name, colour, {}};
-    for (const auto& [way, of_way] : errors) result.points.emplace_back(way, factor * of_way.rms(sum));
+    for (const auto& [distance, error] : errors) result.points.emplace_back(distance, factor * error.rms(sum));
     return result;
   };
-  bench::plotCurves(path, title, "way [m]", "root mean square [" + unit + "]",
+  bench::plotCurves(path, title, "distance travelled [m]", "root mean square [" + unit + "]",
                     {curve("ACES", "#c0392b", recorded), curve("simulated", "#2471a3", simulated)});
 }
 
@@ -195,29 +196,32 @@ void run(const std::string& log, const std::string& trajectory, const std::strin
   std::map<double, Errors> recorded, simulated;
   add(odometry, truth, lag, recorded);
   for (std::uint64_t seed = 0; seed < 40; ++seed) add(simulate(truth, keys, seed), truth, 0, simulated);
-  std::printf("| way [m] | ACES: place [m] | simulated | bent [m] | simulated | heading [deg], mean | simulated |\n");
+  std::printf(
+      "| distance travelled [m] | ACES: place [m] | simulated | ACES: bent [m] | simulated | ACES: heading [deg], its "
+      "mean | simulated |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
-  for (const double way : kWays) {
-    const Errors &a = recorded[way], &b = simulated[way];
-    std::printf("| %.0f | %.3f | %.3f | %.3f | %.3f | %.2f, %.2f | %.2f |\n", way, a.rms(&Errors::place),
+  for (const double distance : kDistances) {
+    const Errors &a = recorded[distance], &b = simulated[distance];
+    std::printf("| %.0f | %.3f | %.3f | %.3f | %.3f | %.2f, %.2f | %.2f |\n", distance, a.rms(&Errors::place),
                 b.rms(&Errors::place), a.rms(&Errors::bent), b.rms(&Errors::bent), kDegrees * a.rms(&Errors::heading),
                 kDegrees * a.mean_heading / a.count, kDegrees * b.rms(&Errors::heading));
   }
-  plot(folder + "/simulator_odometry_place.svg", "Odometry: error of the place after a way", "m", 1, &Errors::place,
-       recorded, simulated);
-  plot(folder + "/simulator_odometry_heading.svg", "Odometry: error of the heading after a way", "deg", kDegrees,
-       &Errors::heading, recorded, simulated);
+  plot(folder + "/simulator_odometry_place.svg", "Odometry: error of the place over the distance travelled", "m", 1,
+       &Errors::place, recorded, simulated);
+  plot(folder + "/simulator_odometry_heading.svg", "Odometry: error of the heading over the distance travelled", "deg",
+       kDegrees, &Errors::heading, recorded, simulated);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Drift of the simulator's wheel odometry beside that of a CARMEN log, over the same way");
+  CLI::App app("Compares the drift of the simulator's wheel odometry with that of a CARMEN log over the same path.");
   std::string log, trajectory, keys, folder = ".";
   app.add_option("--log", log, "CARMEN log: aces.clf.bz2")->required();
-  app.add_option("--trajectory", trajectory, "mapped from it by omnimapper-graphslam, TUM format")->required();
-  app.add_option("--keys", keys, "of the simulated odometry's section, one a line, over its defaults");
-  app.add_option("-o,--output", folder, "folder of the plots");
+  app.add_option("--trajectory", trajectory, "trajectory that omnimapper-graphslam mapped from it, TUM format")
+      ->required();
+  app.add_option("--keys", keys, "keys of the simulated odometry's section, one per line, that override its defaults");
+  app.add_option("-o,--output", folder, "folder for the plots");
   CLI11_PARSE(app, argc, argv);
   try {
     run(log, trajectory, keys, folder);

@@ -1,4 +1,4 @@
-// Depths of recorded Kinects beside simulated ones: noise, steps and holes, as plots and a table.
+// Compares depths of recorded and simulated Kinects: noise, steps and holes, as plots and a table.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
@@ -18,38 +18,39 @@ struct Source {
   DepthStatistics statistics;
 };
 
-sim::Track around(const Eigen::Vector3d& eye, double pitch, double yaw_swing, double pitch_swing, double way) {
+sim::Track around(const Eigen::Vector3d& eye, double pitch, double yaw_swing, double pitch_swing, double reach) {
   std::vector<sim::Track::Place> places;
   for (int i = 0; i <= 300; ++i) {
     const double t = 0.1 * i;
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(yaw_swing * std::sin(0.5 * t), Eigen::Vector3d::UnitZ()) *
                                   Eigen::AngleAxisd(pitch + pitch_swing * std::sin(0.7 * t), Eigen::Vector3d::UnitY()) *
                                   Eigen::AngleAxisd(0.3 * std::sin(0.9 * t), Eigen::Vector3d::UnitX()));
-    const Eigen::Vector3d moved(way * std::sin(t), way * std::cos(0.8 * t), 0.3 * way * std::sin(1.1 * t));
+    const Eigen::Vector3d moved(reach * std::sin(t), reach * std::cos(0.8 * t), 0.3 * reach * std::sin(1.1 * t));
     places.push_back({t, geometry::Se3{turn, eye + moved}});
   }
   return {sim::Track::Kind::motion, places};
 }
 
 void plotAll(const std::string& folder, const std::vector<Source>& sources) {
-  struct Figure {
+  struct Plot {
     std::string file, title, x, y;
     Curve DepthStatistics::*curve;
   };
-  const std::vector<Figure> metrics{
+  const std::vector<Plot> plots{
       {"noise", "Residual of local planes, flattest quarter", "distance [m]", "mm", &DepthStatistics::noise},
       {"step", "Steps between depths that occur", "distance [m]", "mm", &DepthStatistics::step},
-      {"gap_shadow", "Hole where the disparity rises to the right (shadow)", "jump [pixel]", "pixels",
+      {"gap_shadow", "Hole where the disparity rises to the right (shadow)", "disparity step [pixel]", "pixels",
        &DepthStatistics::shadow_gap},
-      {"gap_lit", "Hole where the disparity falls to the right", "jump [pixel]", "pixels", &DepthStatistics::lit_gap},
+      {"gap_lit", "Hole where the disparity falls to the right", "disparity step [pixel]", "pixels",
+       &DepthStatistics::lit_gap},
       {"angle", "Missing on flat patches", "incidence [deg]", "%", &DepthStatistics::missing_at_angle}};
-  for (const Figure& figure : metrics) {
+  for (const Plot& plot : plots) {
     std::vector<bench::PlottedCurve> curves;
     for (const Source& source : sources) {
-      const Curve& curve = source.statistics.*figure.curve;
+      const Curve& curve = source.statistics.*plot.curve;
       curves.push_back({source.name, source.colour, {curve.begin(), curve.end()}});
     }
-    bench::plotCurves(folder + "/simulator_depth_" + figure.file + ".svg", figure.title, figure.x, figure.y, curves);
+    bench::plotCurves(folder + "/simulator_depth_" + plot.file + ".svg", plot.title, plot.x, plot.y, curves);
   }
 }
 
@@ -80,10 +81,10 @@ int main(int argc, char** argv) {
   int frames = 20;
   app.add_option("--rpy", rpy, "Folder of TUM freiburg1_rpy");
   app.add_option("--desk", desk, "Folder of TUM freiburg1_desk");
-  app.add_option("--clouds", clouds, "Folder of the object clouds");
+  app.add_option("--clouds", clouds, "Folder of the object data set's clouds");
   app.add_option("--frames", frames, "Simulated frames of each scene");
   app.add_option("--plots", plots, "Folder for SVG plots");
-  app.add_option("--keys", keys, "Keys of the simulated sensor, separated by ';', to try parameters");
+  app.add_option("--keys", keys, "Keys of the simulated sensor, separated by ';', for trying other parameters");
   CLI11_PARSE(app, argc, argv);
   std::replace(keys.begin(), keys.end(), ';', '\n');
   std::vector<Source> sources;
@@ -99,7 +100,7 @@ int main(int argc, char** argv) {
       {"simulated table", "#ff9f40",
        bench::statistics(bench::simulate(table, around({0.1, 0, 1.35}, 0.7, 0.1, 0.08, 0.15), kinect, frames))});
   std::cout
-      << "| source | noise [mm] at 0.9 m | 1.1 | 1.6 | 2.1 | 3.1 | step [mm] at 1.1 m | 2.1 | 3.1 | hole at a jump "
+      << "| source | noise [mm] at 0.9 m | 1.1 | 1.6 | 2.1 | 3.1 | step [mm] at 1.1 m | 2.1 | 3.1 | hole at a step "
          "of 5 pixels, shadow / lit side | of 11 | missing [%] at 25 deg | 65 | 75 | in all | correlation 1, 2, 4, 8 "
          "pixels apart |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Source& source : sources) printRow(source);

@@ -1,5 +1,5 @@
-// The simulator's 2D lasers beside recordings: noise on walls and of a robot that stands, beams without echo, mixed
-// pixels at edges. Prints Markdown tables and writes SVG plots.
+// Compares the simulator's 2D lasers with recordings: noise on walls and while the robot stands, beams without echo,
+// and mixed pixels at edges. Prints Markdown tables and writes SVG plots.
 //
 // Example: bench-simulator_noise_laser --data ../shared/data/laser2d -o doc/results
 #include <mrpt/obs/CObservationOdometry.h>
@@ -25,11 +25,11 @@ using bench::LaserMetrics;
 using bench::PlottedCurve;
 using geometry::Se2;
 
-/// A log as this program needs it: scans are counted while it is read.
+/// Metrics of the laser of a log, which are collected while the log is read.
 struct Recording {
   std::string name, colour;
   LaserMetrics laser;
-  std::optional<Se2> odometry, at_scan;  // the latest reading, and what it was at the latest scan
+  std::optional<Se2> odometry, at_scan;  // the latest odometry, and its value at the latest scan
 };
 
 void take(Recording& recording, const mrpt::obs::CObservation& observation) {
@@ -42,7 +42,7 @@ void take(Recording& recording, const mrpt::obs::CObservation& observation) {
   }
 }
 
-// Readings from `farthest` on are no echo [m].
+// Reads a log. Ranges of `farthest` [m] or more count as no echo.
 Recording read(source::ObservationSource& source, const std::string& name, const std::string& colour,
                double farthest = 1e9) {
   Recording recording{name, colour, LaserMetrics(farthest), {}, {}};
@@ -50,7 +50,7 @@ Recording read(source::ObservationSource& source, const std::string& name, const
   return recording;
 }
 
-/// A corridor with offices on both sides: boxes, chairs' legs, dark boards, a glazed door.
+/// A corridor with offices on both sides, with boxes, legs of chairs, dark boards and a glazed door.
 sim::World office() {
   using namespace small_worlds;
   sim::World world;
@@ -84,7 +84,7 @@ sim::World office() {
   return world;
 }
 
-/// A run of the simulator with the laser and the odometry of these keys.
+/// Runs the simulator in the office with an odometry and a laser of the given keys.
 class Simulated {
  public:
   explicit Simulated(std::uint64_t seed)
@@ -191,10 +191,10 @@ void run(const std::string& data, const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Noise of the simulator's lasers beside recordings");
+  CLI::App app("Compares the noise of the simulator's lasers with recordings.");
   std::string data, folder = ".";
-  app.add_option("--data", data, "Folder of aces.clf.bz2, ual.rawlog and driving_in_office.rawlog")->required();
-  app.add_option("-o,--output", folder, "Folder of the plots");
+  app.add_option("--data", data, "Folder with aces.clf.bz2, ual.rawlog and driving_in_office.rawlog")->required();
+  app.add_option("-o,--output", folder, "Folder for the plots");
   CLI11_PARSE(app, argc, argv);
   try {
     run(data, folder);

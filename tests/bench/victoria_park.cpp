@@ -1,5 +1,6 @@
-// Victoria Park with known association: odometry and points, solved by us and by Ceres, from the same start, in the
-// same run. Prints a Markdown table. The file's six and three numbers of noise are upper triangles of covariances.
+// Victoria Park with known association: odometry and points, solved by our solver and by Ceres from the same initial
+// values in the same run. Prints a Markdown table. The six and three numbers of noise in the file are upper triangles
+// of covariances.
 //
 // Example: OPENBLAS_NUM_THREADS=1 bench-victoria_park [file] [runs]
 #include <ceres/ceres.h>
@@ -36,8 +37,8 @@ Eigen::MatrixXd upperTriangle(std::istream& in, int size) {
   return matrix;
 }
 
-// Each pose starts where odometry says, seen from the one before as it is known by then; `solve_every` so many poses
-// all is solved, 0: never, so that it is what odometry alone says.
+// Reads the graph. The initial value of each pose is that of the pose before, moved by the odometry. The graph is
+// solved every `solve_every` poses; with 0 it is never solved, so that the initial values are odometry alone.
 graph::Graph read(const std::string& path, int solve_every) {
   graph::Graph graph;
   std::map<int, VariableId> ids;

@@ -1,6 +1,6 @@
-// Motion of a depth camera in the hand, from one image to the next and along a whole recording of the TUM RGB-D
-// benchmark, against its motion capture. Prints Markdown tables. Times are those of the processor, of one thread,
-// without reading files.
+// Motion of a hand-held depth camera, from one image to the next and along a whole recording of the TUM RGB-D
+// benchmark, against its motion capture. Prints Markdown tables. Times are processor times of one thread, without
+// reading files.
 //
 // Example: bench-visual_odometry --tum tum_fr1_rpy -o rpy.tum
 //          omnimapper-eval ate rpy.tum tum_fr1_rpy/groundtruth.txt --align se3
@@ -24,7 +24,7 @@ using geometry::Se3;
 
 struct Recording {
   std::vector<RgbdFrame> frames;
-  std::vector<std::optional<Se3>> truth;  // world_from_camera, optical
+  std::vector<std::optional<Se3>> truth;  // world_from_camera (optical frame)
 };
 
 Recording read(const std::string& folder, const perception::Pinhole& camera, int every) {
@@ -106,11 +106,11 @@ int main(int argc, char** argv) {
   std::string tum, output;
   std::vector<double> camera{517.3, 516.5, 318.6, 255.3};
   int every = 1;
-  CLI::App app("Motion of a depth camera in the hand.");
+  CLI::App app("Evaluates the estimated motion of a hand-held depth camera.");
   app.add_option("--tum", tum, "folder of the TUM RGB-D benchmark, with depth, rgb and groundtruth.txt")->required();
   app.add_option("--camera", camera, "fx fy cx cy [px]; the default is freiburg1's")->expected(4);
-  app.add_option("--every", every, "only every n-th of its frames")->check(CLI::PositiveNumber);
-  app.add_option("-o,--output", output, "file for the trajectory of the camera, whose frame looks along z");
+  app.add_option("--every", every, "use only every n-th of its frames")->check(CLI::PositiveNumber);
+  app.add_option("-o,--output", output, "file for the trajectory of the camera's optical frame, which looks along z");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   const auto recording = read(tum, {camera[0], camera[1], camera[2], camera[3]}, every);

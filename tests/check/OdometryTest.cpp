@@ -79,7 +79,7 @@ TEST(Odometry, ItsNoiseIsMeasuredAndProposedIfFarFromTheDefault) {
 }
 
 TEST(Odometry, ThatMeasuresTooFarIsSaid) {
-  const Checked checked(halfALap({testing::SimulatedLaser()}, [](auto& options) { options.way_scale = 1.2; }));
+  const Checked checked(halfALap({testing::SimulatedLaser()}, [](auto& options) { options.travel_scale = 1.2; }));
   EXPECT_TRUE(checked.says("warning: 'odometry': measures 1.2")) << checked.text();
 }
 

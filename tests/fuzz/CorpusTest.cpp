@@ -1,5 +1,4 @@
-// The inputs that fuzzers found worth keeping, those that once broke something among them, given to their targets
-// again.
+// Runs the targets on the inputs that fuzzers kept, including those that once revealed a defect.
 #include <gtest/gtest.h>
 #include <omnimapper/testing/Fixtures.h>
 

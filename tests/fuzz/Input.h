@@ -9,8 +9,8 @@
 
 namespace omnimapper::fuzz {
 
-/// The bytes that a fuzzer makes up, taken from front to back as numbers. Behind their end everything is 0. Two numbers
-/// are never taken by arguments of one call: which comes first would be the compiler's choice.
+/// Reads the bytes of a fuzzer from front to back as numbers. After their end all numbers are 0. Do not take two
+/// numbers as arguments of one call, since the compiler may choose which is taken first.
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : next_(data), left_(size) {}
@@ -30,13 +30,13 @@ class Input {
   }
 
   bool flag() { return (take<std::uint8_t>() & 1) != 0; }
-  /// From 0 to end - 1.
+  /// A number from 0 to end - 1.
   int below(int end) { return static_cast<int>(take<std::uint16_t>() % static_cast<unsigned>(end)); }
 
-  /// Even between the two, from two bytes.
+  /// A number between the two, uniformly distributed, from two bytes.
   double between(double low, double high) { return low + (high - low) * take<std::uint16_t>() / 65535.0; }
 
-  /// Mostly between the two, now and then what a broken file or driver would have there, or any 8 bytes.
+  /// Mostly a number between the two, sometimes one that a broken file or driver would have, or any 8 bytes.
   double oddBetween(double low, double high) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     constexpr double kOdd[] = {std::numeric_limits<double>::quiet_NaN(),

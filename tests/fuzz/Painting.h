@@ -7,7 +7,7 @@
 
 namespace omnimapper::fuzz {
 
-/// The size of an image: mostly small, now and then long and narrow, or more than an image may have.
+/// Size of an image: mostly small, sometimes long and narrow, or larger than allowed.
 struct Size {
   int width, height;
 };
@@ -27,8 +27,8 @@ inline Size takeSize(Input& input) {
   }
 }
 
-/// Depths [m], row by row, of rectangles painted over each other until the input ends: planes, noise, odd values, or
-/// what is told for each pixel.
+/// Depths [m], row by row, of rectangles that are painted over each other until the input ends: planes, noise, odd
+/// values, or values from the input for each pixel.
 inline std::vector<float> paintDepths(Input& input, const Size& size) {
   constexpr float kOdd[] = {std::numeric_limits<float>::quiet_NaN(),
                             0,
@@ -73,7 +73,7 @@ inline std::vector<float> paintDepths(Input& input, const Size& size) {
   return depths;
 }
 
-/// The same in whole units of `unit` [m]; what does not fit is saturated or wrapped, as a careless driver does.
+/// The depths in whole units of `unit` [m]. Values that do not fit are saturated or wrapped, as by a careless driver.
 inline std::vector<std::uint16_t> inUnits(const std::vector<float>& depths, double unit, bool wrapped) {
   std::vector<std::uint16_t> units;
   units.reserve(depths.size());

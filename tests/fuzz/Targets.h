@@ -10,24 +10,24 @@
 
 namespace omnimapper::fuzz {
 
-/// What is made of a fuzzer's bytes, whatever they are: the work is done or refused, and what comes out is sound. Each
-/// throws where that is not so.
+/// A target processes the bytes of a fuzzer, whatever they are: it must either refuse them or give a valid result. It
+/// throws if it does neither.
 using Target = void (*)(const std::uint8_t* data, std::size_t size);
 
-/// Depth images, with and without a picture, to everything that takes them.
+/// Depth images, with and without a colour image, for everything that takes them.
 void depthImages(const std::uint8_t* data, std::size_t size);
-/// Observations of range cameras whose parts may contradict one another, to the extractors.
+/// Observations of range cameras whose parts may contradict one another, for the extractors.
 void rangeScans(const std::uint8_t* data, std::size_t size);
-/// 2D scans to the extractors of lines, by both methods, and of points.
+/// 2D scans for the extractors of lines (both methods) and of points.
 void laserScans(const std::uint8_t* data, std::size_t size);
-/// Clouds without order, and Velodyne scans of made-up packets, to the finder of their planes.
+/// Unorganized clouds and Velodyne scans of made-up packets, for the finder of their planes.
 void clouds(const std::uint8_t* data, std::size_t size);
-/// Bytes of a log to the classes of `obs`.
+/// Bytes of a log for the classes of `obs`.
 void observations(const std::uint8_t* data, std::size_t size);
-/// What comes over a network or a serial port: lines of odometry, and messages of a Hokuyo.
+/// Bytes from a network or serial port: lines of odometry, and messages of a Hokuyo.
 void sensorBytes(const std::uint8_t* data, std::size_t size);
 
-/// By the names of their programs and of their folders in corpus/.
+/// All targets, by the names of their programs and of their folders in corpus/.
 inline std::map<std::string, Target> targets() {
   return {{"depth_images", depthImages},  {"range_scans", rangeScans},  {"laser_scans", laserScans}, {"clouds", clouds},
           {"observations", observations}, {"sensor_bytes", sensorBytes}};
@@ -37,7 +37,7 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-/// Runs what may refuse its input with an error that says why.
+/// Runs code that may refuse its input by an exception, which must give a reason.
 template <class Run>
 void mayRefuse(const Run& run) {
   try {

@@ -29,7 +29,7 @@ constexpr double kDegree = base::option_text::kRadiansPerDegree;
 SimulatedLogOptions panTilt() {
   auto options = drive();
   options.yaw_drift_per_m = 0;
-  options.way_scale = 1;
+  options.travel_scale = 1;
   options.beacons.pan_reach = 1.2;
   options.beacons.tilt_reach = 0.3;
   options.beacons.reported_from_sensor = CPose3D(0, 0, 0, 4 * kDegree, -2 * kDegree, 0);

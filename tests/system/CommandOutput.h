@@ -7,7 +7,7 @@
 
 namespace command_output {
 
-/// What a shell command prints.
+/// The standard output of a shell command.
 inline std::string outputOf(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
   std::string output(1 << 16, '\0'), all;

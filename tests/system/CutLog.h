@@ -24,8 +24,8 @@ inline void cutLog(const std::string& log, omnimapper::base::Stamp cut, const st
   }
 }
 
-/// Two laps of the simulated ring: ring.rawlog, its first lap a.rawlog and its second b.rawlog, and the map of the
-/// first in the folder first.
+/// A fixture with two laps of the simulated ring (ring.rawlog), the first lap alone (a.rawlog), the second lap alone
+/// (b.rawlog), and the map of the first lap in the folder `first`.
 class CutRing : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -1,4 +1,4 @@
-// The rules of doc/architecture.md and CONTRIBUTING.md that a machine can check, checked on the source tree.
+// Checks the rules of doc/architecture.md and CONTRIBUTING.md that a machine can check.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::vector<std::string> listed(const std::string& cmake_lists, const std::strin
   return list.empty() ? std::vector<std::string>{} : matches(list.front(), R"((\w+))");
 }
 
-/// Libraries bottom to top.
+/// Names of the libraries, from the bottom to the top.
 std::vector<std::string> libraryOrder() {
   return listed("libs/CMakeLists.txt", "lib");
 }
@@ -36,7 +36,8 @@ std::set<std::string> includedLibraries(const path& file) {
   return {includes.begin(), includes.end()};
 }
 
-/// Reports each line of code (comments and strings blanked) below a folder that contains the pattern, but for one file.
+/// Reports each line of code (comments and strings blanked) below a folder that contains the pattern, except in one
+/// file.
 void expectAbsent(const std::string& folder, const std::string& pattern, const std::string& why,
                   const std::string& but_for = "") {
   const std::regex regex(pattern);
@@ -92,8 +93,8 @@ TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames)
     for (const path& file : files("libs/" + lib, cpp_extensions)) {
       for (const std::string& used : includedLibraries(file)) {
         if (used == lib) continue;
-        EXPECT_LT(rank(used), rank(lib)) << projectPath(file) << " includes omnimapper/" << used << ", but " << lib
-                                         << " stands below it in libs/CMakeLists.txt";
+        EXPECT_LT(rank(used), rank(lib)) << projectPath(file) << " includes omnimapper/" << used
+                                         << ", which libs/CMakeLists.txt lists after " << lib;
         EXPECT_TRUE(std::count(named.begin(), named.end(), used) > 0)
             << projectPath(file) << " includes omnimapper/" << used << ", but libs/" << lib
             << "/CMakeLists.txt does not name omnimapper::" << used;
@@ -102,7 +103,7 @@ TEST(HouseRules, librariesIncludeOnlyWhatStandsAboveThemAndTheirCMakeListsNames)
   }
 }
 
-// The folders of a library's private sources include one another in one direction, and what they share is beside them.
+// The folders of a library's private sources include one another in one direction only. Shared code is outside of them.
 TEST(HouseRules, roomsOfALibraryIncludeInOneDirection) {
   for (const std::string& lib : folders("libs")) {
     std::set<std::pair<std::string, std::string>> includes;
@@ -142,14 +143,14 @@ TEST(HouseRules, aFeatureStandsOnTheInterfaceOfPluginsAndOnNoOtherFeature) {
       for (const std::string& used : includedLibraries(file)) {
         EXPECT_NE(std::find(order.begin(), floor, used), floor)
             << projectPath(file) << " includes omnimapper/" << used
-            << ": features stand on the libraries up to landmarks, not on the engine and what is above it";
+            << ": features may use the libraries up to landmarks, but neither the engine nor what is above it";
         EXPECT_TRUE(std::count(named.begin(), named.end(), used) > 0)
             << projectPath(file) << " includes omnimapper/" << used << ", but " << folder
             << "/CMakeLists.txt does not name omnimapper::" << used;
       }
       for (const std::string& other : matches(read(file), R"(#include\s*"([^"]*)/)")) {
         ADD_FAILURE() << projectPath(file) << " includes from " << other
-                      << ": what two features share goes down to a library";
+                      << ": code that two features share belongs in a library";
       }
     }
     EXPECT_FALSE(files("tests/plugins/" + feature, {".cpp"}).empty()) << folder << " has no test in tests/plugins";
@@ -185,14 +186,14 @@ TEST(HouseRules, filesAreShort) {
 
 TEST(HouseRules, librariesNeitherPrintNorExit) {
   expectAbsent("libs", R"(\bstd::(cout|cerr|clog)\b|\b[fv]?printf\s*\(|\bputs\s*\()",
-               "libraries do not print: return it, throw base::Error or tell base::Progress");
+               "libraries do not print: return the text, throw base::Error or report to base::Progress");
   expectAbsent("libs", R"((^|[^.\w>])(std::)?(exit|quick_exit|abort|terminate)\s*\()",
                "libraries do not end the program: throw base::Error (a forked child may end itself with _exit)");
 }
 
 TEST(HouseRules, librariesReadNoWallClockAndSeedTheirRandomNumbers) {
   expectAbsent("libs", R"(system_clock|mrpt::Clock::now\b|mrpt::system::now\b|getCurrentTime|\btime\s*\((nullptr|0)\))",
-               "time comes from the log: two runs must agree in every bit; sensors ask live::hostNow()",
+               "time comes from the log, so that two runs agree in every bit; sensors use live::hostNow()",
                "libs/live/src/HostClock.cpp");
   expectAbsent("libs", R"(random_device|\bs?rand\s*\(|randomize\s*\(\s*\))", "random numbers come from a seed");
 }
@@ -200,9 +201,9 @@ TEST(HouseRules, librariesReadNoWallClockAndSeedTheirRandomNumbers) {
 TEST(HouseRules, nothingIsLeftForLaterOrSwitchedOff) {
   const std::string to_do = std::string("TO") + "DO", fix_me = std::string("FIX") + "ME";
   expectAbsentFromText("\\b(" + to_do + "|" + fix_me + "|XX" + "X)\\b", "finish it, or make it an issue");
-  expectAbsent("tests", R"(\bDISABLED_\w)", "a test runs or goes");
+  expectAbsent("tests", R"(\bDISABLED_\w)", "run the test or delete it");
   for (const char* folder : {"libs", "apps", "tests"}) {
-    expectAbsent(folder, R"(#\s*if\s+(0|false)\b)", "code that is switched off goes; git keeps it");
+    expectAbsent(folder, R"(#\s*if\s+(0|false)\b)", "delete code that is switched off: git keeps it");
   }
 }
 
@@ -223,7 +224,7 @@ TEST(HouseRules, nothingNamesAPlaceOnOneMachine) {
 TEST(HouseRules, theLibrariesKnowNothingOfTheExampleFromOutside) {
   for (const path& file : files("libs")) {
     EXPECT_FALSE(std::regex_search(read(file), std::regex("beacon", std::regex::icase)))
-        << projectPath(file) << " speaks of doc/examples/beacons, which must do without";
+        << projectPath(file) << " mentions doc/examples/beacons, which must not need support in the libraries";
   }
 }
 

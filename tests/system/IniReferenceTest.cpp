@@ -1,4 +1,4 @@
-// ini/README.md and ini/simulator.md are what the option tables say.
+// ini/README.md and ini/simulator.md agree with the option tables.
 #include <gtest/gtest.h>
 
 #include "CommandOutput.h"
@@ -20,7 +20,7 @@ void expectReference(const std::string& file, const std::string& program) {
 
 TEST(IniReference, isWhatTheOptionTablesSay) {
 #ifdef OMNIMAPPER_LACKS_FEATURES
-  GTEST_SKIP() << "this build leaves a feature out, and the reference has the keys of all";
+  GTEST_SKIP() << "a feature is not in this build, but the reference has the keys of all features";
 #endif
   expectReference("ini/README.md", "omnimapper-graphslam");
   expectReference("ini/simulator.md", "omnimapper-simulate");

@@ -18,7 +18,7 @@
 
 #include "Runs.h"
 
-/// What a run has left in its output folder, read back.
+/// Functions that read what a run wrote to its output folder.
 namespace runs {
 
 using omnimapper::testing::SimulatedLog;
@@ -26,9 +26,9 @@ namespace map_file = omnimapper::map;
 
 using LoadedMap = omnimapper::mapper::SavedMap;
 
-/// map.omnimap. Throws base::Error if any part of it is not whole.
+/// Loads map.omnimap. Throws base::Error if any part of it is damaged.
 inline LoadedMap loadMap(const std::string& folder) {
-  omnimapper::mapper::loadFeatures();  // the classes of the observations in it
+  omnimapper::mapper::loadFeatures();  // registers the classes of its observations
   return omnimapper::mapper::readMap(folder + "/map.omnimap", omnimapper::mapper::registeredKinds());
 }
 
@@ -40,7 +40,7 @@ inline nlohmann::json loadSummary(const std::string& folder) {
   return nlohmann::json::parse(readFile(folder + "/summary.json"));
 }
 
-/// A scan matched with a place seen long before.
+/// An accepted closure: the scan at `here` was matched with the place that was visited at `place`.
 struct LoopClosure {
   omnimapper::base::Stamp place, here;
   omnimapper::geometry::Se2 place_from_here;
@@ -58,7 +58,7 @@ inline std::vector<LoopClosure> loopClosures(const LoadedMap& loaded) {
   return closures;
 }
 
-/// The truth of a simulated log at the stamps of an estimate, seen from the estimate's first pose.
+/// The truth of a simulated log at the stamps of an estimate, relative to the true pose at the first of them.
 inline omnimapper::eval::Trajectory truthFor(const SimulatedLog& log, const omnimapper::eval::Trajectory& estimate) {
   omnimapper::eval::Trajectory truth;
   const auto start = log.truthAt(estimate.front().stamp);
@@ -69,7 +69,7 @@ inline omnimapper::eval::Trajectory truthFor(const SimulatedLog& log, const omni
   return truth;
 }
 
-/// Root mean square distance [m] from the truth, both seen from the first pose.
+/// Root mean square distance [m] from the truth, both relative to the first pose.
 inline double errorAgainst(const SimulatedLog& log, const omnimapper::eval::Trajectory& estimate) {
   return omnimapper::eval::absoluteTrajectoryError(estimate, truthFor(log, estimate)).translation.rmse;
 }

@@ -1,4 +1,4 @@
-// The pages of the project: their links lead somewhere, their commands are understood, and names say one thing.
+// The pages of the project: links have a target, commands use options that exist, and names are unique and have units.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -27,7 +27,7 @@ std::vector<path> pages() {
   return all;
 }
 
-/// Blocks between lines of ``` are left out, or taken alone.
+/// Only the code blocks of a page (between lines of ```), or the page without them.
 std::string partOf(const std::string& page, bool code) {
   std::string part;
   bool is_code = false;
@@ -41,7 +41,7 @@ std::string partOf(const std::string& page, bool code) {
   return part;
 }
 
-/// The anchor that a heading has on GitHub: small letters, blanks as hyphens, no punctuation.
+/// The anchor of a heading on GitHub: lower case, hyphens for blanks, no punctuation.
 std::string anchorOf(const std::string& heading) {
   std::string anchor;
   for (const char c : heading) {
@@ -77,7 +77,7 @@ TEST(Pages, everyLinkLeadsSomewhere) {
   EXPECT_GT(followed, 100U);
 }
 
-/// What a program's help lists, and that of its verbs.
+/// Options that the help of a program lists, and those of its verbs.
 const std::set<std::string>& optionsOf(const std::string& program) {
   static std::map<std::string, std::set<std::string>> known;
   const auto found = known.find(program);
@@ -93,14 +93,14 @@ const std::set<std::string>& optionsOf(const std::string& program) {
 
 TEST(Pages, programsKnowTheOptionsOfEveryCommand) {
 #ifdef OMNIMAPPER_LACKS_FEATURES
-  GTEST_SKIP() << "this build leaves a feature out, and the pages have the commands of all";
+  GTEST_SKIP() << "a feature is not in this build, but the pages have the commands of all features";
 #endif
   const std::regex command(
       R"((omnimapper-(?:graphslam|query|eval|import|perceive|simulate|calibrate))((?:[^\n`|;&>\\#]|\\\n)*))");
   const std::regex option(R"(\s(--?[A-Za-z][\w-]*))");
   std::size_t checked = 0;
   for (const auto& page : pages()) {
-    if (page.filename() == "CHANGELOG.md") continue;  // of programs as they were
+    if (page.filename() == "CHANGELOG.md") continue;  // it describes earlier versions
     const std::string text = read(page);
     for (std::sregex_iterator it(text.begin(), text.end(), command), end; it != end; ++it) {
       const std::string words = (*it)[2];
@@ -114,11 +114,11 @@ TEST(Pages, programsKnowTheOptionsOfEveryCommand) {
   EXPECT_GT(checked, 100U);
 }
 
-// One name, one thing: who looks for a file finds it.
+// File names are unique, so that a search by name finds the right file.
 TEST(Names, noTwoFilesOfTheLibrariesHaveOneName) {
   std::map<std::string, std::vector<std::string>> places;
   for (const auto& file : files("libs", {".h", ".cpp"})) places[file.filename()].push_back(projectPath(file));
-  // Each feature has the first; the second gives the interface of plugins the motion of matching.
+  // Each feature has a register.cpp, and RelativeMotion.h of `plugin` only makes that of `matching` available.
   for (const char* shared : {"register.cpp", "RelativeMotion.h"}) places.erase(shared);
   for (const auto& [name, paths] : places) {
     std::string all;
@@ -127,7 +127,8 @@ TEST(Names, noTwoFilesOfTheLibrariesHaveOneName) {
   }
 }
 
-// A number without a unit is a share, a factor, a probability, a number of standard deviations, or one of these.
+// The name of a number ends in its unit, except for shares, factors, probabilities, numbers of standard deviations and
+// the keys listed below.
 TEST(Names, numbersEndInTheirUnit) {
   const std::regex unit(R"((_m|_m2|_m3|_deg|_s|_hz|_px|_px2|_mb|_rad|_pixels)$|_per_)");
   const std::regex dimensionless(

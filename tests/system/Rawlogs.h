@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-/// Rawlogs as bytes, to be damaged.
+/// Rawlogs as bytes, for tests that damage them.
 namespace rawlogs {
 
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
 struct Bytes {
-  std::string text;                 ///< of an uncompressed rawlog
-  std::vector<std::size_t> starts;  ///< where in it each observation begins
+  std::string text;                 ///< the bytes of an uncompressed rawlog
+  std::vector<std::size_t> starts;  ///< offset of each observation in them
 };
 
 inline Bytes bytesOf(const Observations& observations) {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-/// Runs of omnimapper-graphslam as a user makes them.
+/// Runs omnimapper-graphslam as a user does.
 namespace runs {
 
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ inline int number(ExitCode code) {
   return static_cast<int>(code);
 }
 
-/// Ended by itself with that code, and on standard error stand all the words.
+/// Whether the program ended by itself with that code and printed all of the words to standard error.
 inline ::testing::AssertionResult endedWith(ExitCode code, const Ended& ended, const Words& words = {}) {
   if (ended.code != number(code)) {
     return ::testing::AssertionFailure() << "expected code " << number(code) << ", but it " << toString(ended);
@@ -69,7 +69,7 @@ inline std::string writeFile(const std::string& path, const std::string& bytes) 
   return path;
 }
 
-/// As `ls` shows them.
+/// Names of the files and folders in a folder as `ls` shows them. Empty if the folder does not exist.
 inline std::set<std::string> filesIn(const std::string& folder) {
   std::set<std::string> names;
   if (!fs::exists(folder)) return names;
@@ -87,7 +87,7 @@ inline std::map<std::string, std::string> contentsOf(const std::string& folder) 
   return contents;
 }
 
-/// What ini/laser2d.ini leaves in the output folder.
+/// Names of the files that a run with ini/laser2d.ini writes.
 inline const std::set<std::string>& allOutputs() {
   static const std::set<std::string> names{"trajectory.tum", "graph.g2o",    "grid.pgm",    "grid.yaml",
                                            "grid.png",       "points.ply",   "map.omnimap", "map.png",

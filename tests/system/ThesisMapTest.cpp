@@ -1,5 +1,4 @@
-// doc/thesis_map.md has one row for every section of chapters 3 to 6 of the thesis, and claims nothing that is not
-// there.
+// doc/thesis_map.md has one row for every section of chapters 3 to 6 of the thesis, and the files that it names exist.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -50,12 +49,12 @@ TEST(ThesisMap, everySectionStandsThereOnce) {
   for (const auto& [section, count] : subsections) {
     for (int i = 1; i <= count; ++i) {
       const std::string wanted = section + "." + std::to_string(i);
-      EXPECT_EQ(found[wanted], 1) << "section " << wanted << " stands " << found[wanted] << " times in the map";
+      EXPECT_EQ(found[wanted], 1) << "section " << wanted << " is in the map " << found[wanted] << " times";
       found.erase(wanted);
     }
   }
   for (const auto& [section, count] : found) {
-    ADD_FAILURE() << "section " << section << " is in the map " << count << " times and in the thesis never";
+    ADD_FAILURE() << "section " << section << " is in the map " << count << " times but not in the thesis";
   }
 }
 

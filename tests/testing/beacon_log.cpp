@@ -1,4 +1,5 @@
-// beacon-log LOG TRUTH SEED: a simulated drive past beacons, and where they are ("x y z" a line), for the package test.
+// beacon-log LOG TRUTH SEED: writes a simulated drive past beacons and their positions ("x y z" per line) for the
+// package test.
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <fstream>

@@ -1,5 +1,5 @@
-// sign-pictures FOLDER STYLE SEED COUNT: pictures of simulated door signs, and signs.csv with their corners, to train
-// omnimapper-train-doorsigns. STYLE is dark or white.
+// sign-pictures FOLDER STYLE SEED COUNT: writes pictures of simulated door signs and signs.csv with their corners, for
+// the training by omnimapper-train-doorsigns. STYLE is dark or white.
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/testing/SignPictures.h>

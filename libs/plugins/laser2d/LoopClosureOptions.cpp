@@ -11,7 +11,8 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
                   "A loop closure with a place is tried if the place is no farther from the estimated position than "
                   "this plus the uncertainty of the position.")
           .number("min_travel_m", &Options::min_travel, base::Range::positive(),
-                  "Smallest distance travelled since a place was left for a return to it to count as a loop.")
+                  "A return to a place counts as a loop only if the robot has travelled at least this far since it "
+                  "left the place.")
           .number("spacing_m", &Options::spacing, base::Range::notNegative(),
                   "Distance travelled between the key frames that search for loop closures; closures side by side add "
                   "little information and make solves slower.")
@@ -34,12 +35,14 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .number("join_travel_m", &Options::join_travel, base::Range::notNegative(),
                   "Distance travelled over which all scans must fit the place found by a global search, where much "
                   "of the map looks alike.")
-          .number("known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
-                  "Standard deviation of the position below which no closure is searched for, if the heading is "
-                  "within known_sigma_deg, because it would add little information.")
-          .number("known_sigma_deg", &Options::known_angle_sigma, base::Range::notNegative(),
-                  "Standard deviation of the heading below which no closure is searched for, if the position is "
-                  "within known_sigma_m, because it would add little information.")
+          .number(
+              "known_sigma_m", &Options::known_sigma, base::Range::notNegative(),
+              "No closure is searched for if the position relative to the place has a smaller standard deviation than "
+              "this, and the heading a smaller one than known_sigma_deg, because it would add little information.")
+          .number(
+              "known_sigma_deg", &Options::known_angle_sigma, base::Range::notNegative(),
+              "No closure is searched for if the heading relative to the place has a smaller standard deviation than "
+              "this, and the position a smaller one than known_sigma_m, because it would add little information.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
                   "Smallest share of the points of a match that must have a correspondence.")
           .number("max_sigma_m", &Options::max_sigma, base::Range::positive(),

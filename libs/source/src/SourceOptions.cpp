@@ -6,7 +6,8 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
   static const auto table =
       base::OptionTable<SourceOptions>()
           .list("labels", &SourceOptions::labels,
-                "Labels of the sensors to read, including action_label for the motions of actions; empty reads all.")
+                "Labels of the sensors to read; empty reads all. The motions in a rawlog's actions have the label that "
+                "action_label sets.")
           .number("start_s", &SourceOptions::start, base::Range::notNegative(),
                   "Time before which observations are left out.")
           .number("end_s", &SourceOptions::end, base::Range::notNegative(),

@@ -80,7 +80,7 @@ map::MapFile mutatedMap(const map::MapFile& map, const map::MapFile& other, Dice
   for (std::size_t i = 0; i < count && !sections.empty(); ++i) {
     const std::size_t chosen = below(dice, sections.size());
     auto& section = sections[chosen];
-    // What is compressed is damaged as it is, and more often as what it holds.
+    // A compressed section is sometimes damaged as it is, but mostly in its uncompressed content.
     const bool is_unpacked = section.name == "frames" && section.version == 3 && !onceIn(dice, 8);
     if (is_unpacked) {
       try {
@@ -119,7 +119,7 @@ std::string mutatedText(const std::string& text, Dice& dice) {
   const std::size_t count = 1 + below(dice, 4);
   for (std::size_t i = 0; i < count && !lines.empty(); ++i) {
     std::size_t chosen = below(dice, lines.size());
-    // Comments have no meaning to be changed.
+    // Comments are skipped, since changing them has no effect.
     for (std::size_t k = 0; k < lines.size() && (lines[chosen].empty() || lines[chosen][0] == ';'); ++k)
       chosen = (chosen + 1) % lines.size();
     const auto place = lines.begin() + static_cast<std::ptrdiff_t>(chosen);
@@ -146,7 +146,7 @@ std::string mutatedText(const std::string& text, Dice& dice) {
 }
 
 std::string mutatedPng(const std::string& png, Dice& dice) {
-  constexpr std::size_t kSignature = 8, kHeader = 16;  // width and height follow the latter
+  constexpr std::size_t kSignature = 8, kHeader = 16;  // width and height follow the header
   std::string mutated = png;
   if (mutated.size() < kHeader + 13) return mutated;
   if (onceIn(dice, 2)) {

@@ -8,18 +8,18 @@
 
 namespace omnimapper::fuzz {
 
-/// A map with one to four things made wrong in its sections: numbers, bytes, a section left out, of another version, or
-/// taken from another map. What is written of it has checksums that fit.
+/// A map with one to four errors in its sections: numbers, bytes, or a section that is missing, has another version or
+/// is from another map. When it is written, its checksums are valid.
 map::MapFile mutatedMap(const map::MapFile& map, const map::MapFile& other, Dice& dice);
 
-/// A word that stands where a number, a name or a path should.
+/// A word to be put in place of a number, a name or a path.
 std::string oddWord(Dice& dice);
 
-/// A text of "key = value" lines or of numbers in columns, with one to four things made wrong: values, keys, lines left
-/// out, repeated or moved, bytes.
+/// A text of "key = value" lines or of numbers in columns, with one to four errors: values, keys, bytes, or lines that
+/// are missing, repeated or moved.
 std::string mutatedText(const std::string& text, Dice& dice);
 
-/// A PNG with numbers of its header or bytes of its picture made wrong, and checksums that fit.
+/// A PNG with wrong numbers in its header or wrong bytes in its picture, and valid checksums.
 std::string mutatedPng(const std::string& png, Dice& dice);
 
 }  // namespace omnimapper::fuzz

@@ -13,7 +13,8 @@ namespace omnimapper::fuzz {
 
 namespace {
 
-// By the heading of its table: "mapper" of "## [mapper]", "OdometryPlugin" of "## OdometryPlugin (pose plugin)".
+// The keys in ini/README.md by the heading of their table: "mapper" for "## [mapper]", "OdometryPlugin" for
+// "## OdometryPlugin (pose plugin)".
 std::map<std::string, std::vector<IniKey>> documentedKeys() {
   std::map<std::string, std::vector<IniKey>> keys;
   std::ifstream reference(testing::sourceFile("ini/README.md"));

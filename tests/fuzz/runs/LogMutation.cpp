@@ -16,7 +16,7 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-// A log that is changed: an observation is copied before it is.
+// A log that is being changed. An observation is copied before it is changed.
 class Draft {
  public:
   Draft(const Observations& log, Dice& dice) : log_(log), is_copy_(log.size(), false), dice_(dice) {}
@@ -48,7 +48,7 @@ class Draft {
     return *log_[i];
   }
 
-  // One observation; all of its sensor; those from it on; every so many.
+  // Chooses observations of one sensor: a single one, all, all from one on, or every n-th.
   std::vector<std::size_t> someOfASensor() {
     const std::size_t first = anyOfASensor();
     const std::string label = log_[first]->sensorLabel;
@@ -64,7 +64,7 @@ class Draft {
     }
     return chosen;
   }
-  // Each sensor is as likely as the other, however often it measures.
+  // A random observation. All sensors are equally likely, however many observations they have.
   std::size_t anyOfASensor() {
     std::vector<std::string> labels;
     for (const auto& observation : log_) labels.push_back(observation->sensorLabel);
@@ -81,7 +81,7 @@ class Draft {
     if (chosen.empty()) return;
     const auto values = valuesOf(changed(chosen.front()));
     if (values.empty()) return;
-    // The first ones are the sensor's own: they are chosen as often as all of what it measured.
+    // The first values are parameters of the sensor. Half of the time one of these is chosen.
     const std::size_t value =
         onceIn(dice_, 2) ? below(dice_, std::min<std::size_t>(20, values.size())) : below(dice_, values.size());
     const double odd = oddInstead(values[value].get(), dice_);
@@ -94,13 +94,13 @@ class Draft {
 
   void changeStamps() {
     const auto chosen = someOfASensor();
-    const std::size_t way = below(dice_, 7);
+    const std::size_t kind = below(dice_, 7);
     const double by = std::pow(10, dice_.uniform(-4, 10)) * (onceIn(dice_, 2) ? 1 : -1);
     for (const std::size_t i : chosen) {
       auto& stamp = changed(i).timestamp;
       const auto before = stamp;
       const auto moved = [&](double seconds) { stamp = before + base::durationFromSeconds(seconds); };
-      switch (way) {
+      switch (kind) {
         case 0:
           stamp = mrpt::Clock::time_point();
           break;

@@ -11,12 +11,13 @@ namespace omnimapper::fuzz {
 
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
-/// The bytes of an uncompressed rawlog, without what MRPT refuses to write, such as two landmarks of one number.
+/// The bytes of an uncompressed rawlog. Observations that MRPT refuses to write, for example because two landmarks have
+/// the same number, are left out.
 std::string bytesOf(const Observations& log);
 
-/// The bytes of an uncompressed rawlog, which is `log` with one to four things made wrong: values of one observation,
-/// of some or of all of a sensor, stamps, labels, order, missing and repeated observations, and, now and
-/// then, bytes. `log` stays as it is. The same dice give the same bytes.
+/// The bytes of an uncompressed rawlog with a copy of `log` that has one to four errors: values in one, some or all
+/// observations of a sensor, stamps, labels, order, missing or repeated observations, and sometimes bytes. The same
+/// dice give the same bytes.
 std::string mutatedLog(const Observations& log, Dice& dice);
 
 }  // namespace omnimapper::fuzz

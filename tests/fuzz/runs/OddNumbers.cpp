@@ -37,7 +37,7 @@ constexpr double kOdd[] = {std::numeric_limits<double>::quiet_NaN(),
                            1e300,
                            -1e300};
 
-// The bytes of a number of a type that dice choose.
+// The bytes of an odd number of a random type.
 std::string oddBytes(Dice& dice) {
   const double odd = kOdd[below(dice, std::size(kOdd))];
   std::string bytes;
@@ -125,7 +125,7 @@ void damageBytes(std::string& bytes, Dice& dice) {
     case 2:
       bytes.insert(place, oddBytes(dice));
       break;
-    case 3: {  // what stands elsewhere
+    case 3: {  // bytes from another place
       const std::size_t from = below(dice, bytes.size()), count = 1 + below(dice, 64);
       bytes.replace(place, count, bytes.substr(from, count));
       break;

@@ -10,20 +10,21 @@ namespace omnimapper::fuzz {
 
 using testing::Dice;
 
-/// From 0 to end - 1; 0 where there is none.
+/// A random number from 0 to end - 1; 0 if end is 0.
 std::size_t below(Dice& dice, std::size_t end);
-/// True once in so many times.
+/// True with probability 1 / times.
 bool onceIn(Dice& dice, int times);
 
-/// In place of a number: half the time something like it, which a gate lets through, else what a broken driver or a
-/// stranger would have there: no number, infinite, 0, negative, at the edge of a type, far too large or small.
+/// Replacement for a number. More than half of the time it is derived from that number, so that gates may accept it,
+/// else it is a value of a broken driver or an attacker: NaN, infinite, 0, negative, at the limit of a type, far too
+/// large or far too small.
 double oddInstead(double number, Dice& dice);
 
-/// Replaces a number among the bytes, little-endian as MRPT and maps have them: a double that looks like a measurement,
-/// or a small count of 4 bytes.
+/// Replaces one number in the bytes, which is little-endian as in MRPT's files and in maps: a double whose value is
+/// plausible for a measurement, or a small count of 4 bytes.
 void changeNumber(std::string& bytes, Dice& dice);
 
-/// Replaces, removes or inserts some bytes: single ones, or whole numbers of 2, 4 and 8 bytes.
+/// Replaces, removes or inserts bytes: single ones, a few in a row, or numbers of 2, 4 or 8 bytes.
 void damageBytes(std::string& bytes, Dice& dice);
 
 }  // namespace omnimapper::fuzz

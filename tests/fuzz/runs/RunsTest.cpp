@@ -1,26 +1,26 @@
-// The share of scripts/fuzz runs that every run of the tests makes, from fixed numbers: those that once found
-// something, and the first few.
+// The few runs of fuzz-runs that are part of the tests. Their numbers are fixed: those that once revealed a defect, and
+// the first few.
 #include <gtest/gtest.h>
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/testing/Fixtures.h>
 
-#include "Trials.h"
+#include "FuzzedRuns.h"
 
 namespace omnimapper::fuzz {
 namespace {
 
-// A sanitizer makes a program slower, and takes memory of its own.
+// Programs with a sanitizer are slower and need more memory.
 const Bounds kBounds = testing::kIsSanitized ? Bounds{120, 8192} : Bounds{};
 
 void expectNoComplaints(Wrong wrong, const std::vector<std::uint64_t>& numbers) {
   obs::registerClasses();
   const testing::ScratchFolder scratch;
-  const Trials trials(wrong, testing::ownProgram("."), scratch.path());
+  const FuzzedRuns runs(wrong, testing::ownProgram("."), scratch.path());
   for (const auto number : numbers) {
-    const auto trial = trials.make(number, scratch / "trial");
-    const auto ended = testing::runProgram(trial.command, {kBounds.seconds + 1});
+    const auto fuzzed = runs.make(number, scratch / "run");
+    const auto ended = testing::runProgram(fuzzed.command, {kBounds.seconds + 1});
     const auto why = complaint(ended, kBounds);
-    EXPECT_FALSE(why) << kNamesOfWrong[static_cast<std::size_t>(wrong)] << " " << number << " (" << trial.name
+    EXPECT_FALSE(why) << kNamesOfWrong[static_cast<std::size_t>(wrong)] << " " << number << " (" << fuzzed.name
                       << "): " << *why << "\n"
                       << toString(ended);
   }
@@ -42,7 +42,7 @@ TEST(Runs, OnWrongFoldersEndAsDocumented) {
   expectNoComplaints(Wrong::folders, {1, 2, 3, 4, 5, 6});
 }
 
-TEST(Runs, ATrialIsMadeOfItsNumberAlone) {
+TEST(Runs, OfOneNumberHaveTheSameInput) {
   const Observations log = testing::SimulatedLog().observations();
   Dice one(7), same(7), other(8);
   const auto bytes = mutatedLog(log, one);

@@ -22,7 +22,7 @@ Observations readLog(const std::string& path, double seconds) {
   const auto source = source::openRawlogs({path}, options);
   Observations log;
   while (auto observation = source->next()) log.push_back(std::move(observation));
-  if (log.empty()) throw std::runtime_error(path + " holds no observation");
+  if (log.empty()) throw std::runtime_error(path + " has no observation");
   return log;
 }
 
@@ -35,7 +35,7 @@ Observations ring() {
   return testing::SimulatedLog(options).observations();
 }
 
-// What odometry measured from one observation to the next.
+// Replaces the odometry by its motions from one observation to the next.
 Observations withMotions(Observations log) {
   const mrpt::obs::CObservationOdometry* before = nullptr;
   for (auto& observation : log) {
@@ -55,7 +55,7 @@ Observations withMotions(Observations log) {
   return log;
 }
 
-// The log with the true pose of the camera's mount at each depth image.
+// The log with the true pose of the base, as by a tracker, at each depth image.
 Observations withPoses(const Observations& log, const std::string& truth) {
   const auto poses = eval::readTum(truth);
   Observations with;

@@ -9,7 +9,7 @@
 
 namespace omnimapper::fuzz {
 
-/// A short sound log, the INI that fits it, and the program that reads both.
+/// A short valid log, an INI that fits it, and the program that reads both.
 struct Scene {
   std::string name;
   std::string program;  ///< omnimapper-graphslam or omnimapper-perceive
@@ -17,8 +17,8 @@ struct Scene {
   Observations log;
 };
 
-/// At least one for each INI of ini/, of the simulator of tests and the logs of rawlogs/. `programs` is the folder of
-/// the project's programs, `scratch` one for files that are made on the way.
+/// At least one scene for each INI of ini/, from simulated logs of the tests and the logs of rawlogs/. `programs`:
+/// folder of the project's programs. `scratch`: folder for temporary files.
 std::vector<Scene> scenes(const std::string& programs, const std::string& scratch);
 
 }  // namespace omnimapper::fuzz

@@ -26,7 +26,8 @@ namespace {
 
 constexpr std::size_t kOfALongVector = 40;
 
-// A double that no integer of that type holds is undefined: it becomes the nearest that does.
+// The conversion of a double that is out of the range of an integer type is undefined, so it gives the nearest integer
+// of that type, and 0 for NaN.
 template <class Number>
 Number as(double value) {
   if constexpr (std::is_same_v<Number, bool>) {
@@ -98,7 +99,7 @@ class Collector {
   std::vector<Value> values_;
 };
 
-// A length that is asked for and would be more than a log of this size could hold is not tried.
+// Limits the length of a vector to one that a log of this size could have.
 std::size_t lengthOf(double value) {
   return std::isfinite(value) && value > 0 ? static_cast<std::size_t>(std::min(value, 20000.0)) : 0;
 }

@@ -7,16 +7,16 @@
 
 namespace omnimapper::fuzz {
 
-/// A number that an observation holds, to be read and replaced. Lives no longer than the observation, and no longer
-/// than its vectors keep their length.
+/// Access to a number in an observation, to read and replace it. Valid as long as the observation exists and its
+/// vectors keep their lengths.
 struct Value {
   std::function<double()> get;
   std::function<void(double)> set;
 };
 
-/// What a mutation may replace in an observation of a class that mappers read: apertures, poses, intrinsics,
-/// covariances, ranges, sizes, flags. Of long vectors (ranges, depth, points) only some, evenly spread. Classes that
-/// nobody reads have the pose of their sensor alone.
+/// The values that a mutation may replace in an observation of a class that the programs read: apertures, poses,
+/// intrinsics, covariances, ranges, sizes and flags. Of long vectors (ranges, depths, points) it has some values,
+/// evenly spread. Of other classes it has only the pose of the sensor.
 std::vector<Value> valuesOf(mrpt::obs::CObservation& observation);
 
 }  // namespace omnimapper::fuzz

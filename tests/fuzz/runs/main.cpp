@@ -1,6 +1,6 @@
-// Runs the programs of the project on logs, maps, INIs and folders that are wrong in ways that bytes alone would not
-// be: values, stamps, labels, order, numbers under checksums that fit. complaint() has what a run must not do. Each
-// trial is made of its number alone, so that it can be run again.
+// Runs the programs of the project on logs, maps, INIs and folders with errors that random bytes would rarely give:
+// values, stamps, labels, order, numbers under valid checksums. complaint() lists what a run must not do. Each run
+// depends only on its number, so that it can be repeated.
 //
 // Example: fuzz-runs logs --count 5000 -o out/fuzz
 #include <omnimapper/obs/registerClasses.h>
@@ -13,7 +13,7 @@
 #include <fstream>
 #include <map>
 
-#include "Trials.h"
+#include "FuzzedRuns.h"
 
 namespace {
 
@@ -27,48 +27,48 @@ struct Arguments {
   fuzz::Bounds bounds;
 };
 
-// How the trials of one scene ended.
-struct Tally {
-  std::size_t trials = 0, complaints = 0;
+// How the runs of one scene ended.
+struct Statistics {
+  std::size_t runs = 0, complaints = 0;
   double most_seconds = 0, most_mib = 0;
-  std::map<std::string, std::size_t> ends;  // exit codes and signals
+  std::map<std::string, std::size_t> ends;  // number of runs by exit code or signal
 };
 
-void add(const testing::Ended& ended, Tally& tally) {
-  ++tally.trials;
-  ++tally.ends[ended.signal != 0 ? "signal " + std::to_string(ended.signal) : std::to_string(ended.code)];
-  tally.most_seconds = std::max(tally.most_seconds, ended.seconds);
-  tally.most_mib = std::max(tally.most_mib, ended.peak_mib);
+void add(const testing::Ended& ended, Statistics& statistics) {
+  ++statistics.runs;
+  ++statistics.ends[ended.signal != 0 ? "signal " + std::to_string(ended.signal) : std::to_string(ended.code)];
+  statistics.most_seconds = std::max(statistics.most_seconds, ended.seconds);
+  statistics.most_mib = std::max(statistics.most_mib, ended.peak_mib);
 }
 
-void keep(const fs::path& kept, const fs::path& folder, const fuzz::Trial& trial, const testing::Ended& ended,
+void keep(const fs::path& kept, const fs::path& folder, const fuzz::FuzzedRun& fuzzed, const testing::Ended& ended,
           const std::string& why) {
   fs::remove_all(kept);
   fs::create_directories(kept.parent_path());
   fs::copy(folder, kept, fs::copy_options::recursive);
   std::ofstream out(kept / "trial.txt");
   out << why << "\n";
-  for (const auto& word : trial.command) out << word << " ";
+  for (const auto& word : fuzzed.command) out << word << " ";
   out << "\n" << toString(ended) << "\n";
 }
 
-void print(const std::map<std::string, Tally>& tallies) {
+void print(const std::map<std::string, Statistics>& by_scene) {
   std::printf(
-      "| scene | trials | complaints | longest [s] | most memory [MiB] | exit codes (times) "
+      "| scene | runs | complaints | longest [s] | most memory [MiB] | exit codes (times) "
       "|\n|---|---|---|---|---|---|\n");
-  Tally all;
-  for (const auto& [name, tally] : tallies) {
+  Statistics all;
+  for (const auto& [name, statistics] : by_scene) {
     std::string ends;
-    for (const auto& [end, times] : tally.ends)
+    for (const auto& [end, times] : statistics.ends)
       ends += (ends.empty() ? "" : ", ") + end + " (" + std::to_string(times) + ")";
-    std::printf("| %s | %zu | %zu | %.1f | %.0f | %s |\n", name.c_str(), tally.trials, tally.complaints,
-                tally.most_seconds, tally.most_mib, ends.c_str());
-    all.trials += tally.trials;
-    all.complaints += tally.complaints;
-    all.most_seconds = std::max(all.most_seconds, tally.most_seconds);
-    all.most_mib = std::max(all.most_mib, tally.most_mib);
+    std::printf("| %s | %zu | %zu | %.1f | %.0f | %s |\n", name.c_str(), statistics.runs, statistics.complaints,
+                statistics.most_seconds, statistics.most_mib, ends.c_str());
+    all.runs += statistics.runs;
+    all.complaints += statistics.complaints;
+    all.most_seconds = std::max(all.most_seconds, statistics.most_seconds);
+    all.most_mib = std::max(all.most_mib, statistics.most_mib);
   }
-  std::printf("| all | %zu | %zu | %.1f | %.0f | |\n", all.trials, all.complaints, all.most_seconds, all.most_mib);
+  std::printf("| all | %zu | %zu | %.1f | %.0f | |\n", all.runs, all.complaints, all.most_seconds, all.most_mib);
 }
 
 int run(const Arguments& arguments) {
@@ -77,28 +77,28 @@ int run(const Arguments& arguments) {
   const std::string shared = arguments.output + "/shared", folder = arguments.output + "/trial";
   fs::remove_all(shared);
   fs::create_directories(shared);
-  const fuzz::Trials trials(wrong, fs::absolute(arguments.programs), fs::absolute(shared));
+  const fuzz::FuzzedRuns runs(wrong, fs::absolute(arguments.programs), fs::absolute(shared));
   const auto start = std::chrono::steady_clock::now();
   const auto isOver = [&] {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     return arguments.seconds > 0 && passed.count() > arguments.seconds;
   };
-  std::map<std::string, Tally> tallies;
+  std::map<std::string, Statistics> by_scene;
   std::size_t complaints = 0;
   for (std::uint64_t i = 0; i < arguments.count && !isOver(); ++i) {
     const std::uint64_t number = arguments.first + i;
-    const auto trial = trials.make(number, fs::absolute(folder));
-    const auto ended = testing::runProgram(trial.command, {arguments.bounds.seconds + 1});
-    auto& tally = tallies[trial.name];
-    add(ended, tally);
+    const auto fuzzed = runs.make(number, fs::absolute(folder));
+    const auto ended = testing::runProgram(fuzzed.command, {arguments.bounds.seconds + 1});
+    auto& statistics = by_scene[fuzzed.name];
+    add(ended, statistics);
     const auto why = fuzz::complaint(ended, arguments.bounds);
     if (!why) continue;
-    ++tally.complaints, ++complaints;
+    ++statistics.complaints, ++complaints;
     const std::string name = arguments.wrong + "-" + std::to_string(number);
-    keep(fs::path(arguments.output) / "findings" / name, folder, trial, ended, *why);
-    std::fprintf(stderr, "%s (%s): %s\n", name.c_str(), trial.name.c_str(), why->c_str());
+    keep(fs::path(arguments.output) / "findings" / name, folder, fuzzed, ended, *why);
+    std::fprintf(stderr, "%s (%s): %s\n", name.c_str(), fuzzed.name.c_str(), why->c_str());
   }
-  print(tallies);
+  print(by_scene);
   return complaints == 0 ? 0 : 1;
 }
 
@@ -107,18 +107,18 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
-      "Runs the programs on what is wrong; findings are kept in OUTPUT/findings.\n"
+      "Runs the programs on input with errors; runs with complaints are kept in OUTPUT/findings.\n"
       "Example: fuzz-runs logs --count 5000 -o out/fuzz");
-  app.add_option("wrong", arguments.wrong, "logs, maps, inis or folders")
+  app.add_option("wrong", arguments.wrong, "the input with errors: logs, maps, inis or folders")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(fuzz::kNamesOfWrong.begin(), fuzz::kNamesOfWrong.end())));
-  app.add_option("-o,--output", arguments.output, "folder")->required();
-  app.add_option("--first", arguments.first, "number of the first trial (1)");
-  app.add_option("--count", arguments.count, "so many trials (100)");
-  app.add_option("--seconds", arguments.seconds, "no trial begins after so long; 0: all are run (0)");
-  app.add_option("--longest", arguments.bounds.seconds, "seconds that a trial may take (30)");
-  app.add_option("--memory", arguments.bounds.mib, "MiB that a trial may take (2048)");
-  app.add_option("--programs", arguments.programs, "folder of the programs; default: this one's own");
+  app.add_option("-o,--output", arguments.output, "output folder")->required();
+  app.add_option("--first", arguments.first, "number of the first run (1)");
+  app.add_option("--count", arguments.count, "number of runs (100)");
+  app.add_option("--seconds", arguments.seconds, "no run begins after this time; 0: no limit (0)");
+  app.add_option("--longest", arguments.bounds.seconds, "longest time of a run [s] (30)");
+  app.add_option("--memory", arguments.bounds.mib, "most memory of a run [MiB] (2048)");
+  app.add_option("--programs", arguments.programs, "folder of the programs; default: that of this program");
   CLI11_PARSE(app, argc, argv);
   if (arguments.programs.empty()) arguments.programs = fs::read_symlink("/proc/self/exe").parent_path();
   try {

@@ -30,7 +30,7 @@ CloudPlaneOptions takeCloudOptions(Input& input) {
   return options;
 }
 
-// Points on planes, noise, and points that are told one by one.
+// Points on planes, noise, and points whose coordinates are all from the input.
 std::vector<Eigen::Vector3f> takePoints(Input& input) {
   std::vector<Eigen::Vector3f> points;
   for (int strokes = 0; !input.atEnd() && strokes < 6; ++strokes) {
@@ -72,7 +72,7 @@ void requireSound(const CloudPlanes& found, std::size_t points, const CloudPlane
   }
 }
 
-// Packets as they come from the sensor, whatever is in them.
+// Velodyne packets with arbitrary content.
 void extractPackets(Input& input, const CloudPlaneOptions& options) {
   mrpt::obs::CObservationVelodyneScan scan;
   scan.sensorLabel = "velodyne";
@@ -85,7 +85,7 @@ void extractPackets(Input& input, const CloudPlaneOptions& options) {
     auto* bytes = reinterpret_cast<std::uint8_t*>(&packet);
     for (std::size_t i = 0; i < sizeof packet; ++i)
       bytes[i] = input.left() > 0 ? input.rest()[(i + i / 100) % input.left()] : static_cast<std::uint8_t>(0);
-    // The blocks' marks, without which nothing of them is read.
+    // The headers of the blocks, without which a block is not read.
     for (auto& block : packet.blocks) {
       auto* mark = reinterpret_cast<std::uint8_t*>(&block);
       mark[0] = 0xff;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace perception;
 
-/// An image and the pixels it looks at.
+/// An image and the pixels to which it refers.
 struct Picture {
   std::vector<float> metres;
   std::vector<std::uint16_t> units;
@@ -29,7 +29,7 @@ DepthImage takeImage(Input& input, Picture& pixels) {
   const Pinhole camera = takeCamera(input);
   const bool whole = input.flag(), wrapped = input.flag();
   const double unit = input.oddBetween(1e-4, 1e-2);
-  // What is to be refused by its size has no pixels to be read.
+  // An image whose size must be refused has no pixels.
   const bool is_image = size.width >= 0 && size.height >= 0 && size.width <= 4096 && size.height <= 4096 &&
                         static_cast<long>(size.width) * size.height <= 20000;
   if (is_image) pixels.metres = paintDepths(input, size);
@@ -41,8 +41,8 @@ DepthImage takeImage(Input& input, Picture& pixels) {
 
 void requireSound(const PlaneSegmentation& found, const DepthImage& image, int min_pixels) {
   const auto pixels = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-  require(found.width == image.width() && found.height == image.height(), "a segmentation of another size");
-  require(found.labels.size() == pixels, "labels of another size");
+  require(found.width == image.width() && found.height == image.height(), "the segmentation has another size");
+  require(found.labels.size() == pixels, "the labels have another size");
   std::vector<int> counts(found.planes.size() + 1, 0);
   for (const std::uint16_t label : found.labels) {
     require(label < counts.size(), "a label without a plane");
@@ -99,7 +99,7 @@ void findRoad(Input& input, const DepthImage& image) {
   const geometry::Plane3 expected{Eigen::Vector3d(x, y, z).normalized(), input.oddBetween(0.2, 3)};
   const auto found = RoadSegmenter(options).segment(image, expected);
   requireSound(found.ground, image, options.min_pixels);
-  require(found.sure.size() == found.ground.labels.size(), "sure pixels of another size");
+  require(found.sure.size() == found.ground.labels.size(), "the sure pixels have another size");
 }
 
 void findEdges(Input& input, const DepthImage& image) {
@@ -113,7 +113,7 @@ void findEdges(Input& input, const DepthImage& image) {
   for (const EdgeKind kind : kEdgeKinds) {
     for (const auto& point : edgePoints(edges, image, kind)) require(point.allFinite(), "an edge that is not finite");
   }
-  // A picture whose rows have gaps, of this size or another.
+  // A colour image whose rows have gaps, of the same size as the depth image or another one.
   ColourImage colour;
   colour.order = static_cast<ColourImage::Order>(input.below(3));
   colour.width = image.width() + (input.below(8) == 0 ? input.below(5) - 2 : 0);
@@ -126,11 +126,11 @@ void findEdges(Input& input, const DepthImage& image) {
   colour.pixels = bytes.data();
   mayRefuse([&] {
     const auto seen = detector.detect(image, colour);
-    require(seen.labels.size() == edges.labels.size(), "edges of another size");
+    require(seen.labels.size() == edges.labels.size(), "the edges have another size");
   });
 }
 
-// By the other comparators, colours being of this size or another.
+// Segments planes by the other comparators, with a colour image of the same size or another one.
 void compareOtherwise(Input& input, const DepthImage& image, const PlaneOptions& sensor) {
   PlaneComparisonOptions comparison;
   comparison.comparison = input.flag() ? &kSimilarNormals : &kSamePlaneAndColour;
@@ -154,7 +154,7 @@ void depthImages(const std::uint8_t* data, std::size_t size) {
     PlaneOptions sensor;
     sensor.min_pixels = 1 + options.below(300);
     sensor.min_hole_pixels = 1 + options.below(30);
-    sensor.bend_at_1m = options.between(0, 0.01);
+    sensor.distortion_at_1m = options.between(0, 0.01);
     sensor.step_at_1m = options.between(0, 0.01);
     const int work = options.take<std::uint8_t>() % 5;
     const auto planes = PlaneSegmenter(sensor).segment(image);

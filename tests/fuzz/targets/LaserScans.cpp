@@ -14,7 +14,7 @@ namespace {
 
 using namespace perception;
 
-// Beams that see walls, noise, odd values, or what is told for each.
+// Beams that hit walls, noise, odd values, or ranges that are all from the input.
 mrpt::obs::CObservation2DRangeScan takeScan(Input& input) {
   constexpr float kOdd[] = {
       std::numeric_limits<float>::quiet_NaN(), 0, std::numeric_limits<float>::infinity(), -1, 1e-30F, 1e30F, 80, 39.9F};

@@ -40,7 +40,7 @@ Size takeSmallSize(Input& input) {
   return size;
 }
 
-// A picture of 8 bits or of others, grey or with colours, of this size or another, or one in a file that is not there.
+// Adds a picture: of 8 bits or another depth, grey or in colour, of the same size or another one, or in a missing file.
 void addPicture(Input& input, const Size& depth, CObservation3DRangeScan& scan) {
   scan.hasIntensityImage = true;
   const Size size = input.flag() ? depth : takeSmallSize(input);
@@ -75,7 +75,7 @@ CObservation3DRangeScan takeScan(Input& options, Input& input) {
   scan.range_is_depth = options.flag();
   scan.hasRangeImage = options.below(8) != 0;
   if (options.flag()) addPicture(options, size, scan);
-  if (options.below(16) == 0) {  // points without order, which nothing here may take for an image
+  if (options.below(16) == 0) {  // unorganized points, which must not be taken for an image
     scan.hasPoints3D = true;
     scan.resizePoints3DVectors(static_cast<std::size_t>(options.below(100)));
     return scan;
@@ -88,7 +88,7 @@ CObservation3DRangeScan takeScan(Input& options, Input& input) {
 }
 
 void requireSound(const obs::CObservationPlanes& found, const CObservation3DRangeScan& scan) {
-  require(found.source_label == scan.sensorLabel, "planes of another sensor");
+  require(found.source_label == scan.sensorLabel, "the planes are of another sensor");
   for (const auto& plane : found.planes) {
     require(plane.centroid.allFinite() && plane.covariance.allFinite(), "a plane that is not finite");
     require(plane.inliers <= static_cast<std::size_t>(scan.rangeImage.size()), "more inliers than pixels");

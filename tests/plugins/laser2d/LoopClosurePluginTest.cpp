@@ -96,7 +96,7 @@ class UnseenSlip : public ::testing::Test {
   UnseenSlip() {
     testing::SimulatedLogOptions options;
     options.laps = 2;
-    options.way_scale = 1;
+    options.travel_scale = 1;
     options.yaw_drift_per_m = 0;
     options.position_noise_per_root_m = options.yaw_noise_per_root_turn = 0.005;
     log_ = std::make_unique<testing::SimulatedLog>(options);

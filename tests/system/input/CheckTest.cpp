@@ -1,5 +1,5 @@
-// omnimapper-graphslam --check: what is said of a log is said by the program too, with its exit code, and the INI that
-// it proposes is one that the program takes.
+// omnimapper-graphslam --check prints the result of the check and ends with its exit code, and accepts the INI that the
+// check proposes.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/source/RawlogSource.h>
@@ -30,7 +30,7 @@ class Check : public ::testing::Test {
     options.laps = 0.3;
     return SimulatedLog(options).observations();
   }
-  /// A laser whose observations say another place than it has.
+  /// A log of a laser at the pose `truly`, whose observations state a pose of zero.
   static Observations mounted(const CPose3D& truly) {
     SimulatedLogOptions options;
     options.laps = 0.3;
@@ -44,7 +44,7 @@ class Check : public ::testing::Test {
   std::string save(const Observations& observations) {
     return writeFile(scratch_ / "log.rawlog", rawlogs::bytesOf(observations).text);
   }
-  /// Checks it, then again and maps it with the INI that is proposed: both take it.
+  /// Checks the observations, and maps and checks them again with the proposed INI, which both runs must accept.
   void expectRemedy(const Observations& observations, const std::string& remedy) {
     const auto log = save(observations);
     const auto checked = graphslam({"--check", log, "-o", scratch_ / "checked"});
@@ -68,7 +68,7 @@ TEST_F(Check, AGoodLogEndsWithZeroAndLeavesNothing) {
   EXPECT_TRUE(endedWith(ExitCode::ok, ended)) << ended.out;
   EXPECT_NE(ended.out.find("Nothing is wrong with this log."), std::string::npos) << ended.out;
   EXPECT_EQ(ended.err, "");
-  EXPECT_EQ(filesIn(scratch_.path()).size(), before.size() + 1) << "the log itself";
+  EXPECT_EQ(filesIn(scratch_.path()).size(), before.size() + 1) << "only the log itself was added";
 }
 
 TEST_F(Check, ASensorPoseThatIsWrongIsMendedByTheProposal) {
@@ -84,14 +84,14 @@ TEST_F(Check, OdometryThatIsWorseThanNoneIsLeftOutByTheProposal) {
     auto* odometry = dynamic_cast<CObservationOdometry*>(observation.get());
     if (odometry) odometry->odometry = mrpt::poses::CPose2D();
   }
-  // The list of ini/laser2d.ini without it.
+  // The list of pose plugins of ini/laser2d.ini without odometry.
   const std::string ini = readFile(omnimapper::testing::sourceFile("ini/laser2d.ini"));
   std::smatch found;
   ASSERT_TRUE(std::regex_search(ini, found, std::regex(R"(pose_plugins\s*= (.*\b)odometry, (.*)\n)"))) << ini;
   expectRemedy(observations, "pose_plugins = " + found.str(1) + found.str(2));
 }
 
-// A tilted laser comes first, and with it odometry that turns half as far.
+// The log also has a tilted laser, which comes first, and an odometry that turns half as far.
 TEST_F(Check, OfTwoLasersAndTwoOdometriesTheProposalNamesThoseThatMap) {
   SimulatedLogOptions options;
   options.laps = 0.5;
@@ -179,7 +179,8 @@ TEST_F(Check, ARangeCameraWithoutALaserIsMappedByTheProposal) {
   EXPECT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", other, "--check", log, "-o", scratch_ / "checked"})));
   expectMapped({other, scratch_ / "checked/check.ini"});
   const std::string of_lasers = omnimapper::testing::sourceFile("ini/laser2d.ini");
-  EXPECT_EQ(graphslam({"-i", of_lasers, "--check", log}).out, checked.out) << "an INI that measures nothing in it";
+  EXPECT_EQ(graphslam({"-i", of_lasers, "--check", log}).out, checked.out)
+      << "an INI whose plugins measure nothing in the log is not the one that is judged";
 }
 
 TEST_F(Check, AnIniThatMeasuresSomethingIsTheOneThatIsJudged) {
@@ -203,13 +204,13 @@ TEST_F(Check, ALogThatIsNotThereHasItsCode) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"--check", scratch_ / "none.rawlog"}), {"none.rawlog"}));
 }
 
-/// Of real logs: no problem is found where there is none.
+/// Real logs without a problem, in which none may be found.
 class CheckRecordings : public ::testing::Test {
  protected:
   static void expectNoProblem(const std::string& log) {
     const auto ended = graphslam({"--check", log});
     EXPECT_TRUE(endedWith(ExitCode::ok, ended)) << ended.out;
-    EXPECT_LT(std::count(ended.out.begin(), ended.out.end(), '\n'), 40) << "one screen";
+    EXPECT_LT(std::count(ended.out.begin(), ended.out.end(), '\n'), 40) << "the report must fit on one screen";
   }
 };
 

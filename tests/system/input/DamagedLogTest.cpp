@@ -1,5 +1,5 @@
-// Logs that are truncated, corrupt, or hold what cannot be read: the map of what was readable is kept, and the exit
-// code and message say what happened.
+// Logs that are truncated, corrupt, or contain objects that cannot be read: the map of what was readable is kept, and
+// the exit code and message say what happened.
 #include <mrpt/obs/CObservationImage.h>
 
 #include <cstring>
@@ -23,7 +23,7 @@ class DamagedLog : public ::testing::Test {
   }
   std::string file(const std::string& name) const { return scratch_ / name; }
 
-  /// Maps bytes of a log; they end early after the first `objects` observations.
+  /// Maps the bytes of a log, of which only the first `objects` observations can be read.
   void expectMapOfWhatWasReadable(const std::string& bytes, std::size_t objects, ExitCode code, const Words& words) {
     writeFile(log_path_, bytes);
     expectMapOfWhatWasReadable(objects, code, words);
@@ -41,7 +41,7 @@ class DamagedLog : public ::testing::Test {
     EXPECT_LT(errorAgainst(log_, trajectory), 0.1);
     EXPECT_GT(loadMap(folder_).map.key_frames.size(), 3U);
     const auto warnings = loadSummary(folder_)["warnings"].dump();
-    EXPECT_NE(warnings.find(words.front()), std::string::npos) << "the summary tells it too: " << warnings;
+    EXPECT_NE(warnings.find(words.front()), std::string::npos) << "the summary has the warning, too: " << warnings;
   }
 
   ScratchFolder scratch_;
@@ -111,7 +111,7 @@ TEST_F(DamagedLog, AClassNobodyRegisteredEndsTheMapThereAndIsNamed) {
                              {"CObservationTele", "not registered", "load the library"});
 }
 
-TEST_F(DamagedLog, OneDamagedLogOfTwoIsToldAndBothAreMapped) {
+TEST_F(DamagedLog, OneDamagedLogOfTwoIsReportedAndBothAreMapped) {
   Observations lasers, odometry;
   for (const auto& o : observations_) (o->sensorLabel == "laser" ? lasers : odometry).push_back(o);
   const auto whole = rawlogs::bytesOf(odometry).text;

@@ -1,4 +1,4 @@
-// Logs, names and folders that were made to do harm: nothing of them is run, nothing is written where they say, and
+// Logs, names and folders that were made to do harm: no code of theirs is run, no file is written where they say, and
 // the program neither hangs nor ends with "a defect".
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -84,10 +84,10 @@ TEST_F(Hostile, OnlyTheFirstIniNamesLibraries) {
                         {"check.ini:3", "written from a log"}));
   EXPECT_TRUE(endedWith(ExitCode::plugin_library, map({log}, folder_, {"--set", "mapper.plugin_libraries=" + library}),
                         {"cannot load"}))
-      << "who says it himself is believed";
+      << "a user may name libraries on the command line";
 }
 
-// Where the search path of libraries has an empty entry, the loader looks in the current folder.
+// If the search path of libraries had an empty entry, the loader would search the current folder.
 TEST_F(Hostile, ALibraryInTheCurrentFolderIsNotLoaded) {
   for (const char* name : {"libbz2.so.1.0", "libz.so.1", "libomnimapper-mapper.so.0"}) {
     writeFile(scratch_ / name, "no library");
@@ -97,7 +97,7 @@ TEST_F(Hostile, ALibraryInTheCurrentFolderIsNotLoaded) {
   EXPECT_TRUE(endedWith(ExitCode::ok, ended));
 }
 
-TEST_F(Hostile, ValuesThatAreNoNumbersAreLeftOutAndTold) {
+TEST_F(Hostile, ValuesThatAreNoNumbersAreLeftOutAndReported) {
   const auto expectLeftOut = [&](const Observations& observations, const std::string& reason) {
     const auto log = save(observations);
     EXPECT_TRUE(endedWith(ExitCode::damaged_input, map({log}, folder_), {reason})) << reason;
@@ -118,8 +118,8 @@ TEST_F(Hostile, ValuesThatAreNoNumbersAreLeftOutAndTold) {
   expectLeftOut(log, "their sensor is more than 1 km from the base");
 }
 
-TEST_F(Hostile, WhatIsWrongWithACameraIsToldByCheck) {
-  const auto expectTold = [&](const mrpt::obs::CObservation::Ptr& wrong, const std::string& reason) {
+TEST_F(Hostile, CheckReportsWhatIsWrongWithACamera) {
+  const auto expectReported = [&](const mrpt::obs::CObservation::Ptr& wrong, const std::string& reason) {
     auto observations = ring();
     wrong->timestamp = observations.back()->timestamp;
     wrong->sensorLabel = "camera";
@@ -136,12 +136,12 @@ TEST_F(Hostile, WhatIsWrongWithACameraIsToldByCheck) {
     scan->rangeUnits = units;
     return scan;
   };
-  expectTold(depth(std::numeric_limits<double>::quiet_NaN(), 0.001F), "calibration is not finite");
-  expectTold(depth(0, 0.001F), "focal length is not positive");
-  expectTold(depth(500, -0.001F), "unit of depth is not positive");
+  expectReported(depth(std::numeric_limits<double>::quiet_NaN(), 0.001F), "calibration is not finite");
+  expectReported(depth(0, 0.001F), "focal length is not positive");
+  expectReported(depth(500, -0.001F), "unit of depth is not positive");
   auto image = mrpt::obs::CObservationImage::Create();
   image->image.setExternalStorage("gone.png");
-  expectTold(image, "gone.png");
+  expectReported(image, "gone.png");
 }
 
 TEST_F(Hostile, ASpeedThatIsNoNumberIsRefused) {
@@ -188,7 +188,7 @@ TEST_F(Hostile, APipeIsNoLog) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, map({save(ring())}, folder_, {"--continue", pipe}), {"pipe"}));
 }
 
-// Who opens a pipe that nobody writes to waits for ever.
+// Opening a pipe that nobody writes to blocks for ever.
 TEST_F(Hostile, APipeIsNoFileOfAnyOtherKind) {
   const std::string pipe = scratch_ / "pipe", log = save(ring());
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -232,11 +232,12 @@ TEST_F(Hostile, AnInputIsNotReplacedByAnOutputOfItsName) {
   const auto bytes = rawlogs::bytesOf(ring()).text;
   fs::create_directories(folder_);
   const std::string log = writeFile(folder_ + "/trajectory.tum", bytes);
-  EXPECT_TRUE(endedWith(ExitCode::command_line, map({log}, folder_), {"trajectory.tum", "is an input and would be replaced"}));
+  EXPECT_TRUE(
+      endedWith(ExitCode::command_line, map({log}, folder_), {"trajectory.tum", "is an input and would be replaced"}));
   EXPECT_EQ(readFile(log), bytes);
 }
 
-// Each of them was compared with each other, and all were printed in full.
+// An earlier version compared each label with every other one and printed all of them in full.
 TEST_F(Hostile, ManyLongLabelsAreCheckedInShort) {
   auto observations = ring();
   const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(

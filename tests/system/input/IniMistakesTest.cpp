@@ -8,7 +8,7 @@ using omnimapper::testing::ScratchFolder;
 
 class IniMistakes : public ::testing::Test {
  protected:
-  // The INI is looked at before the log, which need not be there.
+  // The INI is checked before the log, so the log need not exist.
   Ended mapWith(const std::string& ini) {
     writeFile(ini_, ini);
     return graphslam({"-i", ini_, "-r", scratch_ / "none.rawlog", "-o", scratch_ / "map"});
@@ -19,7 +19,7 @@ class IniMistakes : public ::testing::Test {
     EXPECT_NE(place, std::string::npos) << from;
     return text.replace(place, from.size(), to);
   }
-  /// ini/laser2d.ini with lines behind its end.
+  /// ini/laser2d.ini with lines appended to it.
   std::string laser2dAnd(const std::string& more) const {
     return readFile(omnimapper::testing::sourceFile("ini/laser2d.ini")) + more;
   }

@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM: the map so far is saved.
+// Ctrl-C and SIGTERM save the map that was made until then.
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <signal.h>
 
@@ -23,7 +23,7 @@ class Interrupt : public ::testing::TestWithParam<int> {
     log_ = std::make_unique<SimulatedLog>(options);
     log_->writeRawlog(log_path_);
   }
-  /// The program replaying the log at that pace, once it has come to reading it.
+  /// Starts the program, which replays the log at that speed, and waits until it begins to read the log.
   std::unique_ptr<Program> started(const std::string& speed) {
     auto program = std::make_unique<Program>(mappingCommand({log_path_}, folder_, {"--speed", speed}));
     const std::string staged = folder_ + "/.omnimapper/staged";
@@ -48,10 +48,10 @@ TEST_P(Interrupt, WhileReplayingSavesTheMapSoFar) {
   const auto found = stampsOf(loadTrajectory(folder_)), scans = scanStamps(*log_);
   ASSERT_GT(found.size(), 20U);
   EXPECT_LT(found.size(), scans.size());
-  EXPECT_TRUE(std::equal(found.begin(), found.end(), scans.begin())) << "all scans up to then";
+  EXPECT_TRUE(std::equal(found.begin(), found.end(), scans.begin())) << "all scans up to the signal";
 }
 
-TEST_P(Interrupt, OverAnOlderMapLeavesThatAndKeepsItsOwnApart) {
+TEST_P(Interrupt, OverAnOlderMapLeavesThatAndKeepsItsOwnElsewhere) {
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder_)));
   const auto before = contentsOf(folder_);
   const auto program = started("4");
@@ -62,7 +62,7 @@ TEST_P(Interrupt, OverAnOlderMapLeavesThatAndKeepsItsOwnApart) {
   EXPECT_LT(loadMap(folder_ + "/interrupted").map.key_frames.size(), loadMap(folder_).map.key_frames.size());
   EXPECT_EQ(contentsOf(folder_), before);
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder_)));
-  EXPECT_EQ(filesIn(folder_), allOutputs()) << "a whole run leaves nothing of an interrupted one";
+  EXPECT_EQ(filesIn(folder_), allOutputs()) << "a complete run removes the outputs of an interrupted one";
 }
 
 TEST_P(Interrupt, WhileWaitingForAPauseOfTheLogEndsAtOnce) {
@@ -70,12 +70,13 @@ TEST_P(Interrupt, WhileWaitingForAPauseOfTheLogEndsAtOnce) {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   const auto start = std::chrono::steady_clock::now();
   program->send(GetParam());
-  EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"nothing to map"})) << "no scan had come yet";
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"nothing to map"})) << "no scan was read yet";
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST_P(Interrupt, WhileTheLogIsCheckedEndsAndLeavesNothing) {
-  // 10 GB of zeros after the log, in a few MB: the check takes many times as long as the way from here to the signal.
+  // Appends 10 GB of zeros to the log, compressed to a few MB, so that the check takes many times as long as it takes
+  // to send the signal.
   const std::string zeros_path = scratch_ / "zeros";
   {
     mrpt::io::CFileGZOutputStream zeros(zeros_path);
@@ -92,7 +93,7 @@ TEST_P(Interrupt, WhileTheLogIsCheckedEndsAndLeavesNothing) {
   EXPECT_FALSE(fs::exists(folder_));
 }
 
-// What is written is whole, and told, while the window still shows it.
+// The outputs are complete, and reported, while the window still shows the map.
 TEST_P(Interrupt, OfAWindowThatShowsAWholeMapCutsNothingShort) {
   if (!endedWith(ExitCode::ok, runProgram({"which", "xvfb-run"})))
     GTEST_SKIP() << "there is no xvfb-run (package xvfb)";
@@ -112,7 +113,7 @@ wait $program)";
   const auto verdict = text.find("verdict "), outputs = text.find("outputs "), window = text.find("close it to end");
   EXPECT_TRUE(verdict < outputs && outputs < window && window != std::string::npos) << text;
   EXPECT_EQ(text.find("interrupted"), std::string::npos) << text;
-  EXPECT_EQ(text.find("outputs ", window), std::string::npos) << "told once:\n" << text;
+  EXPECT_EQ(text.find("outputs ", window), std::string::npos) << "reported once:\n" << text;
   EXPECT_EQ(filesIn(folder_), allOutputs());
 }
 

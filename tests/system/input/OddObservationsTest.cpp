@@ -1,5 +1,6 @@
-// Whole logs with odd content: what is unusable is left out and counted, the rest is mapped as well as ever. What runs
-// backwards or comes twice ends with 0, what holds values that are no numbers with the code of a damaged log.
+// Whole logs with odd content: unusable observations are left out and counted, the others are mapped as well as ever.
+// With stamps that run backwards or are repeated the exit code is 0, with values that are not finite it is that of a
+// damaged log.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
@@ -28,7 +29,7 @@ class OddObservations : public ::testing::Test {
     options.place = SimulatedLogOptions::Place::box;
     return options;
   }
-  /// The i-th observation of the laser or the odometry.
+  /// The i-th observation of this class, laser or odometry.
   template <class Class>
   Class& nth(std::size_t i) {
     for (const auto& observation : observations_) {
@@ -40,8 +41,8 @@ class OddObservations : public ::testing::Test {
   CObservation2DRangeScan& scan(std::size_t i) { return nth<CObservation2DRangeScan>(i); }
   CObservationOdometry& odometry(std::size_t i) { return nth<CObservationOdometry>(i); }
 
-  /// Maps the observations, which must end well and on the truth, with the words on standard error; one line of the
-  /// trajectory per stamp in `expected`.
+  /// Maps the observations. Expects the exit code, the words on standard error, and a trajectory that is close to the
+  /// truth and has the stamps `expected`.
   void expectMap(const std::vector<omnimapper::base::Stamp>& expected, const Words& words = {},
                  ExitCode code = ExitCode::ok) {
     writeFile(scratch_ / "odd.rawlog", rawlogs::bytesOf(observations_).text);
@@ -115,7 +116,7 @@ TEST_F(OddObservations, RepeatedStampsAreLeftOutAndCounted) {
 }
 
 TEST_F(OddObservations, StampsThatRunBackwardsWithinTheWindowAreSortedIn) {
-  // Every scan comes a quarter of a second late, so that it stands behind later odometry.
+  // Every scan comes a quarter of a second late, so that it comes after later odometry.
   const auto arrival = [](const auto& observation) {
     const double delay = observation->sensorLabel == "laser" ? 0.25 : 0;
     return observation->timestamp + omnimapper::base::durationFromSeconds(delay);
@@ -126,7 +127,7 @@ TEST_F(OddObservations, StampsThatRunBackwardsWithinTheWindowAreSortedIn) {
 }
 
 TEST_F(OddObservations, AScanFarBehindGetsItsPlaceAndOdometryThatLeapsBackIsRefused) {
-  // A scan comes three seconds late, and a reading of the odometry says that it is two seconds older than it is.
+  // A scan comes three seconds late, and a reading of the odometry has a stamp that is two seconds too early.
   const auto late = std::find_if(observations_.begin() + 200, observations_.end(),
                                  [](const auto& o) { return o->sensorLabel == "laser"; });
   std::rotate(late, late + 1, late + 100);
@@ -143,7 +144,7 @@ TEST_F(OddObservations, OneStampFarAheadDoesNoHarm) {
   writeFile(scratch_ / "odd.rawlog", rawlogs::bytesOf(observations_).text);
   EXPECT_TRUE(endedWith(ExitCode::ok, map({scratch_ / "odd.rawlog"}, folder_)));
   auto trajectory = loadTrajectory(folder_);
-  if (trajectory.size() > stamps_.size()) trajectory.pop_back();  // it may come last, where the others end
+  if (trajectory.size() > stamps_.size()) trajectory.pop_back();  // the scan with that stamp may come last
   EXPECT_EQ(stampsOf(trajectory), stamps_);
   EXPECT_LT(errorAgainst(log_, trajectory), 0.1);
 }

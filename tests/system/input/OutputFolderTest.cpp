@@ -1,4 +1,4 @@
-// Where the outputs cannot be written: the exit code tells the cause, and what was there before stays whole.
+// Outputs that cannot be written: the exit code gives the cause, and outputs of an earlier run stay whole.
 #include <signal.h>
 #include <sys/mount.h>
 
@@ -14,7 +14,7 @@ using namespace runs;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::SimulatedLogOptions;
 
-/// A disk of that size in a folder, for as long as the object lives.
+/// Mounts a disk of that size on a folder while the object exists.
 class SmallDisk {
  public:
   SmallDisk(const std::string& folder, const std::string& size) : folder_(folder) {
@@ -63,7 +63,7 @@ TEST_F(OutputFolder, ThatCannotBeMadeOrWrittenIsRefusedByName) {
 TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndNamesAllThatFailed) {
   const std::string folder = scratch_ / "disk";
   const SmallDisk disk(folder, "1m");
-  if (!disk.mounted()) GTEST_SKIP() << "may not mount a small disk; FilesThatMayNotGrow... has run";
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small disk is not permitted; FilesThatMayNotGrow... has run";
   const std::string old_map = "the map of before";
   writeFile(folder + "/map.omnimap", old_map);
   writeFile(folder + "/filler", std::string(930'000, 'x'));
@@ -72,19 +72,19 @@ TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndNamesAllThatFailed) {
       {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room", "is as it was"}));
   EXPECT_EQ(readFile(folder + "/map.omnimap"), old_map);
   EXPECT_EQ(filesIn(folder), (std::set<std::string>{"map.omnimap", "filler", "interrupted"}));
-  EXPECT_EQ(filesIn(folder + "/interrupted").count("trajectory.tum"), 1U) << "what fits is written";
+  EXPECT_EQ(filesIn(folder + "/interrupted").count("trajectory.tum"), 1U) << "outputs that fit must be written";
 }
 
 TEST_F(OutputFolder, ADiskThatIsFullAlreadyIsFoundBeforeTheLogIsMapped) {
   const std::string folder = scratch_ / "disk";
   const SmallDisk disk(folder, "1m");
-  if (!disk.mounted()) GTEST_SKIP() << "may not mount a small disk; FilesThatMayNotGrow... has run";
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small disk is not permitted; FilesThatMayNotGrow... has run";
   writeFile(folder + "/filler", std::string(1'000'000, 'x'));
   EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder), {folder, "no room for outputs", "Free some"}));
   EXPECT_EQ(filesIn(folder), std::set<std::string>{"filler"});
 }
 
-TEST_F(OutputFolder, FilesThatMayNotGrowKeepTheOldMapAndTheOtherOutputsAreWrittenApart) {
+TEST_F(OutputFolder, FilesThatMayNotGrowKeepTheOldMapAndTheOtherOutputsAreWrittenElsewhere) {
   const std::string folder = scratch_ / "map";
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder)));
   const auto before = contentsOf(folder);
@@ -117,18 +117,18 @@ TEST_F(OutputFolder, OfARunThatStillGoesOnIsRefusedToASecond) {
   EXPECT_TRUE(endedWith(ExitCode::unwritable_output, map({log_path_}, folder), {folder, "another run"}));
   first.send(SIGKILL);
   first.wait();
-  EXPECT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder))) << "the lock of the dead is no lock";
+  EXPECT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder))) << "the lock of a killed run does not count";
   EXPECT_EQ(filesIn(folder), allOutputs());
 }
 
-// At any moment, by any signal: as the next program sees it, the folder is wholly old or wholly new.
+// Whenever a run is ended, and by whichever signal, the next program finds the outputs of one whole run in the folder.
 TEST_F(OutputFolder, KilledAtAnyTimeHoldsOneWholeRun) {
   const std::string folder = scratch_ / "map";
   const Words other{"--set", "grid.resolution_m=0.1"};
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, scratch_ / "new", other)));
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder)));
   const auto stable = [](std::map<std::string, std::string> files) {
-    files.erase("report.html");  // with summary.json, the only ones that tell how long it took
+    files.erase("report.html");  // with summary.json the only outputs that contain times of the run
     files.erase("summary.json");
     return files;
   };
@@ -139,7 +139,7 @@ TEST_F(OutputFolder, KilledAtAnyTimeHoldsOneWholeRun) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20 * i));
     program.send(std::array{SIGKILL, SIGINT, SIGTERM}[i % 3]);
     program.wait();
-    loadMap(folder);  // the next program
+    loadMap(folder);  // as the next program does
     const auto files = stable(contentsOf(folder));
     EXPECT_TRUE(files == old_run || files == new_run) << "killed after " << 20 * i << " ms";
   }

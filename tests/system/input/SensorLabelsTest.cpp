@@ -1,4 +1,4 @@
-// A label in the INI that nothing in the log has: said with the labels that there are.
+// A label in the INI that no observation of the log has is reported, together with the existing labels.
 #include "../MapFolder.h"
 
 namespace {
@@ -37,13 +37,13 @@ TEST_F(SensorLabels, ThatNothingHasAreNamedWithTheNearestAndAll) {
                          "existing labels: laser, laser.points, odometry"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=laser", "scan_odometry.label=odometry"}),
                         {"nothing was measured"}))
-      << "the points have a label of their own";
+      << "the points have another label than the laser";
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=lasr.points, laser.points"}),
                         {"[loop_closure] labels", "'lasr.points'", "'laser.points'?"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"mapper.sensors=front", "front.label=Laser"}), {"[front] label"}));
 }
 
-TEST_F(SensorLabels, OfAPluginThatNothingCameToAreToldByItsName) {
+TEST_F(SensorLabels, OfAPluginThatGetsNothingAreReportedByItsName) {
   const auto ended =
       mapWith({"mapper.measurement_plugins=loop_closure, beacons", "beacons.class=PointLandmarksPlugin"});
   EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"warning: [beacons] had nothing to work on", "--check LOG"}));

@@ -11,8 +11,8 @@
 
 #include "../Runs.h"
 
-/// omnimapper-graphslam --live before the sensors that omnimapper-play is in place of: a Hokuyo on Ethernet, and a
-/// robot that sends its odometry.
+/// Runs omnimapper-graphslam --live with sensors that omnimapper-play stands in for: a Hokuyo on Ethernet, and a robot
+/// that sends its odometry.
 namespace runs {
 
 inline std::vector<std::string> filesIn(const std::string& folder, const std::string& extension) {
@@ -24,7 +24,7 @@ inline std::vector<std::string> filesIn(const std::string& folder, const std::st
   return found;
 }
 
-/// Root mean square distance [m] from the truth, as far as the frame is free.
+/// Root mean square distance [m] from the truth after the best rigid alignment.
 inline double errorOf(const std::string& trajectory, const std::string& truth) {
   omnimapper::eval::PairingOptions pairing;
   pairing.longest_gap = omnimapper::base::durationFromSeconds(0.5);
@@ -36,7 +36,7 @@ inline double errorOf(const std::string& trajectory, const std::string& truth) {
 
 class LiveRun {
  public:
-  /// `faults`: of the played laser and of the played odometry. Nothing runs yet.
+  /// `faults` are those of the played laser, `odometry_faults` those of the played odometry. No program runs yet.
   explicit LiveRun(double pace, Words faults = {}, Words odometry_faults = {})
       : pace_(pace), faults_(std::move(faults)), odometry_faults_(std::move(odometry_faults)) {
     using omnimapper::live::boundPort;
@@ -50,7 +50,7 @@ class LiveRun {
                                        << "sensorLabel = odometry\nport = " << odometry_port_ << "\n";
   }
 
-  /// Waits until the laser listens.
+  /// Starts the player and waits until its laser listens.
   void play(const std::string& log, const std::string& truth = "") {
     Words words{omnimapper::testing::ownProgram("omnimapper-play"),
                 log,
@@ -91,7 +91,7 @@ class LiveRun {
   std::optional<omnimapper::testing::Program> player;
 
  private:
-  // To connect would not do: a Hokuyo has one host.
+  // This does not connect to the port, because a Hokuyo accepts only one host.
   static bool isListenedAt(std::uint16_t port) {
     char entry[32];
     std::snprintf(entry, sizeof entry, "0100007F:%04X 00000000:0000 0A", port);

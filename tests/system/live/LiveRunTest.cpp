@@ -4,7 +4,7 @@
 
 #include "LiveRun.h"
 
-// A robot in a room with furniture, 27 s: its laser by MRPT's driver and its odometry, mapped while it drives.
+// A robot that drives through a room for 27 s is mapped meanwhile, from its laser by MRPT's driver and its odometry.
 namespace {
 
 using namespace runs;
@@ -20,7 +20,7 @@ void sleep(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-// Until the player has played all.
+// Runs the mapper until the player has played the whole log.
 Ended playAndMap(LiveRun& run, const Words& more = {}, const ProgramOptions& options = {}) {
   run.play(kBox, kTruth);
   Program mapper(run.live(more), options);
@@ -40,7 +40,7 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
   EXPECT_EQ(summary.at("dropped"), 0);
   EXPECT_EQ(summary.at("recording").at("observations"), kScans + kOdometry);
   EXPECT_LT(summary.at("latency_s").at("median"), 1.0);
-  EXPECT_FALSE(fs::exists(run.out() + "/checkpoint.omnimap")) << "the map itself is there";
+  EXPECT_FALSE(fs::exists(run.out() + "/checkpoint.omnimap")) << "the map itself has replaced it";
 
   const auto offline = run.folder / "offline";
   ASSERT_TRUE(endedWith(ExitCode::ok, map({run.recorded(".rawlog")}, offline)));
@@ -48,7 +48,7 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
   const double offline_error = errorOf(offline + "/trajectory.tum", run.folder / "truth.tum");
   EXPECT_LE(live_error, 1.2 * offline_error + 0.003) << "offline " << offline_error;
 
-  // By the INI of the run, which is beside the journal.
+  // Replays with the INI of the run, which is beside the journal.
   const auto again = run.folder / "again";
   const auto replayed = graphslam({"--replay", run.out(), "-o", again});
   ASSERT_TRUE(endedWith(ExitCode::ok, replayed));
@@ -60,11 +60,11 @@ TEST(LiveRun, isAsGoodAsTheRecordingMappedOffline) {
 
   const auto other = runProgram(run.command({"--replay", run.recorded(".journal"), "-o", run.folder / "other", "--set",
                                              "trigger.distance_m=0.2", "--set", "trigger.angle_deg=5"}));
-  EXPECT_TRUE(endedWith(ExitCode::ok, other,
-                        {"this run departs from the live run",
-                         "[trigger] angle_deg (5, was 25), [trigger] distance_m (0.2, was 0.6)"}));
+  EXPECT_TRUE(endedWith(
+      ExitCode::ok, other,
+      {"this run departs from the live run", "[trigger] angle_deg (5, was 25), [trigger] distance_m (0.2, was 0.6)"}));
 
-  // A recording may come from anybody, who must not have libraries loaded.
+  // A recording may come from anybody, so its INI must not be able to load libraries.
   std::ofstream(omnimapper::live::iniOf(run.recorded(".journal"))) << "[mapper]\nplugin_libraries = theirs.so\n";
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"--replay", run.out(), "-o", run.folder / "theirs"}),
                         {"no live run wrote this INI"}));
@@ -84,11 +84,11 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   omnimapper::source::RawlogSource recorded(run.recorded(".rawlog"));
   omnimapper::base::Stamp last;
   while (const auto observation = recorded.next()) last = observation->timestamp;
-  EXPECT_LT(omnimapper::base::secondsBetween(last, killed), 1.2) << "of which a tenth or two on a busy machine";
+  EXPECT_LT(omnimapper::base::secondsBetween(last, killed), 1.2) << "a busy machine may take a tenth or two of that";
   const auto again = run.folder / "again";
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(run.command({"--replay", run.recorded(".journal"), "-o", again}))));
   EXPECT_GT(nlohmann::json::parse(std::ifstream(again + "/summary.json")).at("key_frames"), 3);
-  // The checkpoint is no other run's, and a map goes on from it.
+  // Another run does not replace the checkpoint, and a map can be continued from it.
   EXPECT_TRUE(endedWith(ExitCode::unwritable_output, runProgram(run.live()), {"holds the map of an earlier run"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out()})));
 }
@@ -97,8 +97,9 @@ void expectNear(const LiveRun& run) {
   EXPECT_LT(errorOf(run.out() + "/trajectory.tum", run.folder / "truth.tum"), 0.05);
 }
 
-// Two robots at once. The laser of one is away for a second, in which it drives for eight; before, it answers slowly,
-// and some of what it and the wheels send is damaged. Of the other, laser and wheels are away at once.
+// Two robots at once. The laser of the first is gone for one second, which is eight seconds of the log; before that, it
+// answers slowly, and some data of laser and wheels are damaged. Laser and wheels of the second are gone at the same
+// time.
 TEST(LiveRun, goesOnWithoutSensorsUntilTheyAreBack) {
   LiveRun damaged(8, {"garbage@20", "half@30", "checksum@40", "slow@50:0.15", "hangup@120:1"},
                   {"garbage@30", "half@70"});
@@ -127,14 +128,14 @@ TEST(LiveRun, goesOnWithoutSensorsUntilTheyAreBack) {
   expectNear(lost);
 }
 
-// Where a robot is that is switched on at the place where the log of a map began.
+// Localizes a robot that is switched on at the place where the log of the map began.
 TEST(LiveRun, isLocatedInAMap) {
   LiveRun run(12);
   const auto known = run.folder / "known";
   ASSERT_TRUE(endedWith(ExitCode::ok, map({kBox}, known)));
   const auto ended = playAndMap(run, {"--localize", known + "/map.omnimap", "--set", "session.start=origin"});
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
-  EXPECT_NE(ended.out.find("located           9"), std::string::npos) << "of 100 %: " << ended.out;
+  EXPECT_NE(ended.out.find("located           9"), std::string::npos) << "90 % or more: " << ended.out;
   EXPECT_EQ(run.summary().at("live").at("given"), kScans + kOdometry);
   expectNear(run);
 }
@@ -147,7 +148,7 @@ TEST(LiveRun, onAFullDiskTheMapIsMadeAllTheSame) {
                                 {120, 150000});
   ASSERT_TRUE(endedWith(ExitCode::disk_full, ended, {"recording ended"}));
   EXPECT_TRUE(fs::exists(run.out() + "/trajectory.tum"));
-  // What was recorded until then can be read.
+  // The recording up to then can be read.
   EXPECT_TRUE(endedWith(ExitCode::ok, map({run.recorded(".rawlog")}, run.folder / "recorded")));
 }
 

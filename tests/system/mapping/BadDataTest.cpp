@@ -1,5 +1,5 @@
-// Whole logs of bad data, each mapped with ini/laser2d.ini and laser odometry: on the truth all the same, or with the
-// reason.
+// Whole logs of bad data, each mapped with ini/laser2d.ini and laser odometry: the map is close to the truth all the
+// same, or the run gives the reason why it is not.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
@@ -23,7 +23,7 @@ using rawlogs::Observations;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Two laps of the ring of rooms.
+/// A fixture with two laps of the ring of rooms.
 class BadData : public ::testing::Test {
  protected:
   static SimulatedLogOptions twoLaps() {
@@ -39,7 +39,7 @@ class BadData : public ::testing::Test {
   double secondsOf(const mrpt::obs::CObservation& observation) const {
     return omnimapper::base::secondsBetween(log_->begin(), observation.timestamp);
   }
-  /// Between seconds `from` and `to` of the log.
+  /// Changes the observations of a class between seconds `from` and `to` of the log.
   template <class Class>
   void each(double from, double to, const std::function<void(Class&)>& change) {
     for (const auto& observation : observations_) {
@@ -55,7 +55,7 @@ class BadData : public ::testing::Test {
     writeFile(scratch_ / "bad.rawlog", rawlogs::bytesOf(observations_).text);
     return map({scratch_ / "bad.rawlog"}, folder_, more);
   }
-  /// Maps the observations, which ends well and on the truth.
+  /// Maps the observations and expects exit code 0 and a trajectory that is close to the truth.
   void expectMap(const Words& words = {}, double largest_error = 0.15) {
     const auto ended = mapThem();
     ASSERT_TRUE(endedWith(ExitCode::ok, ended, words));
@@ -104,7 +104,7 @@ TEST_F(BadData, ScansOfMaximumRangeForAWhileAreBridged) {
 TEST_F(BadData, ScansOfNothingButZerosAreSaidToMeasureNothing) {
   each<CObservation2DRangeScan>([](auto& scan) { blind(scan, 0, true); });
   EXPECT_TRUE(endedWith(ExitCode::ok, mapThem(), {"warning: nothing was measured"}));
-  EXPECT_EQ(stampsOf(loadTrajectory(folder_)), scanStamps(*log_)) << "what the odometry says is kept";
+  EXPECT_EQ(stampsOf(loadTrajectory(folder_)), scanStamps(*log_)) << "the poses of the odometry are kept";
 }
 
 TEST_F(BadData, ScansOfNothingButMaximumRangeAreSaidToMeasureNothing) {
@@ -162,7 +162,7 @@ TEST_F(BadData, OdometryThatFreezesForAWhileIsMadeUpForByTheScans) {
 }
 
 TEST_F(BadData, OdometryThatRunsBackwardsIsMadeUpForByTheScans) {
-  // What encoders with swapped signs sum up.
+  // The result of encoders with swapped signs.
   each<CObservationOdometry>([](auto& odometry) {
     const auto& p = odometry.odometry;
     odometry.odometry = CPose2D(-p.x(), p.y(), -p.phi());
@@ -176,7 +176,7 @@ TEST_F(BadData, OdometryThatJumpsIsMadeUpForByTheScans) {
 }
 
 TEST_F(BadData, OdometryThatJumpsOnTheSpotIsMadeUpForByTheScans) {
-  // As after a kick: the odometry goes on from another heading too.
+  // As after a kick: the odometry continues from another position and another heading.
   each<CObservationOdometry>(50, 1e9, [](auto& odometry) { odometry.odometry = CPose2D(5, 0, 1) + odometry.odometry; });
   expectMap();
 }

@@ -37,7 +37,7 @@ TEST_F(Cameras, InTheHandTurningQuicklyIsMappedByItsImagesAlone) {
   EXPECT_LT(error.translation.rmse, 0.015);
 }
 
-// The twin.
+// The simulated twin of the test above.
 TEST_F(Cameras, InTheHandInASimulatedHomeIsMappedByItsImagesAlone) {
   const std::string place = scratch_ / "home";
   ASSERT_TRUE(endedWith(
@@ -54,7 +54,8 @@ TEST_F(Cameras, OnARobotAreMappedWithItsWheels) {
   EXPECT_FALSE(readFile(folder_ + "/floorplan.geojson").empty());
 }
 
-// The poses' z is up; the camera's depths tilt desks and floors by some degrees, which is in the standard deviation.
+// The z axis of the given poses points up. Errors of the camera's depths tilt desks and floors by some degrees, which
+// the standard deviation accounts for.
 TEST_F(Cameras, OnGivenPosesKnowWhichWayIsUpByWhatTheySee) {
   const auto images = sharedData("rgbd/tum_fr3_cabinet58");
   OMNIMAPPER_NEEDS(images);
@@ -66,11 +67,11 @@ TEST_F(Cameras, OnGivenPosesKnowWhichWayIsUpByWhatTheySee) {
   EXPECT_GT(level.at("up").at(2).get<double>(), 0.9998) << "1 deg: " << level;
 }
 
-// The twin: the first picture of the simulated hand is tilted by 6 deg.
+// The simulated twin of the test above: the first image of the hand-held camera is tilted by 6 deg.
 TEST_F(Cameras, InASimulatedHandKnowWhichWayIsUpByAnAccelerometer) {
   const std::string place = scratch_ / "home";
   omnimapper::testing::ProgramOptions patient;
-  patient.time_limit = 300;  // 200 images take 50 s of a core that is free
+  patient.time_limit = 300;  // 200 images take 50 s of a free core
   const Words simulate{ownProgram("omnimapper-simulate"),
                        "-i",
                        sourceFile("rawlogs/home_handheld.ini"),

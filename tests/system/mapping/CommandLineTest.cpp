@@ -1,4 +1,4 @@
-// What the command line of omnimapper-graphslam promises beside mapping.
+// Options and messages of omnimapper-graphslam's command line that do not concern mapping itself.
 #include <omnimapper/base/Config.h>
 
 #include <regex>
@@ -80,7 +80,7 @@ TEST_F(CommandLine, MistakesAreAnsweredWithWhatWasMeant) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"-i", "laser.ini", "-r", log, "-o", out}),
                         {"laser.ini", "did you mean laser2d.ini?", "home_planes.ini"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, graphslam({"-i", "ini/laser2d.ini", "-r", log, "-o", out}), {log}))
-      << "with the folder that it has in a checkout, an INI that came with the program is found, too";
+      << "an installed INI is also found under the folder that it has in a checkout";
   EXPECT_TRUE(endedWith(ExitCode::command_line, graphslam({"--ouput", out}), {"did you mean --output?"}));
   EXPECT_TRUE(
       endedWith(ExitCode::command_line, graphslam({"nowhere"}), {"'nowhere' is given without an option; --help"}));
@@ -115,8 +115,8 @@ TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
   writeFile(file("all.ini"), ini);
   EXPECT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", file("all.ini"), "-r", file("box.rawlog"), "-o", file("all")})));
   auto expected = allOutputs();
-  expected.insert(
-      {"floorplan.geojson", "landmarks.ply", "surfaces.json"});  // of the walls, which ini/laser2d.ini leaves out
+  expected.insert({"floorplan.geojson", "landmarks.ply",
+                   "surfaces.json"});  // outputs of walls, which ini/laser2d.ini does not have
   EXPECT_EQ(filesIn(file("all")), expected);
 }
 

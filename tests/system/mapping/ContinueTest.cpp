@@ -1,5 +1,5 @@
-// Logs cut in two and continued on the command line with --continue: the same map as in one piece, every output, and
-// what is refused. Interrupted or killed, the old map stays whole.
+// Logs that are cut in two and continued with --continue: the map is that of the log in one piece, every output shows
+// both sessions, and what cannot be continued is refused. If the run is interrupted or killed, the old map stays whole.
 #include <mrpt/opengl/COpenGLScene.h>
 #include <omnimapper/eval/RelationError.h>
 #include <omnimapper/source/RawlogWriter.h>
@@ -23,7 +23,8 @@ double distanceBetween(const omnimapper::eval::Trajectory& a, const omnimapper::
   return omnimapper::eval::absoluteTrajectoryError(a, b).translation.rmse;
 }
 
-// Of the ring also the map in one piece, whole, and that of the second lap going on from the first, both.
+// A fixture that also has the map of the whole ring in the folder `whole`, and the map of the first lap continued by
+// the second in the folder `both`.
 class Continue : public CutRing {
  protected:
   static void SetUpTestSuite() {
@@ -50,7 +51,7 @@ TEST_F(Continue, TheRingCutInTwoIsTheMapOfTheRingInOnePiece) {
   EXPECT_TRUE(both.map.sessions[1].joined);
   EXPECT_EQ(both.map.sessions[1].title, "b");
   EXPECT_NE(continued_.out.find("session 1 was joined at key frame 1:"), std::string::npos) << continued_.out;
-  EXPECT_EQ(continued_.err, "") << "nothing to warn of";
+  EXPECT_EQ(continued_.err, "") << "no warning is expected";
   EXPECT_NEAR(static_cast<double>(both.map.key_frames.size()), static_cast<double>(whole.map.key_frames.size()), 2);
   const auto of_whole = loadTrajectory(file("whole")), of_both = loadTrajectory(file("both"));
   EXPECT_EQ(stampsOf(of_both), stampsOf(of_whole));
@@ -67,7 +68,7 @@ TEST_F(Continue, ASessionOfWhichNobodyKnowsWhereItBeginsIsFoundAndJoined) {
   const auto ended = goOn(file("first/map.omnimap"), file("anywhere"), {"--set", "session.start=anywhere"});
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
   EXPECT_NE(ended.out.find("session 1 was joined at key frame 1:"), std::string::npos) << ended.out;
-  EXPECT_EQ(ended.err, "") << "nothing to warn of";
+  EXPECT_EQ(ended.err, "") << "no warning is expected";
   EXPECT_LT(distanceBetween(loadTrajectory(file("anywhere")), loadTrajectory(file("whole"))), 0.03);
   EXPECT_NE(readFile(file("anywhere/report.html")).find("relocalization"), std::string::npos);
 }
@@ -86,7 +87,7 @@ TEST_F(Continue, EveryOutputHasBothSessions) {
   }
   mrpt::opengl::COpenGLScene scene;
   EXPECT_TRUE(scene.loadFromFile(file("both/scene.3Dscene")));
-  // The places are the same, so the second lap adds hardly a cell or a point.
+  // The second lap sees the same places, so it adds hardly any cells or points.
   const double cells = static_cast<double>(readFile(file("both/grid.pgm")).size());
   EXPECT_NEAR(cells / static_cast<double>(readFile(file("whole/grid.pgm")).size()), 1, 0.05);
   const double points = static_cast<double>(readFile(file("both/points.ply")).size());
@@ -113,26 +114,28 @@ TEST_F(Continue, ALogThatStartsFarFromWhereItIsSaidToIsFoundInTheWholeMap) {
               0.02);
 }
 
-TEST_F(Continue, ALogOfAnotherBuildingStaysApartWithAWarning) {
+TEST_F(Continue, ALogOfAnotherBuildingStaysUnalignedWithAWarning) {
   SimulatedLogOptions options;
   options.place = SimulatedLogOptions::Place::box;
   SimulatedLog(options).writeRawlog(file("box.rawlog"));
-  const auto ended = map({file("box.rawlog")}, file("apart"), {"--continue", file("first")});
+  const auto ended = map({file("box.rawlog")}, file("unaligned"), {"--continue", file("first")});
   EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "in another place"}));
   EXPECT_NE(ended.out.find("session 1 was never joined"), std::string::npos);
-  EXPECT_FALSE(loadSummary(file("apart"))["sessions"][1]["joined"]);
-  EXPECT_EQ(loadSummary(file("apart"))["verdict"]["verdict"], "suspicious");
-  const auto before = loadMap(file("first")), after = loadMap(file("apart"));
+  EXPECT_FALSE(loadSummary(file("unaligned"))["sessions"][1]["joined"]);
+  EXPECT_EQ(loadSummary(file("unaligned"))["verdict"]["verdict"], "suspicious");
+  const auto before = loadMap(file("first")), after = loadMap(file("unaligned"));
   for (const auto& frame : before.map.key_frames) {
     const auto moved = after.map.keyFrame(frame.id).map_from_base - frame.map_from_base;
     EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
   }
 }
 
-TEST_F(Continue, AnIniThatCanTieNothingToAMapIsRefused) {
-  const Words alone{"--set", "mapper.measurement_plugins="};
-  const auto ended = map({file("box.rawlog")}, file("none"), {"--continue", file("first"), alone[0], alone[1]});
-  EXPECT_TRUE(endedWith(ExitCode::command_line, ended, {"it has no plugin that can tie a log to a map", "loop_closure"}));
+TEST_F(Continue, AnIniThatCannotAlignALogWithAMapIsRefused) {
+  const Words no_measurements{"--set", "mapper.measurement_plugins="};
+  const auto ended =
+      map({file("box.rawlog")}, file("none"), {"--continue", file("first"), no_measurements[0], no_measurements[1]});
+  EXPECT_TRUE(
+      endedWith(ExitCode::command_line, ended, {"it has no plugin that can tie a log to a map", "loop_closure"}));
   EXPECT_FALSE(fs::exists(file("none")));
 }
 
@@ -163,7 +166,7 @@ TEST_F(Continue, ALogWithNothingToMapLeavesTheOldMapAsItWas) {
   EXPECT_TRUE(readFile(folder + "/map.omnimap") == readFile(file("first/map.omnimap")));
 }
 
-TEST_F(Continue, KilledAtAnyMomentTheOldMapOrTheNewOneIsThere) {
+TEST_F(Continue, KilledAtAnyTimeTheOldMapOrTheNewOneIsThere) {
   const std::string folder = folderWithFirst("killed");
   const std::string old_map = readFile(file("first/map.omnimap")), new_map = readFile(file("both/map.omnimap"));
   omnimapper::testing::Dice dice(3);
@@ -191,7 +194,7 @@ TEST_F(Continue, InterruptedTheOldMapStaysAndTheOtherHasAllOfIt) {
   for (const auto& frame : before.map.key_frames) EXPECT_TRUE(after.map.key_frames.find(frame.id)) << frame.id;
 }
 
-// Errors against the public relations of ACES: as good as in one piece.
+// The errors against the public relations of ACES are as small as those of the log in one piece.
 TEST(ContinueRecording, AcesCutInTwoIsAsGoodAsInOnePiece) {
   const auto log = sharedData("laser2d/aces.clf.bz2"), relations = sharedData("laser2d/aces.relations");
   OMNIMAPPER_NEEDS(log && relations ? log : std::optional<std::string>());

@@ -1,5 +1,5 @@
-// A map and a rawlog that an earlier version wrote (tests/system/mapping/earlier): they load, are continued, localized
-// in and mapped as on the day they were made.
+// A map and a rawlog that an earlier version wrote (tests/system/mapping/earlier) can still be loaded, continued,
+// localized in and mapped.
 #include <set>
 
 #include "../MapFolder.h"
@@ -10,12 +10,12 @@ using namespace runs;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::sourceFile;
 
-constexpr std::size_t kKeyFrames = 17, kLandmarks = 25;  // one of them merged into another
+constexpr std::size_t kKeyFrames = 17, kLandmarks = 25;  // one of the landmarks was merged into another
 
 class EarlierVersions : public ::testing::Test {
  protected:
   static std::string earlier(const std::string& file) { return sourceFile("tests/system/mapping/earlier/" + file); }
-  /// Maps a part of the log that they were made of, without its depth images.
+  /// Maps a part of the log from which they were made, without its depth images.
   Ended mapHome(const std::string& labels, const Words& more) {
     Words words{
         "-i",    sourceFile("ini/home_planes.ini"), "-r", sourceFile("rawlogs/home_30s/home_30s.rawlog"), "-o", out_,
@@ -73,7 +73,7 @@ TEST_F(EarlierVersions, APerceivedRawlogIsMapped) {
   bool has_planes = false;
   for (const auto& [id, record] : loaded.graph.factors())
     has_planes = has_planes || record.factor->kind() == "plane_from_se3";
-  EXPECT_TRUE(has_planes) << "planes are in the perceived log alone";
+  EXPECT_TRUE(has_planes) << "only the perceived log has planes";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// ini/home_planes.ini on half a minute in the simulated home: walls and tables in everything that shows a map.
+// ini/home_planes.ini on half a minute in the simulated home: every output that shows a map shows walls and tables.
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
@@ -39,7 +39,7 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
       omnimapper::eval::readTum(sourceFile("rawlogs/home_30s/truth.tum")).front().world_from_body);
   const auto walls = trueWalls("rawlogs/home_30s");
   const std::set<std::string> furniture{"table", "counter", "cabinet", "seat", "bed"};
-  std::size_t seen_well = 0, tops = 0, floors = 0;
+  std::size_t long_walls = 0, tops = 0, floors = 0;
   for (const auto& feature : plan["features"]) {
     const auto& properties = feature["properties"];
     const std::string label = properties.value("label", ""), type = feature["geometry"]["type"];
@@ -48,12 +48,12 @@ TEST_F(LandmarkOutputs, TheFloorPlanHasTheWallsWhereTheyAre) {
     if (label != "wall" || properties["measurements"] < 10) continue;
     const auto ends = endsOf(feature["geometry"]);
     const auto along = [&](int axis) { return ends[1][axis].get<double>() - ends[0][axis].get<double>(); };
-    if (std::hypot(along(0), along(1)) < 1.2) continue;  // may be furniture, of which the truth lists no planes
-    ++seen_well;
+    if (std::hypot(along(0), along(1)) < 1.2) continue;  // may be furniture, whose planes are not in the truth
+    ++long_walls;
     const double off = endsFromWalls(ends, world_from_map, walls);
     EXPECT_LT(off, 0.08) << feature["id"];
   }
-  EXPECT_GE(seen_well, 5U) << "each wall once, and furniture is none";
+  EXPECT_GE(long_walls, 5U) << "each wall is drawn once, and furniture is not drawn as wall";
   EXPECT_GT(tops, 0U);
   EXPECT_GT(floors, 0U);
   EXPECT_EQ(plan["features"].back()["properties"]["feature"], "trajectory");

@@ -1,5 +1,5 @@
-// Logs that are localized in a map on the command line with --localize: what is written, what is refused, and that the
-// map stays as it is.
+// Logs that are localized in a map with --localize: which outputs are written, what is refused, and that the map stays
+// as it is.
 #include <sstream>
 
 #include "../CutLog.h"
@@ -34,7 +34,8 @@ TEST_F(Localize, GivesTheTrajectoryInTheMapsFrameWithItsAccuracyAndLeavesTheMapA
   const auto trajectory = loadTrajectory(file("located"));
   omnimapper::eval::Trajectory truth;
   for (const auto& pose : trajectory) {
-    EXPECT_GT(pose.stamp, log_->begin() + omnimapper::base::durationFromSeconds(10)) << "of this log alone";
+    EXPECT_GT(pose.stamp, log_->begin() + omnimapper::base::durationFromSeconds(10))
+        << "only poses of this log are expected";
     const mrpt::poses::CPose3D map_from_base(log_->truthAt(pose.stamp) - log_->truthAt(log_->begin()));
     const Eigen::Vector3d away =
         omnimapper::geometry::fromMrpt(map_from_base).translation - pose.world_from_body.translation;

@@ -1,4 +1,4 @@
-// A mirror on a wall, as a laser sees it: a passage into a room that is the same the other way round.
+// A mirror on a wall, which to a laser is an opening into a mirrored copy of the room.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/eval/TumFile.h>
@@ -19,17 +19,18 @@ using mrpt::obs::CObservation2DRangeScan;
 using mrpt::poses::CPose3D;
 using omnimapper::testing::sourceFile;
 
-// rawlogs/box: a room without furniture. The mirror covers that part of the wall x = kLength.
+// rawlogs/box is a room without furniture. The mirror covers the wall x = kLength from y = kMirrorFrom to y =
+// kMirrorTo.
 constexpr double kLength = 6, kWidth = 7, kMirrorFrom = 2, kMirrorTo = 5;  // [m]
 
-// From a place in the room to its wall; the direction need be no unit vector.
+// Distance from a place in the room to its wall, in lengths of the vector (dx, dy).
 double toWall(double x, double y, double dx, double dy) {
   const double along_x = dx > 0 ? (kLength - x) / dx : dx < 0 ? -x / dx : std::numeric_limits<double>::infinity();
   const double along_y = dy > 0 ? (kWidth - y) / dy : dy < 0 ? -y / dy : std::numeric_limits<double>::infinity();
   return std::min(along_x, along_y);
 }
 
-// What a beam that meets the mirror has on its way after that.
+// Length [m] of a beam after its reflection; 0 if it does not meet the mirror.
 double beyondMirror(const CPose3D& world_from_sensor, double bearing) {
   const double yaw = world_from_sensor.yaw() + bearing, dx = std::cos(yaw), dy = std::sin(yaw);
   const double range = toWall(world_from_sensor.x(), world_from_sensor.y(), dx, dy);
@@ -58,7 +59,8 @@ void writeMirrored(const std::string& rawlog, const omnimapper::eval::Trajectory
   });
 }
 
-// What is behind it is mapped as a room, for no laser can tell; the room itself, and the way, are as they are.
+// The reflection is mapped as a room, because a laser cannot distinguish it. The real room and the trajectory are
+// right.
 TEST(Mirror, TheRoomBeforeItIsMappedAsItIs) {
   const omnimapper::testing::ScratchFolder scratch;
   const auto truth = omnimapper::eval::readTum(sourceFile("rawlogs/box/truth.tum"));
@@ -85,13 +87,14 @@ TEST(Mirror, TheRoomBeforeItIsMappedAsItIs) {
       ++behind;
       continue;
     }
-    EXPECT_LT(endsFromWalls(ends, world_from_map, walls), 0.05) << "in the room stands what is not there: " << feature;
+    EXPECT_LT(endsFromWalls(ends, world_from_map, walls), 0.05)
+        << "the map has a wall in the room that does not exist: " << feature;
     missing.erase(std::remove_if(missing.begin(), missing.end(),
                                  [&](const auto& wall) { return endsFromWalls(ends, world_from_map, {wall}) < 0.05; }),
                   missing.end());
   }
-  EXPECT_LE(missing.size(), 2U) << "walls whose reflection makes one line with them count as beyond the mirror";
-  EXPECT_GT(behind, 0) << "or else nothing was mirrored";
+  EXPECT_LE(missing.size(), 2U) << "walls that are collinear with their reflection count as beyond the mirror";
+  EXPECT_GT(behind, 0) << "otherwise nothing was mirrored";
 }
 
 }  // namespace

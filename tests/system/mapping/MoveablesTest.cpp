@@ -1,4 +1,4 @@
-// ini/moveables.ini as its first lines say to run it: markers of the simulated offices, ten of which are carried away.
+// Runs ini/moveables.ini as its first lines say, on markers of the simulated offices, ten of which are carried away.
 #include "../MapFolder.h"
 #include "../simulate/SimulateRun.h"
 
@@ -29,7 +29,7 @@ class Moveables : public ::testing::Test {
 std::unique_ptr<ScratchFolder> Moveables::scratch_;
 
 TEST_F(Moveables, WhatWasCarriedAwayIsFoundAndNothingElse) {
-  constexpr int kFirstCarried = 29;  // those before are pinned to the walls
+  constexpr int kFirstCarried = 29;  // markers with smaller numbers are pinned to the walls
   const std::string folder = *scratch_ / "map";
   ASSERT_TRUE(endedWith(ExitCode::ok, mapIt(folder)));
   const auto loaded = loadMap(folder);
@@ -40,7 +40,7 @@ TEST_F(Moveables, WhatWasCarriedAwayIsFoundAndNothingElse) {
   }
   EXPECT_GE(records, 2U);
   EXPECT_GE(standing, 25U);
-  std::size_t ways = 0;
+  std::size_t relocations = 0;
   const auto plan = json::parse(readFile(folder + "/floorplan.geojson"));
   for (const auto& feature : plan["features"]) {
     const auto& properties = feature["properties"];
@@ -48,9 +48,9 @@ TEST_F(Moveables, WhatWasCarriedAwayIsFoundAndNothingElse) {
     const std::string label = properties["label"];
     ASSERT_EQ(label.rfind("marker ", 0), 0U) << label;
     EXPECT_GE(std::stoi(label.substr(7)), kFirstCarried);
-    ways += feature["geometry"]["type"] == "LineString";
+    relocations += feature["geometry"]["type"] == "LineString";
   }
-  EXPECT_EQ(ways, records);
+  EXPECT_EQ(relocations, records);
   omnimapper::eval::PairingOptions pairing;
   pairing.alignment = omnimapper::eval::Alignment::se3;
   const auto error = omnimapper::eval::absoluteTrajectoryError(

@@ -1,4 +1,4 @@
-// omnimapper-perceive: a log of derived observations, which maps as the raw one does.
+// omnimapper-perceive writes a log of derived observations, which gives the same map as the raw log.
 #include <omnimapper/source/RawlogSource.h>
 
 #include "../MapFolder.h"
@@ -65,7 +65,7 @@ TEST_F(Perceive, RawAndDerivedTogetherMapAsTheRawLogDoes) {
 
 TEST_F(Perceive, WithoutTheRawScansItMapsAsTheRawLogDoes) {
   ASSERT_TRUE(endedWith(ExitCode::ok, perceive(raw_, scratch_ / "both.rawlog", {"--with-raw"})));
-  // Laser odometry follows raw scans, so that the wheels tell the motion in both.
+  // Laser odometry needs raw scans, so both runs take the motion from the wheels.
   const Words wheels{"--set", "mapper.pose_plugins=odometry, no_motion", "--set",
                      "mapper.output_plugins=trajectory, graph"};
   Words derived = wheels;
@@ -79,7 +79,7 @@ TEST_F(Perceive, WithoutTheRawScansItMapsAsTheRawLogDoes) {
   }
 }
 
-TEST_F(Perceive, WhatCannotBeIsSaid) {
+TEST_F(Perceive, MistakesAreReported) {
   EXPECT_TRUE(endedWith(ExitCode::out_of_range, perceive(raw_, derived_, {"--set", "perception.extractors="}),
                         {"--set perception.extractors: [perception] extractors"}));
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, perceive(scratch_ / "none.rawlog", derived_), {"none.rawlog"}));
@@ -89,7 +89,7 @@ TEST_F(Perceive, WhatCannotBeIsSaid) {
   const std::string whole = readFile(raw_);
   writeFile(scratch_ / "cut.rawlog", whole.substr(0, whole.size() / 2));
   EXPECT_TRUE(endedWith(ExitCode::damaged_input, perceive(scratch_ / "cut.rawlog", derived_), {"cut.rawlog"}));
-  EXPECT_GT(labelsOf(derived_).at("laser.points"), 10U) << "what was readable";
+  EXPECT_GT(labelsOf(derived_).at("laser.points"), 10U) << "the readable part";
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using omnimapper::testing::mrptDataset;
 using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::sharedData;
 
-/// Number of different stamps of the scans of a log, of its first laser.
+/// Number of different stamps of the scans of the first laser of a log.
 std::size_t countScans(const std::string& log) {
   omnimapper::source::RawlogSource source(log);
   std::set<omnimapper::base::Stamp> stamps;
@@ -42,7 +42,7 @@ class Recording : public ::testing::Test {
     EXPECT_GE(lines + 5, countScans(log));
     EXPECT_GT(loaded_.map.key_frames.size(), 50U);
   }
-  /// Root mean square distance [m], the frames being the same.
+  /// Root mean square distance [m] from the reference, without alignment: the frames are the same.
   double errorAgainstFile(const std::string& reference) {
     // Both have one line for each scan.
     const auto error = omnimapper::eval::absoluteTrajectoryError(

@@ -32,7 +32,7 @@ class Repeat : public ::testing::Test {
     }
     EXPECT_TRUE(mapBytes(file("first")) == mapBytes(folder)) << "map.omnimap differs";
   }
-  // But for the names of the logs, which the map keeps as the session's title.
+  // The bytes of a map without the names of the logs, which it keeps as the titles of its sessions.
   static std::string mapBytes(const std::string& folder) {
     auto saved = loadMap(folder);
     for (auto& session : saved.map.sessions) session.title = "log";

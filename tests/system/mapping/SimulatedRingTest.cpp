@@ -1,5 +1,5 @@
-// Two laps of the simulated ring, mapped by omnimapper-graphslam from each of MRPT's two formats: every output against
-// the truth.
+// Two laps of the simulated ring, mapped by omnimapper-graphslam from each of MRPT's two formats: every output is
+// compared with the truth.
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
@@ -41,7 +41,7 @@ struct MappedRing {
 
 class SimulatedRing : public ::testing::TestWithParam<Format> {
  protected:
-  // One run for each format, shared by all tests.
+  // The run of each format, which all tests share.
   static const MappedRing& ring() {
     static const MappedRing observations(Format::observations), frames(Format::actions_and_frames);
     return GetParam() == Format::observations ? observations : frames;
@@ -69,7 +69,7 @@ TEST_P(SimulatedRing, EndsWellAndLeavesEveryOutputAndNothingElse) {
   EXPECT_TRUE(endedWith(ExitCode::ok, ring().ended));
   EXPECT_EQ(filesIn(ring().folder), allOutputs());
   EXPECT_NE(ring().ended.out.find("key frames"), std::string::npos);
-  EXPECT_EQ(ring().ended.err, "") << "nothing to warn of";
+  EXPECT_EQ(ring().ended.err, "") << "no warning is expected";
 }
 
 TEST_P(SimulatedRing, TheTrajectoryHasOneLinePerScanAndLiesOnTheTruth) {
@@ -117,11 +117,11 @@ TEST_P(SimulatedRing, TheG2oFileIsTheSameGraph) {
   EXPECT_EQ(g2o.graph.variables().size(), loaded.graph.variables().size());
   std::size_t acting = 0;
   for (const auto& [id, record] : loaded.graph.factors()) acting += record.weight > 0;
-  EXPECT_EQ(g2o.graph.factors().size(), acting) << "closures that are refused are not in it";
+  EXPECT_EQ(g2o.graph.factors().size(), acting) << "refused closures must not be in it";
   EXPECT_NEAR(g2o.graph.chi2(), loaded.graph.chi2(), 1e-6 * loaded.graph.chi2());
 }
 
-// Grid, points and scene in the frame of the truth: the robot starts where the map begins.
+// Grid, points and scene are in the frame of the truth, because the robot starts at its origin.
 TEST_P(SimulatedRing, TheGridIsFreeWhereTheRobotWentAndItsWallsAreTheWalls) {
   const std::string yaml = readFile(file("grid.yaml")), pgm = readFile(file("grid.pgm"));
   std::smatch found;
@@ -145,8 +145,9 @@ TEST_P(SimulatedRing, TheGridIsFreeWhereTheRobotWentAndItsWallsAreTheWalls) {
     ++under_robot[level(static_cast<int>((p.x() - min_x) / resolution),
                         static_cast<int>((p.y() - min_y) / resolution))];
   }
-  EXPECT_EQ(under_robot[0], 0) << "the robot stood in walls";
-  EXPECT_LT(under_robot[205], 0.03 * under_robot[254]) << "places between the few beams along a corridor stay unknown";
+  EXPECT_EQ(under_robot[0], 0) << "the robot was inside walls";
+  EXPECT_LT(under_robot[205], 0.03 * under_robot[254])
+      << "cells between the few beams along a corridor may stay unknown";
   std::vector<double> distances;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {

@@ -13,10 +13,10 @@
 
 namespace runs {
 
-/// a x + b y + c = 0 of the world seen from above.
+/// A line a x + b y + c = 0 in the world, seen from above.
 using TrueWall = std::array<double, 3>;
 
-/// The upright surfaces of a simulated place, by its folder in the sources.
+/// Lines of the upright surfaces of a simulated place. `folder` is its folder in the source tree.
 inline std::vector<TrueWall> trueWalls(const std::string& folder) {
   std::vector<TrueWall> walls;
   const auto truth = nlohmann::json::parse(readFile(omnimapper::testing::sourceFile(folder + "/landmarks.json")));
@@ -27,7 +27,8 @@ inline std::vector<TrueWall> trueWalls(const std::string& folder) {
   return walls;
 }
 
-/// Where a wall of floorplan.geojson begins and ends: of one in several parts, the points that are farthest apart.
+/// Both ends of a wall of floorplan.geojson. For a wall in several parts these are the two points that are farthest
+/// apart.
 inline nlohmann::json endsOf(const nlohmann::json& geometry) {
   if (geometry["type"] == "LineString") return geometry["coordinates"];
   nlohmann::json ends;
@@ -36,9 +37,9 @@ inline nlohmann::json endsOf(const nlohmann::json& geometry) {
     for (const auto& second : geometry["coordinates"]) {
       for (const auto& a : first) {
         for (const auto& b : second) {
-          const double apart =
+          const double distance =
               std::hypot(a[0].get<double>() - b[0].get<double>(), a[1].get<double>() - b[1].get<double>());
-          if (apart > longest) longest = apart, ends = {a, b};
+          if (distance > longest) longest = distance, ends = {a, b};
         }
       }
     }
@@ -46,7 +47,7 @@ inline nlohmann::json endsOf(const nlohmann::json& geometry) {
   return ends;
 }
 
-/// Of the farther of two ends of a wall in the map from the nearest true wall's line [m].
+/// Distance [m] of the farther end of a mapped wall from the line of the true wall that fits it best.
 inline double endsFromWalls(const nlohmann::json& ends, const mrpt::poses::CPose3D& world_from_map,
                             const std::vector<TrueWall>& walls) {
   double off = 1e9;

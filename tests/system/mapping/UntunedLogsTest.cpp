@@ -1,4 +1,4 @@
-// Logs that nobody tuned for, each in four variants: the short form of bench-robustness. No map may be wrong.
+// Logs for which nothing was tuned, each in four variants; a short form of bench-robustness. No map may be wrong.
 #include "../../bench/UntunedLogs.h"
 #include "../MapFolder.h"
 

@@ -1,5 +1,5 @@
-// ini/home_planes.ini where it is not at home: surfaces of a room without doors, of a camera that hangs upside down, of
-// a sloped road, and of a map that has none, held against the truth by omnimapper-eval map.
+// ini/home_planes.ini in places that are no homes: a room without doors, a camera that hangs upside down, a sloped
+// road, and a map without surfaces. omnimapper-eval map compares their surfaces with the truth.
 #include "../MapFolder.h"
 
 namespace {
@@ -11,7 +11,7 @@ using omnimapper::testing::sourceFile;
 
 class UnusualPlaces : public ::testing::Test {
  protected:
-  // Simulates, maps and compares; what omnimapper-eval map counts.
+  // Simulates, maps and compares, and returns the numbers of omnimapper-eval map.
   json judged(const std::string& rawlog_ini, const Words& world, const Words& mapping = {}) {
     Words simulate{
         ownProgram("omnimapper-simulate"), "-i", sourceFile(rawlog_ini), "-o", scratch_ / "log", "--name", "log"};
@@ -24,7 +24,7 @@ class UnusualPlaces : public ::testing::Test {
                                                     scratch_ / "log", "-o", scratch_ / "quality"})));
     return json::parse(readFile(scratch_ / "quality/numbers.json"));
   }
-  // A depth camera, three images a second, beside what the INI has.
+  // Settings that add a depth camera with three images a second.
   static Words withCamera(const std::string& sensors) {
     return {"simulation.sensors=" + sensors, "simulation.duration_s=20", "kinect.class=RgbdCamera",
             "kinect.model=kinect",           "kinect.x_m=0.1",           "kinect.z_m=1.1",
@@ -47,7 +47,7 @@ TEST_F(UnusualPlaces, ACameraThatHangsUpsideDownSeesTheSamePlace) {
   auto world = withCamera("laser,kinect,odometry");
   world.emplace_back("kinect.roll_deg=180");
   const auto found = judged("rawlogs/home.ini", world);
-  EXPECT_EQ(found["labels"]["floor"], json({{"floor", 1}})) << "what is below is the floor";
+  EXPECT_EQ(found["labels"]["floor"], json({{"floor", 1}})) << "the surface below must be the floor";
   EXPECT_FALSE(found["labels"].contains("ceiling"));
   EXPECT_GE(found["found"].get<int>(), 8);
   EXPECT_LE(found["spurious"].get<int>(), 1);

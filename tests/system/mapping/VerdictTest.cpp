@@ -1,4 +1,4 @@
-// What a run says of its own map.
+// The verdict of a run on its own map.
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@ using omnimapper::testing::SimulatedLogOptions;
 
 class Verdict : public ::testing::Test {
  protected:
-  /// Two rounds; the wheels alone turn the second one by half a radian.
+  /// Two laps. With the wheels alone the second one is rotated by half a radian.
   Verdict() {
     SimulatedLogOptions options;
     options.laps = 2;
@@ -28,7 +28,7 @@ class Verdict : public ::testing::Test {
 
   ScratchFolder scratch_;
   std::string log_ = scratch_ / "log.rawlog", folder_ = scratch_ / "map";
-  // Neither laser odometry nor closures: the map is as bent as the wheels are.
+  // Neither laser odometry nor closures, so the map is as distorted as the odometry of the wheels.
   Words wheels_alone_{"--set", "mapper.pose_plugins=odometry",   "--set", "odometry.fallback=false",
                       "--set", "loop_closure.min_travel_m=10000"};
 };
@@ -40,18 +40,18 @@ TEST_F(Verdict, OnAGoodMapIsConsistent) {
   EXPECT_NE(ended.out.find("The map is consistent: no scan looks through walls"), std::string::npos) << ended.out;
 }
 
-TEST_F(Verdict, OnABentMapIsSuspiciousAndAWarning) {
+TEST_F(Verdict, OnADistortedMapIsSuspiciousAndAWarning) {
   EXPECT_TRUE(endedWith(ExitCode::ok, map({log_}, folder_, wheels_alone_),
                         {"warning: The map is suspicious", "pass through walls of the map", "s after the start"}));
   EXPECT_EQ(verdict(), "suspicious");
   EXPECT_NE(readFile(folder_ + "/report.html").find("Verdict: suspicious"), std::string::npos);
 }
 
-TEST_F(Verdict, OnABentMapIsAnExitCodeWithStrict) {
+TEST_F(Verdict, OnADistortedMapIsAnExitCodeWithStrict) {
   Words strict = wheels_alone_;
   strict.insert(strict.end(), {"--strict", "-q"});
   EXPECT_TRUE(endedWith(ExitCode::suspicious_map, map({log_}, folder_, strict), {"The map is suspicious"}));
-  EXPECT_EQ(filesIn(folder_), allOutputs()) << "the map is written all the same";
+  EXPECT_EQ(filesIn(folder_), allOutputs()) << "the map must be written nevertheless";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// ini/laser_walls.ini and ini/rgbd_planes.ini as their first lines say to run them: real logs, and simulated twins.
+// Runs ini/laser_walls.ini and ini/rgbd_planes.ini as their first lines say, on real logs and on simulated twins.
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/eval/ViewAgreement.h>
@@ -25,7 +25,7 @@ mrpt::poses::CPose3D worldFromMap(const std::string& place) {
 
 class WallsAndPlanes : public ::testing::Test {
  protected:
-  /// Runs an INI on a log.
+  /// Maps a log with an INI.
   void mapIt(const std::string& ini, const std::string& log, const Words& more = {}) {
     Words words{"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_};
     words.insert(words.end(), more.begin(), more.end());
@@ -39,7 +39,7 @@ class WallsAndPlanes : public ::testing::Test {
     EXPECT_TRUE(endedWith(ExitCode::ok, omnimapper::testing::runProgram(all)));
     return scratch_ / name;
   }
-  /// Those of a label that were seen so often.
+  /// Features of the floor plan with this label and at least so many measurements.
   std::vector<json> featuresOf(const std::string& label, int measurements) const {
     std::vector<json> found;
     for (const auto& feature : plan_) {
@@ -57,7 +57,7 @@ class WallsAndPlanes : public ::testing::Test {
     return count;
   }
 
-  /// How the map agrees with the depth images of a log that has their poses, too; both are in one frame.
+  /// How the map agrees with the depth images of a log that also has their poses, which are in the frame of the map.
   omnimapper::eval::ViewAgreement viewsOf(const std::string& log) const {
     omnimapper::eval::Trajectory poses;
     omnimapper::source::RawlogSource source(log);
@@ -70,7 +70,7 @@ class WallsAndPlanes : public ::testing::Test {
     return omnimapper::eval::judgeByViews(omnimapper::surfaces::readSurfaces(folder_ + "/surfaces.json"), read.views);
   }
 
-  /// Every frame of the trajectory for which the log gives a pose is within that [m], and 1 deg, of it.
+  /// Expects that the trajectory is within `metres` and 1 deg of every pose that the log gives for one of its stamps.
   void expectGivenPosesHold(const std::string& log, double metres) const {
     const auto trajectory = loadTrajectory(folder_);
     omnimapper::source::RawlogSource source(log);
@@ -97,7 +97,7 @@ class WallsAndPlanes : public ::testing::Test {
   json plan_;
 };
 
-// The twin of Intel.
+// The simulated twin of the test with Intel.
 TEST_F(WallsAndPlanes, OfABoxAreItsFourWallsAtRightAngles) {
   mapIt("laser_walls.ini", sourceFile("rawlogs/box/box.rawlog"));
   const auto walls = featuresOf("wall", 10);
@@ -136,7 +136,7 @@ TEST_F(WallsAndPlanes, OfACabinetAreItsTopItsSidesAndTheFloor) {
   EXPECT_EQ(std::count_if(faces.begin(), faces.end(), is_top), 1);
   const auto agreement = viewsOf(log);
   EXPECT_TRUE(agreement.split.empty()) << agreement.split.size();
-  EXPECT_LE(agreement.doubles.size(), 1U) << "two that are 5 m away";
+  EXPECT_LE(agreement.doubles.size(), 1U) << "two surfaces that are 5 m away";
   EXPECT_GT(agreement.area_twice.covered, 0.9 * agreement.area_twice.seen);
   EXPECT_LT(agreement.distance.median, 0.01);
 }
@@ -154,8 +154,8 @@ TEST_F(WallsAndPlanes, WithoutPosesNothingIsMapped) {
   const std::string log = scratch_ / "frames.rawlog";
   omnimapper::source::writeRawlog(log, [&](omnimapper::source::RawlogWriter& writer) {
     omnimapper::source::RawlogSource source(sourceFile("rawlogs/home_30s/home_30s.rawlog"));
-    while (const auto seen = source.next()) {
-      if (IS_CLASS(*seen, mrpt::obs::CObservation3DRangeScan)) writer.add(*seen);
+    while (const auto observation = source.next()) {
+      if (IS_CLASS(*observation, mrpt::obs::CObservation3DRangeScan)) writer.add(*observation);
     }
   });
   const auto ended = graphslam({"-i", sourceFile("ini/rgbd_planes.ini"), "-r", log, "-o", folder_});
@@ -164,30 +164,30 @@ TEST_F(WallsAndPlanes, WithoutPosesNothingIsMapped) {
   EXPECT_FALSE(fs::exists(folder_ + "/map.omnimap"));
 }
 
-// The camera of the simulated home alone, on its true way, which is known every 50 ms: at its stamps, or at the nearest
-// that are known, up to 20 ms away.
+// Writes a log of the camera of the simulated home with its true poses, which are known every 50 ms: interpolated at
+// the stamps of the images if `exact`, else those of the nearest known stamps, up to 20 ms away.
 void writeCamera(const std::string& log, bool exact) {
   const std::string place = "rawlogs/home_30s";
   const auto truth = omnimapper::eval::readTum(sourceFile(place + "/truth.tum"));
   omnimapper::source::writeRawlog(log, [&](omnimapper::source::RawlogWriter& writer) {
     omnimapper::source::RawlogSource source(sourceFile(place + "/home_30s.rawlog"));
-    while (const auto seen = source.next()) {
-      if (!IS_CLASS(*seen, mrpt::obs::CObservation3DRangeScan)) continue;
-      auto at = omnimapper::eval::interpolatedPose(truth, seen->timestamp, std::chrono::milliseconds(60));
-      const auto nearest = omnimapper::eval::nearestPose(truth, seen->timestamp, std::chrono::milliseconds(20));
+    while (const auto observation = source.next()) {
+      if (!IS_CLASS(*observation, mrpt::obs::CObservation3DRangeScan)) continue;
+      auto at = omnimapper::eval::interpolatedPose(truth, observation->timestamp, std::chrono::milliseconds(60));
+      const auto nearest = omnimapper::eval::nearestPose(truth, observation->timestamp, std::chrono::milliseconds(20));
       if (!exact) at = nearest ? std::make_optional(truth[*nearest].world_from_body) : std::nullopt;
       if (!at) continue;
       mrpt::obs::CObservationRobotPose pose;
-      pose.timestamp = seen->timestamp;
+      pose.timestamp = observation->timestamp;
       pose.sensorLabel = "poses";
       pose.pose.mean = omnimapper::geometry::toMrpt(*at);
       writer.add(pose);
-      writer.add(*seen);
+      writer.add(*observation);
     }
   });
 }
 
-// The twins of the cabinet.
+// The simulated twins of the tests with the cabinet.
 TEST_F(WallsAndPlanes, OfASimulatedCameraHoldItsGivenPoses) {
   const std::string log = scratch_ / "given.rawlog";
   writeCamera(log, true);
@@ -199,7 +199,7 @@ TEST_F(WallsAndPlanes, OfASimulatedCameraHoldItsGivenPoses) {
   EXPECT_LT(agreement.distance.median, 0.01);
 }
 
-// What 20 ms make of poses is said by their sigmas.
+// The sigmas of the poses account for stamps that are up to 20 ms off.
 TEST_F(WallsAndPlanes, OfACameraOnGivenPosesAreWhereTheyAre) {
   const std::string place = "rawlogs/home_30s", log = scratch_ / "given.rawlog";
   writeCamera(log, false);
@@ -210,7 +210,7 @@ TEST_F(WallsAndPlanes, OfACameraOnGivenPosesAreWhereTheyAre) {
     const auto ends = endsOf(wall["geometry"]);
     if (std::hypot(ends[1][0].get<double>() - ends[0][0].get<double>(),
                    ends[1][1].get<double>() - ends[0][1].get<double>()) < 1.2)
-      continue;  // may be furniture, of which the truth lists no planes
+      continue;  // may be furniture, whose planes are not in the truth
     ++long_ones;
     EXPECT_LT(endsFromWalls(ends, {}, walls), 0.08) << wall["id"];
   }

@@ -1,5 +1,5 @@
-// An output plugin made outside the project, beside a measurement plugin of somebody else's: compares the landmarks of
-// the map with a file of true positions.
+// An output plugin made outside the project that compares the landmarks of the map with a file of true positions. The
+// landmarks are those of a measurement plugin that is not part of the project either.
 #include <omnimapper/base/AtLoad.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
@@ -33,14 +33,14 @@ class LandmarkCheckOutput : public mapper::OutputPlugin {
 
   void finish(const mapper::View& view) override {
     std::ifstream truth(truth_);
-    Eigen::Vector3d there;
+    Eigen::Vector3d position;
     double worst = 0;
     int positions = 0;
-    for (; truth >> there.x() >> there.y() >> there.z(); ++positions) {
+    for (; truth >> position.x() >> position.y() >> position.z(); ++positions) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const auto& [id, landmark] : view.map.landmarks) {
         const Eigen::VectorXd& value = view.graph.value(landmark.variables.front());
-        nearest = std::min(nearest, (value.head<3>() - there).norm());
+        nearest = std::min(nearest, (value.head<3>() - position).norm());
       }
       worst = std::max(worst, std::min(nearest, 1e6));
     }

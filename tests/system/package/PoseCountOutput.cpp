@@ -1,4 +1,4 @@
-// A plugin made outside the project: writes how many key frames the map has.
+// A plugin that is built outside the project. It writes the number of key frames of the map.
 #include <omnimapper/base/AtLoad.h>
 #include <omnimapper/plugin/PluginFactory.h>
 

@@ -1,4 +1,5 @@
-// [planes] comparator: what it means for what omnimapper-perceive finds, on simulated posters and sheets.
+// The effect of [planes] comparator on the planes that omnimapper-perceive finds, on simulated posters and sheets of
+// paper.
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/perception/PlaneExtractor.h>
@@ -16,7 +17,7 @@ using omnimapper::obs::ObservedPlane;
 namespace perception = omnimapper::perception;
 namespace sim = omnimapper::sim;
 
-/// A sheet on the wall: its middle and size [m], left and up, and its colour.
+/// A sheet of paper on the wall: its middle, to the left and up [m], its size [m] and its colour.
 struct Sheet {
   double left, up, width, height;
   Eigen::Vector3f colour;
@@ -25,7 +26,7 @@ const std::vector<Sheet> kSheets{{0.5, 0.2, 0.42, 0.594, {0.8F, 0.1F, 0.1F}},
                                  {-0.2, 0.25, 0.594, 0.42, {0.1F, 0.25F, 0.7F}},
                                  {0.1, -0.35, 0.5, 0.3, {0.9F, 0.85F, 0.2F}}};
 
-/// A wall 2 m before a camera that is 1 m up, and sheets of paper on it.
+/// Planes that are found in an image of a wall with sheets of paper, 2 m in front of a camera at a height of 1 m.
 std::shared_ptr<const CObservationPlanes> planesOfSheets(const std::string& camera,
                                                          const perception::PlaneComparison& comparison) {
   sim::CameraFixture fixture;
@@ -52,7 +53,7 @@ TEST_P(SheetsOnAWall, AreOnePlaneWithItAndByColourOneEach) {
   EXPECT_EQ(planesOfSheets(GetParam(), perception::kSamePlane)->planes.size(), 1U);
   const auto found = planesOfSheets(GetParam(), perception::kSamePlaneAndColour);
   ASSERT_EQ(found->planes.size(), 1 + kSheets.size());
-  EXPECT_EQ(found->planes[0].holes.size(), kSheets.size()) << "the wall has a hole where each hangs";
+  EXPECT_EQ(found->planes[0].holes.size(), kSheets.size()) << "the wall has a hole at each sheet";
   const auto base_from_sensor = omnimapper::geometry::fromMrpt(found->sensorPose);
   for (const Sheet& sheet : kSheets) {
     const auto offOf = [&](const ObservedPlane& plane) {
@@ -66,12 +67,12 @@ TEST_P(SheetsOnAWall, AreOnePlaneWithItAndByColourOneEach) {
   }
 }
 
-// The second hands out depth as the depth camera sees it, 2.5 cm beside the colour camera.
+// The second gives depths in the frame of its depth camera, which is 2.5 cm beside the colour camera.
 INSTANTIATE_TEST_SUITE_P(Cameras, SheetsOnAWall,
                          ::testing::Values("model = kinect\nregistered = true", "model = kinect\nregistered = false",
                                            "model = ideal"));
 
-/// A robot stands before a wall with three things on it.
+/// A robot stands in front of a wall with two red plates, which mark fire extinguishers.
 const std::string kGallery = R"([simulation]
 sensors = kinect
 duration_s = 1
@@ -107,10 +108,10 @@ rate_hz = 2
 
 class Comparator : public ::testing::Test {
  protected:
-  // The planes of the wall, in each frame.
+  // Number of planes on the wall in each frame.
   std::vector<std::size_t> countOnWall(Words more) {
     more.insert(more.end(), {"--set", "perception.extractors=planes"});
-    more.insert(more.end(), {"--set", "planes.min_pixels=3000"});  // more than what is white on the red plates
+    more.insert(more.end(), {"--set", "planes.min_pixels=3000"});  // more than the white parts of the red plates
     EXPECT_TRUE(endedWith(ExitCode::ok, perceive(log_, scratch_ / "derived.rawlog", more)));
     std::vector<std::size_t> counts;
     for (const auto& frame : ofClass<CObservationPlanes>(readLog(scratch_ / "derived.rawlog"))) {
@@ -149,7 +150,7 @@ TEST_F(Comparator, OfColoursWithoutAPictureLeavesScansOutAndIsAnErrorAlone) {
   Words by_colour{"--set", "planes.comparator=plane_colour"};
   EXPECT_TRUE(endedWith(ExitCode::damaged_input, perceive(log_, derived, by_colour), words));
   EXPECT_EQ(ofClass<CObservationPlanes>(readLog(derived)).size(), 0U);
-  EXPECT_FALSE(readLog(derived).empty()) << "what the other extractors made of them";
+  EXPECT_FALSE(readLog(derived).empty()) << "the other extractors process the scans all the same";
   fs::remove(derived);
   by_colour.insert(by_colour.end(), {"--set", "perception.extractors=planes"});
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, perceive(log_, derived, by_colour), words));

@@ -1,4 +1,4 @@
-// ArUco markers of a camera's picture: counted in the summary, drawn in the pictures.
+// ArUco markers that omnimapper-perceive finds in images are counted in the summary and drawn in the pictures.
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/obs/IndexColour.h>
 #include <omnimapper/source/RawlogWriter.h>
@@ -15,7 +15,7 @@ omnimapper::testing::MarkerCorners squareAround(double x, double y) {
   return {{{x - kHalf, y - kHalf}, {x + kHalf, y - kHalf}, {x + kHalf, y + kHalf}, {x - kHalf, y + kHalf}}};
 }
 
-/// A picture of markers 5 and 23, and one of an empty wall.
+/// Writes a log with a picture of markers 5 and 23, and one of an empty wall.
 void writeLog(const std::string& path) {
   omnimapper::source::writeRawlog(path, [](omnimapper::source::RawlogWriter& rawlog) {
     for (const bool is_empty : {false, true}) {

@@ -9,7 +9,7 @@
 
 #include "../Runs.h"
 
-/// Runs of omnimapper-perceive with ini/perceive.ini.
+/// Runs omnimapper-perceive with ini/perceive.ini.
 namespace perceived {
 
 using namespace runs;
@@ -49,7 +49,7 @@ std::vector<std::shared_ptr<const Class>> ofClass(const Observations& observatio
   return found;
 }
 
-/// raw.rawlog in the scratch folder: the first pairs of a folder of images in the form of TUM.
+/// Writes raw.rawlog to the scratch folder from the first `count` pairs of a folder of images in the format of TUM.
 inline void importFirst(const std::string& folder, int count, const std::string& intrinsics,
                         const omnimapper::testing::ScratchFolder& scratch) {
   const std::string some = scratch / "some";
@@ -69,7 +69,7 @@ inline bool isInstalled(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-/// What was perceived of 30 s in a simulated home: 16 depth images, 301 scans.
+/// A fixture that perceives 30 s in a simulated home with 16 depth images and 301 scans.
 class PerceivedHome : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_))); }

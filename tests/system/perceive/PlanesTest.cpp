@@ -1,4 +1,4 @@
-// ini/perceive.ini: planes and laser lines of a log, which MRPT's own tools read.
+// Planes and laser lines that ini/perceive.ini finds in a log, which MRPT's own tools can read.
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -27,7 +27,7 @@ std::string bytesOf(const mrpt::obs::CObservation& observation) {
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
 }
 
-/// The planes of a log, with where they are on the base.
+/// Number of planes of a log that are the floor: level and within 3 cm of the height of the base's origin.
 std::size_t countFloors(const Observations& all) {
   std::size_t floors = 0;
   for (const auto& planes : ofClass<CObservationPlanes>(all)) {
@@ -70,7 +70,7 @@ TEST_F(Planes, MapAlikeFromTheRawLogAndFromWhatWasDerived) {
   }
 }
 
-TEST_F(Planes, ScansWithoutCalibrationEndNoMapAndAreSaid) {
+TEST_F(Planes, ScansWithoutCalibrationEndNoMapAndAreReported) {
   const std::string bad = scratch_ / "bad.rawlog";
   omnimapper::source::writeRawlog(bad, [&](omnimapper::source::RawlogWriter& rawlog) {
     for (const auto& observation : readLog(kHome)) {
@@ -107,23 +107,23 @@ TEST_F(Planes, AreCountedAndThePluginsListed) {
                         {"--set planes.min_pixels: [planes]"}));
 }
 
-TEST_F(Planes, NoLevelSurfaceForThingsIsSaid) {
-  const std::string ini = omnimapper::testing::sourceFile("ini/objects.ini"), things = scratch_ / "things.rawlog";
+TEST_F(Planes, NoLevelSurfaceForObjectsIsReported) {
+  const std::string ini = omnimapper::testing::sourceFile("ini/objects.ini"), objects = scratch_ / "objects.rawlog";
   const std::string program = omnimapper::testing::ownProgram("omnimapper-perceive");
-  const auto good = runProgram({program, "-i", ini, "-r", kHome, "-o", things});
+  const auto good = runProgram({program, "-i", ini, "-r", kHome, "-o", objects});
   EXPECT_TRUE(endedWith(ExitCode::ok, good));
   EXPECT_EQ(good.err.find("level"), std::string::npos) << good.err;
-  // As a camera that is said to look down by 45 degrees.
+  // The INI says that the camera looks down by 45 degrees, so no surface is level.
   EXPECT_TRUE(endedWith(
       ExitCode::ok,
-      runProgram({program, "-i", ini, "-r", kHome, "-o", things, "--set", "mapper.sensors=camera", "--set",
+      runProgram({program, "-i", ini, "-r", kHome, "-o", objects, "--set", "mapper.sensors=camera", "--set",
                   "camera.label=kinect", "--set", "camera.pose_pitch_deg=45", "--set", "objects.max_tilt_deg=5"}),
       {"[objects]", "level surface", "max_tilt_deg"}));
 }
 
 TEST_F(Planes, AreDescribedAndExportedByRawlogEdit) {
   if (!isInstalled("rawlog-edit")) GTEST_SKIP() << "rawlog-edit (Debian package mrpt-apps) is not installed";
-  // In the folder itself: --export-txt of 2.5.8 loses the slash between folder and file.
+  // Runs in the folder of the log, because --export-txt of 2.5.8 loses the slash between folder and file.
   const auto edit = [&](const std::string& operation) {
     return runProgram(
         {"sh", "-c",
@@ -163,7 +163,7 @@ TEST_F(Planes, AreShownInPictures) {
   EXPECT_TRUE(endedWith(ExitCode::command_line, perceive(kHome, derived_, {"--picture-every", "0"})));
 }
 
-// Its simulated twin are the tests above.
+// The tests above are its simulated twins.
 TEST(PlanesRecording, OfFreiburg1Rpy) {
   const auto folder = omnimapper::testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);

@@ -1,4 +1,4 @@
-// The kernels for AVX2 and for any x86-64 make the same bytes of one log.
+// The kernels for AVX2 and those for any x86-64 give the same bytes for one log.
 #include <omnimapper/obs/CObservationPlanes.h>
 
 #include "PerceivedLog.h"
@@ -9,14 +9,14 @@ using namespace perceived;
 
 class SameBits : public ::testing::Test {
  protected:
-  // What the extractors make of a log, without AVX2.
+  // Runs the extractors on a log without AVX2.
   Ended perceiveWithout(const std::string& log, const std::string& output, const Words& more) {
     Words words{"env", "OMNIMAPPER_AVX2=0"};
     const Words command = perceiving(log, output, more);
     words.insert(words.end(), command.begin(), command.end());
     return runProgram(words);
   }
-  // Both ways; what was made.
+  // Runs the extractors with and without AVX2, expects the same bytes, and returns the observations.
   Observations madeAlike(const std::string& log, const Words& more) {
     const std::string with = scratch_ / "with.rawlog", without = scratch_ / "without.rawlog";
     EXPECT_TRUE(endedWith(ExitCode::ok, perceive(log, with, more)));

@@ -1,4 +1,4 @@
-// omnimapper-query on a map of an office with door signs, as a person and as a robot asks it.
+// omnimapper-query on a map of an office with door signs, asked by a person and by a robot.
 #include <omnimapper/query/GridMap.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class Query : public ::testing::Test {
                                              sourceFile("rawlogs/signs_office.ini"), "-o", office(), "--set",
                                              "simulation.sensors=laser,odometry", "--set", "simulation.duration_s=115",
                                              "--set", "robot.max_speed_m_s=1", "--set", "laser.rate_hz=4"})));
-    writeSignsSeen(office());
+    writeObservedSigns(office());
     ASSERT_TRUE(endedWith(
         ExitCode::ok,
         graphslam({"-q", "-i", sourceFile("ini/signs.ini"), "--set", "perception.extractors=laser_points,laser_lines",
@@ -42,7 +42,7 @@ class Query : public ::testing::Test {
     command.insert(command.end(), words.begin(), words.end());
     return omnimapper::testing::runProgram(command);
   }
-  /// The document that answers; null if the map has no answer.
+  /// The answer as JSON; null if the query fails.
   static json answer(Words words) {
     words.emplace_back("--json");
     const auto ended = ask(words);
@@ -52,7 +52,7 @@ class Query : public ::testing::Test {
   static Vector3d inWorld(const json& position) {
     return world_from_map_ * Vector3d(position[0], position[1], position[2]);
   }
-  /// The way from the nearest true sign of those with that line to what was found [m].
+  /// Distance [m] of the object that was found from the nearest true sign with that line.
   static double offFrom(const std::string& line, const json& found) {
     double least = 1e9;
     for (const auto& sign : signs_)
@@ -72,7 +72,7 @@ std::unique_ptr<ScratchFolder> Query::scratch_;
 std::vector<TrueSign> Query::signs_;
 Se3 Query::world_from_map_;
 
-TEST_F(Query, WhatStandsOnASignTellsWhereItIs) {
+TEST_F(Query, TheTextOfASignFindsItsPosition) {
   for (const char* number : {"118", "120", "124", "131", "132", "141", "143", "145", "147", "149", "151"}) {
     const auto found = answer({number});
     ASSERT_EQ(found["matches"].size(), 1U) << number;
@@ -113,10 +113,10 @@ TEST_F(Query, AGoalIsFreeAndInFrontOfTheSign) {
     const TrueSign& sign = signOf(number);
     const Vector3d to_goal = world_from_map_ * at - sign.position, level(to_goal.x(), to_goal.y(), 0);
     EXPECT_NEAR(level.norm(), 1, 0.5) << number;
-    EXPECT_GT(level.normalized().dot(sign.normal), 0.45) << number << ": it can be read from there";
+    EXPECT_GT(level.normalized().dot(sign.normal), 0.45) << number << ": the sign must be readable from there";
     const Vector3d to_sign = inMap(sign.position) - at;
     const double off = std::remainder(std::atan2(to_sign.y(), to_sign.x()) - goal["yaw_rad"].get<double>(), 2 * M_PI);
-    EXPECT_LT(std::abs(off), 0.5) << number << ": it faces the sign";
+    EXPECT_LT(std::abs(off), 0.5) << number << ": the goal must face the sign";
   }
 }
 
@@ -223,13 +223,13 @@ TEST_F(Query, DamagedFilesAreErrorsThatNameThem) {
   EXPECT_TRUE(endedWith(ExitCode::unreadable_input, ask({"goal", "118"}, folder), {"90000 x 90000 cells"}));
 }
 
-TEST_F(Query, ThePlacesAreInTheFileAndNotInWhatGoesOnFromIt) {
+TEST_F(Query, ThePlacesAreInTheFileAndNotInTheLoadedMap) {
   EXPECT_TRUE(omnimapper::map::MapFile::read(map() + "/map.omnimap").find(omnimapper::map::kPlacesSection));
   for (const auto& section : loadMap(map()).sections) EXPECT_NE(section.name, omnimapper::map::kPlacesSection);
 }
 
-// Its places are made anew of what both sessions saw.
-TEST_F(Query, AMapThatIsGoneOnFromHasItsPlacesOnce) {
+// The places are computed anew from the measurements of both sessions.
+TEST_F(Query, AContinuedMapHasItsPlacesOnce) {
   const std::string folder = *scratch_ / "both";
   ASSERT_TRUE(endedWith(
       ExitCode::ok,

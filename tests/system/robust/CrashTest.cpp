@@ -1,5 +1,5 @@
-// kill -9 at any moment of a run that writes over an older one: each output is the old version or the new one, whole,
-// and nothing piles up.
+// A run that overwrites the outputs of an older one is killed by kill -9 at any time: each output is complete, in its
+// old or its new version, and no temporary files pile up.
 #include <signal.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool isWriting(const std::string& folder) {
 
 class Crash : public ::testing::Test {
  protected:
-  // Two versions of every output, which the program writes bit for bit again whenever it is asked to.
+  // Maps the log in two versions, which the program reproduces bit for bit.
   Crash() {
     SimulatedLogOptions options;
     options.place = SimulatedLogOptions::Place::box;
@@ -61,14 +61,14 @@ class Crash : public ::testing::Test {
   double seconds_ = 0;
 };
 
-TEST_F(Crash, KilledAtAnyMomentTheOutputsAreOneVersionOrTheOtherAndNothingPilesUp) {
+TEST_F(Crash, KilledAtAnyTimeTheOutputsAreOneVersionOrTheOtherAndNothingPilesUp) {
   ASSERT_FALSE(readFile(scratch_ / "coarse/map.omnimap") == readFile(scratch_ / "fine/map.omnimap"));
   Dice dice(20);
   int while_writing = 0;
   for (int i = 0; i < kKills; ++i) {
     SCOPED_TRACE("kill number " + std::to_string(i));
     Program program(mappingCommand({log_path_}, folder_, settingsOf(versions_[static_cast<std::size_t>(i) % 2])));
-    // One half at any moment of the run, the other soon after a file is being written.
+    // One quarter of the kills comes at any time of the run, the others soon after a file is being written.
     double wait = dice.uniform(0, seconds_);
     if (i % 2 == 0 || i % 4 == 1) {
       wait = dice.uniform(0, 0.02);
@@ -83,7 +83,7 @@ TEST_F(Crash, KilledAtAnyMomentTheOutputsAreOneVersionOrTheOtherAndNothingPilesU
   }
   RecordProperty("killed_while_writing", while_writing);
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder_, settingsOf("fine"))));
-  EXPECT_EQ(filesIn(folder_), allOutputs()) << "what the killed left behind is gone";
+  EXPECT_EQ(filesIn(folder_), allOutputs()) << "temporary files of the killed runs are removed";
   EXPECT_TRUE(readFile(folder_ + "/map.omnimap") == readFile(scratch_ / "fine/map.omnimap"));
 }
 

@@ -1,6 +1,6 @@
-// Seeded random damage to a rawlog and to an INI file, in many small runs without the time that a program takes to
-// start: whatever is in them, a run ends by itself, in time, with an exit code that doc/exit_codes.md explains and that
-// is not "a defect of ours".
+// Seeded random damage to a rawlog and to an INI file, in many small runs of forked processes, which saves the start of
+// a program. Whatever the files contain, a run ends by itself, in time, with an exit code that doc/exit_codes.md
+// explains and that is not "a defect of ours".
 #include <omnimapper/base/ChildProcess.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/testing/registerPlugins.h>
@@ -23,7 +23,7 @@ using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::SimulatedLogOptions;
 
 constexpr int kTimeLimit = 30'000;                              // [ms] for a run of a fraction of a second
-constexpr std::uint64_t kMemoryLimit = std::uint64_t{3} << 30;  // bytes beyond what the test itself has
+constexpr std::uint64_t kMemoryLimit = std::uint64_t{3} << 30;  // bytes, in addition to those of the test itself
 constexpr const char* kIni = "ini/laser2d.ini";
 
 std::string damaged(std::string bytes, Dice& dice) {
@@ -47,7 +47,7 @@ class Fuzz : public ::testing::Test {
     log_ = rawlogs::bytesOf(SimulatedLog(options).observations()).text;
   }
 
-  /// The exit code of a run in a process of its own, or the reason why it has none.
+  /// The exit code of a run in a separate process, or the reason why it has none.
   std::string outcome() {
     said_.clear();
     omnimapper::base::ChildProcess child([this](int to_parent) { return run(to_parent); }, kMemoryLimit);
@@ -68,11 +68,11 @@ class Fuzz : public ::testing::Test {
 
   ScratchFolder scratch_;
   std::string log_, log_path_ = scratch_ / "x.rawlog", ini_path_ = scratch_ / "x.ini";
-  std::string said_;  // by the run, of why it failed
+  std::string said_;  // reason of its failure that the run gave
   std::map<std::string, int> outcomes_;
 
  private:
-  // What main() of omnimapper-graphslam does, without the time it takes to start.
+  // Does what main() of omnimapper-graphslam does.
   int run(int to_parent) {
     const auto say = [&](const std::exception& error) {
       [[maybe_unused]] const auto written = ::write(to_parent, error.what(), std::strlen(error.what()));
@@ -109,13 +109,13 @@ TEST_F(Fuzz, DamagedRawlogsNeverCrashARun) {
     expectKnownOutcome();
   }
   for (const auto& [outcome, count] : outcomes_) RecordProperty("outcome_" + outcome, count);
-  EXPECT_GT(outcomes_["0"], 0) << "a changed range is a range";
+  EXPECT_GT(outcomes_["0"], 0) << "a log with a changed range is still valid";
   EXPECT_GT(outcomes_["9"], 0);
 }
 
 TEST_F(Fuzz, DamagedInisNeverCrashARun) {
   writeFile(log_path_, log_);
-  // All keys of the engine and of scan matching, so that their values are hit too.
+  // This INI sets keys of the engine and of scan matching, whose values are damaged, too.
   std::string ini = readFile(omnimapper::testing::sourceFile(kIni));
   for (unsigned seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

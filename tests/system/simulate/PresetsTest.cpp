@@ -1,4 +1,4 @@
-// Every INI of rawlogs/, and the example of its README, becomes a world in which all its sensors measure.
+// Every INI of rawlogs/, and the example in its README, gives a world in which all sensors have measurements.
 #include <omnimapper/base/Config.h>
 #include <omnimapper/sim/Simulation.h>
 
@@ -21,7 +21,7 @@ std::vector<std::string> presets() {
   return names;
 }
 
-// Something comes of one of some measurements spread over the run.
+// Expects that each sensor measures something in at least one of about 20 measurements, which are spread over the run.
 void expectMeasures(const Simulation& simulation) {
   for (const auto& sensor : simulation.sensors()) {
     bool measures = false;

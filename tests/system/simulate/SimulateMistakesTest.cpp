@@ -1,4 +1,4 @@
-// omnimapper-simulate: worlds that cannot be, folders that cannot be written, Ctrl-C.
+// omnimapper-simulate: impossible worlds, folders that cannot be written, Ctrl-C.
 #include <signal.h>
 
 #include <thread>
@@ -53,7 +53,7 @@ TEST_F(SimulateMistakes, AreRefusedWithTheirPlaceInTheIni) {
   }
 }
 
-TEST_F(SimulateMistakes, FoldersThatCannotBeMadeAreSaid) {
+TEST_F(SimulateMistakes, FoldersThatCannotBeMadeAreReported) {
   writeFile(scratch_ / "file", "");
   EXPECT_TRUE(
       endedWith(ExitCode::unwritable_output, simulate({"-i", ini_, "-o", scratch_ / "file/out"}), {"file/out"}));
@@ -70,7 +70,7 @@ TEST_F(SimulateMistakes, AFullDiskLeavesNoHalfLog) {
 }
 
 TEST_F(SimulateMistakes, AFullDiskKeepsTheOlderRunWhole) {
-  // Odometry alone is a log that is smaller than the list of landmarks, which the disk then has no room for.
+  // A log with odometry alone is smaller than the list of landmarks, for which the disk then has no room.
   const Words settings{"simulation.sensors=odometry", "simulation.duration_s=1"};
   ASSERT_TRUE(endedWith(ExitCode::ok, with(settings)));
   const auto before = contentOf(folder_);
@@ -100,7 +100,7 @@ TEST_F(SimulateMistakes, CtrlCLeavesNoImagesOfWhatIsNotInTheLog) {
   ASSERT_TRUE(endedWith(ExitCode::interrupted, program.wait()));
   const auto observations = readLog(folder_ + "/small.rawlog").observations();
   EXPECT_GT(observations, 0U);
-  EXPECT_EQ(filesIn(folder_ + "/small_Images").size(), 2 * observations) << "colour and depth of each";
+  EXPECT_EQ(filesIn(folder_ + "/small_Images").size(), 2 * observations) << "a colour and a depth image of each";
   EXPECT_FALSE(fs::exists(folder_ + "/.omnimapper/staged"));
 }
 

@@ -7,10 +7,10 @@
 
 #include "../Runs.h"
 
-/// Runs of omnimapper-simulate as a user makes them.
+/// Runs omnimapper-simulate as a user does.
 namespace runs {
 
-/// Two rooms with a door between them, a table, a laser, a small camera and odometry: some seconds of each.
+/// Two rooms with a door between them, a table, a laser, a small camera and odometry, for a few seconds.
 inline const char* const kSmallWorld = R"([simulation]
 sensors = laser, camera, odometry
 duration_s = 6
@@ -61,7 +61,7 @@ inline Ended simulate(const Words& arguments, const ProgramOptions& options = {}
   return omnimapper::testing::runProgram(words, options);
 }
 
-/// Every file below a folder, by its path in it, with its bytes.
+/// The bytes of every file below a folder, by its path relative to the folder.
 inline std::map<std::string, std::string> contentOf(const std::string& folder) {
   std::map<std::string, std::string> content;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -70,12 +70,12 @@ inline std::map<std::string, std::string> contentOf(const std::string& folder) {
   return content;
 }
 
-/// Goes through a rawlog; returns what its source says of it.
+/// Reads a whole rawlog, calls `visit` for each observation, and returns the report of the source.
 inline omnimapper::source::SourceReport readLog(const std::string& path,
-                                                const std::function<void(const mrpt::obs::CObservation&)>& see = {}) {
+                                                const std::function<void(const mrpt::obs::CObservation&)>& visit = {}) {
   omnimapper::source::RawlogSource source(path);
   while (const auto observation = source.next()) {
-    if (see) see(*observation);
+    if (visit) visit(*observation);
   }
   return source.report();
 }

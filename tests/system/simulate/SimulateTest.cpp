@@ -1,4 +1,4 @@
-// omnimapper-simulate: what it leaves in its folder.
+// omnimapper-simulate: the files that it writes.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/eval/TumFile.h>
@@ -48,7 +48,8 @@ TEST_F(Simulate, TheSameIniGivesTheSameBytesOnAnyNumberOfThreadsAndAnotherSeedOt
   }
   EXPECT_EQ(one.size(), three.size());
   ASSERT_TRUE(endedWith(ExitCode::ok, run("other", {"--set", "simulation.seed=2"})));
-  EXPECT_TRUE(readFile(scratch_ / "other/truth.tum") == one.at("truth.tum")) << "the seed is of the measurements";
+  EXPECT_TRUE(readFile(scratch_ / "other/truth.tum") == one.at("truth.tum"))
+      << "the seed changes the measurements only";
   EXPECT_FALSE(readFile(scratch_ / "other/small.rawlog") == one.at("small.rawlog"));
 }
 
@@ -101,7 +102,8 @@ TEST_F(Simulate, TruthNamesWhatBeamsAndPixelsSaw) {
   }
 }
 
-// The sign hangs 1.2 m to the left of a camera that looks there: capitals of 4.2 cm are about 600 * 0.042 / 1.2 high.
+// The sign hangs 1.2 m to the left of a camera that looks there: capitals of 4.2 cm are about
+// 600 * 0.042 / 1.2 pixels high.
 TEST_F(Simulate, TheSignsThatPicturesShowAreATableBesideTheLog) {
   const std::string more = scratch_ / "more.ini";
   writeFile(more,
@@ -127,8 +129,8 @@ TEST_F(Simulate, TheSignsThatPicturesShowAreATableBesideTheLog) {
   EXPECT_EQ(sign["capitals"], (std::vector<double>{0.042, 0.017}));
 }
 
-// One log of the camera serves all seeds of the others: it does not change with what else measures, nor does the truth.
-TEST_F(Simulate, SensorsOfOneDriveMayBeSimulatedApartWithSeedsOfTheirOwn) {
+// One log of the camera can serve all seeds of the other sensors: neither it nor the truth depends on other sensors.
+TEST_F(Simulate, SensorsOfOneDriveMayBeSimulatedSeparatelyWithDifferentSeeds) {
   ASSERT_TRUE(endedWith(ExitCode::ok, run("whole")));
   ASSERT_TRUE(endedWith(ExitCode::ok, run("camera", {"--set", "simulation.sensors=camera"})));
   ASSERT_TRUE(endedWith(ExitCode::ok,
@@ -157,17 +159,17 @@ TEST_F(Simulate, FramesHoldTheSameScansAndTheMotionBetweenThem) {
   ASSERT_TRUE(endedWith(ExitCode::ok, run("frames", {"--set", "simulation.format=frames"})));
   EXPECT_EQ(countOf("frames", "laser"), countOf("observations", "laser"));
   EXPECT_EQ(countOf("frames", "camera"), countOf("observations", "camera"));
-  double way = 0;
+  double travel = 0;
   readLog(scratch_ / "frames/small.rawlog", [&](const mrpt::obs::CObservation& observation) {
     if (const auto* motion = dynamic_cast<const CObservationRelativeMotion*>(&observation))
-      way += motion->begin_from_end.norm();
+      travel += motion->begin_from_end.norm();
   });
   const auto truth = omnimapper::eval::readTum(scratch_ / "frames/truth.tum");
-  double true_way = 0;
+  double true_travel = 0;
   for (std::size_t i = 1; i < truth.size(); ++i)
-    true_way += (truth[i].world_from_body.translation - truth[i - 1].world_from_body.translation).norm();
-  EXPECT_GT(true_way, 1);
-  EXPECT_NEAR(way, true_way, 0.1 * true_way);
+    true_travel += (truth[i].world_from_body.translation - truth[i - 1].world_from_body.translation).norm();
+  EXPECT_GT(true_travel, 1);
+  EXPECT_NEAR(travel, true_travel, 0.1 * true_travel);
 }
 
 TEST_F(Simulate, ExternalImagesAreTheSameDepths) {
@@ -197,7 +199,8 @@ TEST_F(Simulate, AnotherSensorChangesNothingForTheOthers) {
   const std::string less = scratch_ / "less.ini";
   std::ofstream(less) << "[simulation]\nsensors = odometry, laser\n";
   EXPECT_TRUE(endedWith(ExitCode::ok, run("less", {"-i", less}), {"warning", "camera", "switched off"}));
-  EXPECT_EQ(two.err.find("switched off"), std::string::npos) << "who shortens the list by --set means it: " << two.err;
+  EXPECT_EQ(two.err.find("switched off"), std::string::npos)
+      << "a list that --set shortens is meant to be short: " << two.err;
   const auto rangesOf = [&](const std::string& folder) {
     std::vector<float> ranges;
     readLog(scratch_ / folder + "/small.rawlog", [&](const mrpt::obs::CObservation& observation) {

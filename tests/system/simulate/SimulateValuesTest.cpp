@@ -59,7 +59,7 @@ TEST_F(SimulateValues, NamesOfLogsAreNoPaths) {
   EXPECT_FALSE(fs::exists(scratch_ / "log.rawlog"));
 }
 
-TEST_F(SimulateValues, ASensorThatMeasuresNothingIsSaid) {
+TEST_F(SimulateValues, ASensorThatMeasuresNothingIsReported) {
   EXPECT_TRUE(endedWith(ExitCode::ok, with({"laser.first_s=60", "simulation.sensors=laser, odometry"}),
                         {"warning", "[laser]", "first_s"}));
 }

@@ -1,4 +1,4 @@
-// The presets, mapped from laser and odometry: log, map, and the error against the truth beside the log.
+// Simulates some of the presets, maps them from laser and odometry, and compares the trajectory with the truth.
 #include "../MapFolder.h"
 #include "SimulateRun.h"
 
@@ -8,7 +8,7 @@ using namespace runs;
 
 struct Place {
   const char* ini;
-  const char* duration;  // [s]; 0: the whole drive
+  const char* duration;  // [s] of the log; 0: the whole drive
   double largest_error;  // [m]
 };
 

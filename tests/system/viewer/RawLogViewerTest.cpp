@@ -1,4 +1,4 @@
-// MRPT's RawLogViewer draws what was perceived: seen on a screenshot.
+// MRPT's RawLogViewer draws derived observations, as screenshots of it show.
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -21,7 +21,7 @@ class Screen {
  public:
   explicit Screen(const mrpt::img::CImage& image) : image_(image) {}
 
-  /// Pixels of the 3D view for which that holds.
+  /// Number of pixels of the 3D view for which the condition holds.
   template <class Condition>
   int count(Condition holds) const {
     int pixels = 0;
@@ -30,23 +30,23 @@ class Screen {
     }
     return pixels;
   }
-  /// Of that colour, which nothing else there has; thin lines have it where they are not mixed with what is behind.
+  /// Number of pixels of a colour that nothing else in the view has. Thin lines are partly blended with the background.
   int of(const TColor& colour) const {
     const auto near = [](int a, int b) { return std::abs(a - b) < 5; };
     return count([&](const TColor& pixel) {
       return near(pixel.R, colour.R) && near(pixel.G, colour.G) && near(pixel.B, colour.B);
     });
   }
-  /// Neither grey nor nearly so, as the background is.
+  /// Number of pixels that are clearly not grey, unlike the background.
   int coloured() const { return count(isColoured); }
-  /// Of twelve, those that many pixels have.
+  /// Number of hues, of twelve, that more than 100 pixels have.
   int hues() const {
     std::vector<int> of_hue(12, 0);
     count(
         [&](const TColor& pixel) { return isColoured(pixel) && ++of_hue[static_cast<std::size_t>(hueOf(pixel))] > 0; });
     return static_cast<int>(std::count_if(of_hue.begin(), of_hue.end(), [](int pixels) { return pixels > 100; }));
   }
-  /// Rows of pixels with ink, in the window of text above the view.
+  /// Number of rows of pixels that have text, in the window above the view.
   int rowsOfText() const {
     int rows = 0;
     for (unsigned y = 100; y < 495; ++y) {
@@ -75,16 +75,16 @@ class RawLogViewer : public PerceivedHome {
  protected:
   void SetUp() override {
     for (const char* program : {"RawLogViewer", "xvfb-run", "xdotool", "import", "convert", "pgrep"}) {
-      if (!isInstalled(program)) GTEST_SKIP() << program << " is not on this machine (scripts/packages-test.txt)";
+      if (!isInstalled(program)) GTEST_SKIP() << program << " is not installed (scripts/packages-test.txt)";
     }
   }
 
-  /// What RawLogViewer shows of one of the first 40 rows of a log. With OMNIMAPPER_TEST_KEEP, a folder, the picture is
-  /// kept there.
+  /// A screenshot of RawLogViewer with one of the first 40 rows of a log selected. If OMNIMAPPER_TEST_KEEP names a
+  /// folder, the picture is kept there.
   Screen show(const std::string& log, std::size_t row) {
     const std::string picture = scratch_ / "screen.png", script = "tests/system/viewer/raw_log_viewer.sh";
-    // With a home of its own: RawLogViewer keeps its settings there. A virtual screen that fails to start is tried
-    // again, and so is a viewer that cannot open its window on it.
+    // RawLogViewer keeps its settings in the home folder, so the test gives it another one. If the virtual screen does
+    // not start, or the viewer cannot open its window on it, both are tried again.
     Ended ended;
     for (int attempt = 0; attempt < 3; ++attempt) {
       ended = runProgram({"env", "HOME=" + scratch_.path(), "xvfb-run", "-a", "-s", "-screen 0 1280x960x24",
@@ -104,14 +104,14 @@ class RawLogViewer : public PerceivedHome {
     return Screen(image);
   }
 
-  /// Of the home, by one extractor.
+  /// Perceives the home with one extractor.
   void perceiveHome(const std::string& extractor, const Words& more = {}) {
     Words words{"--set", "perception.extractors=" + extractor};
     words.insert(words.end(), more.begin(), more.end());
     ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_, words)));
   }
 
-  /// A log of that alone.
+  /// Writes a log with this object alone.
   std::string logOf(const mrpt::serialization::CSerializable& object) {
     const std::string log = scratch_ / "one.rawlog";
     mrpt::io::CFileGZOutputStream out(log);
@@ -120,7 +120,7 @@ class RawLogViewer : public PerceivedHome {
   }
 };
 
-/// The row of a log, among those that the viewer shows without scrolling, that holds most of something.
+/// The row of a log with the largest `size`, among those that the viewer shows without scrolling.
 template <class Class, class Size>
 std::size_t fullest(const Observations& log, Size size) {
   std::size_t best = 0, most = 0;
@@ -157,7 +157,7 @@ TEST_F(RawLogViewer, DrawsPlanesOfFreiburg1Rpy) {
 TEST_F(RawLogViewer, DrawsEachLineOfALaser) {
   perceiveHome("laser_lines");
   const auto log = readLog(derived_);
-  const auto size = [](const CObservationLaserLines& seen) { return seen.lines.size(); };
+  const auto size = [](const CObservationLaserLines& found) { return found.lines.size(); };
   const auto row = fullest<CObservationLaserLines>(log, size);
   const auto count = size(dynamic_cast<const CObservationLaserLines&>(*log.at(row)));
   EXPECT_GE(count, 8u);
@@ -166,15 +166,15 @@ TEST_F(RawLogViewer, DrawsEachLineOfALaser) {
   EXPECT_GT(screen.rowsOfText(), 50);
 }
 
-TEST_F(RawLogViewer, DrawsEachThingAndItsName) {
+TEST_F(RawLogViewer, DrawsEachObjectAndItsName) {
   perceiveHome("planes", {"--set", "planes.class=ObjectExtractor"});
   const auto log = readLog(derived_);
-  const auto size = [](const CObservationObjects& seen) { return seen.objects.size(); };
+  const auto size = [](const CObservationObjects& found) { return found.objects.size(); };
   const auto row = fullest<CObservationObjects>(log, size);
   const auto count = size(dynamic_cast<const CObservationObjects&>(*log.at(row)));
   EXPECT_GE(count, 4u);
   const Screen screen = show(derived_, row);
-  for (std::size_t i = 0; i < count; ++i) EXPECT_GT(screen.of(indexColour(i)), 20) << "box of thing " << i;
+  for (std::size_t i = 0; i < count; ++i) EXPECT_GT(screen.of(indexColour(i)), 20) << "box of object " << i;
   EXPECT_GT(screen.coloured(), 2000);  // the points, in their own colours
 }
 

@@ -32,7 +32,8 @@ double FloorPlan::distanceToWall(const Eigen::Vector2d& origin, const Eigen::Vec
 
 FloorPlan FloorPlan::ring() {
   FloorPlan plan;
-  // The outside, counter-clockwise from the lower left corner: doors into rooms and niches of different shape.
+  // The outer walls, counter-clockwise from the lower left corner, with doors into rooms and niches of different
+  // shapes.
   plan.addPolygon({{-10, -1.5},  {-7, -1.5},  {-7, -4},    {-4.5, -4},  {-4.5, -1.5}, {-1, -1.5},   {-1, -2.1},
                    {0.4, -2.1},  {0.4, -1.5}, {4, -1.5},   {4, -3.5},   {5, -4.5},    {6.5, -4.5},  {6.5, -1.5},
                    {10, -1.5},   {10, 1.2},   {11.2, 1.2}, {11.2, 3},   {10, 3},      {10, 6.2},    {12.5, 6.2},
@@ -40,7 +41,7 @@ FloorPlan FloorPlan::ring() {
                    {3.8, 10.5},  {0.5, 10.5}, {0.5, 13},   {-2.5, 13},  {-2.5, 10.5}, {-5.8, 10.5}, {-6.6, 11.4},
                    {-7.4, 10.5}, {-10, 10.5}, {-10, 7},    {-10.8, 7},  {-10.8, 5.6}, {-10, 5.6},   {-10, 3.3},
                    {-12, 2.4},   {-12, 1},    {-10, 1}});
-  // The block in the middle.
+  // The walls of the block in the middle.
   plan.addPolygon({{-7, 1.5},   {-5, 1.5}, {-5, 2.6},  {-3.2, 2.6}, {-3.2, 1.5}, {1.2, 1.5},  {2, 2.3},
                    {2.8, 1.5},  {7, 1.5},  {7, 4},     {5.8, 4},    {5.8, 5.1},  {7, 5.1},    {7, 7.5},
                    {3, 7.5},    {3, 6.4},  {0.6, 6.4}, {0.6, 7.5},  {-4.4, 7.5}, {-4.4, 6.9}, {-5.4, 6.9},

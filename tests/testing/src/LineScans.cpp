@@ -23,7 +23,8 @@ void addWalk(std::vector<Side>& sides, const std::vector<Vector2d>& corners, boo
     sides.push_back({corners[i], corners[(i + 1) % corners.size()], is_wall});
 }
 
-// A room about the origin with a niche in one wall, a door's opening into the dark in another, turned at random.
+// Adds a room around the origin with random orientation. One wall has a niche, another an open door without walls
+// behind.
 void addRoom(std::vector<Side>& sides, Dice& dice) {
   const double w = dice.uniform(2, 5), h = dice.uniform(2, 4), deep = dice.uniform(0.5, 1.5);
   const double left = dice.uniform(-0.8, -0.2) * w, right = left + dice.uniform(0.8, 1.6);
@@ -34,11 +35,11 @@ void addRoom(std::vector<Side>& sides, Dice& dice) {
   for (auto& corner : corners) corner = rotation * corner;
   std::vector<Side> room;
   addWalk(room, corners, true);
-  room.erase(room.begin() + 2);  // the door stands open
+  room.erase(room.begin() + 2);  // the open door
   sides.insert(sides.end(), room.begin(), room.end());
 }
 
-void addThing(std::vector<Side>& sides, Dice& dice) {
+void addClutter(std::vector<Side>& sides, Dice& dice) {
   const double far = dice.uniform(0.8, 4), bearing = dice.uniform(0, 2 * kPi);
   const Vector2d middle(far * std::cos(bearing), far * std::sin(bearing));
   const bool is_box = dice.uniform(0, 1) < 0.4;
@@ -61,11 +62,11 @@ Hit cast(const std::vector<Side>& sides, double angle) {
   const Vector2d u(std::cos(angle), std::sin(angle));
   Hit hit;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Vector2d way = sides[i].to - sides[i].from;
-    const double cross = u.x() * way.y() - u.y() * way.x();
+    const Vector2d along = sides[i].to - sides[i].from;
+    const double cross = u.x() * along.y() - u.y() * along.x();
     if (std::abs(cross) < 1e-12) continue;
     const Vector2d& from = sides[i].from;
-    const double range = (from.x() * way.y() - from.y() * way.x()) / cross;
+    const double range = (from.x() * along.y() - from.y() * along.x()) / cross;
     const double share = (from.x() * u.y() - from.y() * u.x()) / cross;
     if (range > 0 && share >= 0 && share <= 1 && range < hit.range) hit = {range, static_cast<int>(i)};
   }
@@ -76,7 +77,8 @@ Vector2d pointOf(const Hit& hit, double angle) {
   return {hit.range * std::cos(angle), hit.range * std::sin(angle)};
 }
 
-// The corner that a side has in common with what the next beam meets, else the point that the last beam met.
+// The end of a visible wall: the corner that it shares with the side that the next beam hits, else the point that its
+// last beam hit.
 Vector2d endOf(const std::vector<Side>& sides, const std::vector<Hit>& hits, const std::vector<double>& angles,
                int last, int next) {
   const int neighbour = next >= 0 && next < static_cast<int>(hits.size()) ? hits[next].side : -1;
@@ -88,17 +90,17 @@ Vector2d endOf(const std::vector<Side>& sides, const std::vector<Hit>& hits, con
   return pointOf(hits[last], angles[last]);
 }
 
-// Where a wall is hidden for longer than the gap, what is seen of it is two walls.
-void addSeen(LineScan& result, const std::vector<Side>& sides, const std::vector<Hit>& hits,
-             const std::vector<double>& angles, int side, const LineScanOptions& options) {
+// Adds the visible parts of a wall. If it is hidden over more than the largest gap, its visible parts are two walls.
+void addVisibleParts(LineScan& result, const std::vector<Side>& sides, const std::vector<Hit>& hits,
+                     const std::vector<double>& angles, int side, const LineScanOptions& options) {
   std::vector<int> run;
   const auto finish = [&] {
     if (run.size() >= 2) {
-      const geometry::Segment2 seen{endOf(sides, hits, angles, run.front(), run.front() - 1),
-                                    endOf(sides, hits, angles, run.back(), run.back() + 1)};
+      const geometry::Segment2 visible{endOf(sides, hits, angles, run.front(), run.front() - 1),
+                                       endOf(sides, hits, angles, run.back(), run.back() + 1)};
       const bool is_long =
-          length(seen) >= options.shortest + 0.05 && static_cast<int>(run.size()) >= options.fewest + 2;
-      result.walls.push_back({seen, is_long});
+          length(visible) >= options.shortest + 0.05 && static_cast<int>(run.size()) >= options.fewest + 2;
+      result.walls.push_back({visible, is_long});
     }
     run.clear();
   };
@@ -117,7 +119,7 @@ void addSeen(LineScan& result, const std::vector<Side>& sides, const std::vector
 LineScan drawLineScan(const LineScanOptions& options, Dice& dice) {
   std::vector<Side> sides;
   addRoom(sides, dice);
-  for (int i = 0; i < options.clutter; ++i) addThing(sides, dice);
+  for (int i = 0; i < options.clutter; ++i) addClutter(sides, dice);
   LineScan result;
   result.scan.aperture = static_cast<float>(options.aperture);
   result.scan.maxRange = static_cast<float>(options.max_range);
@@ -143,7 +145,7 @@ LineScan drawLineScan(const LineScanOptions& options, Dice& dice) {
     result.scan.setScanRangeValidity(index, !is_lost && range < options.max_range && range > 0.05);
   }
   for (std::size_t side = 0; side < sides.size(); ++side) {
-    if (sides[side].is_wall) addSeen(result, sides, hits, angles, static_cast<int>(side), options);
+    if (sides[side].is_wall) addVisibleParts(result, sides, hits, angles, static_cast<int>(side), options);
   }
   return result;
 }
@@ -158,7 +160,7 @@ void LineScore::add(const LineScan& truth, const std::vector<geometry::Segment2>
     ++lines;
     bool is_right = false;
     for (std::size_t k = 0; k < truth.walls.size(); ++k) {
-      const auto& wall = truth.walls[k].seen;
+      const auto& wall = truth.walls[k].visible;
       const Vector2d along = direction(wall), across(-along.y(), along.x());
       if (std::abs(direction(line).dot(across)) > std::sin(2 * kPi / 180)) continue;
       if (std::abs((middle(line) - wall.from).dot(across)) > 0.03) continue;
@@ -175,12 +177,12 @@ void LineScore::add(const LineScan& truth, const std::vector<geometry::Segment2>
   for (std::size_t k = 0; k < truth.walls.size(); ++k) {
     if (!truth.walls[k].is_long) continue;
     ++walls;
-    const auto& wall = truth.walls[k].seen;
+    const auto& wall = truth.walls[k].visible;
     if (!best[k].line || best[k].common < 0.5 * best[k].together) continue;
     ++found_walls;
-    const bool same_way = direction(wall).dot(direction(*best[k].line)) > 0;
-    const auto &from = same_way ? best[k].line->from : best[k].line->to,
-               &to = same_way ? best[k].line->to : best[k].line->from;
+    const bool same_direction = direction(wall).dot(direction(*best[k].line)) > 0;
+    const auto &from = same_direction ? best[k].line->from : best[k].line->to,
+               &to = same_direction ? best[k].line->to : best[k].line->from;
     end_errors.push_back((from - wall.from).norm());
     end_errors.push_back((to - wall.to).norm());
   }

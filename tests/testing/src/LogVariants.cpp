@@ -51,7 +51,7 @@ Log reversed(const Log& log) {
     }
     turned.push_back(std::move(copy));
   }
-  // A motion is handed out at its end, which was its start.
+  // A motion has the stamp of its end, which is the start of the original motion, so the order changes.
   std::stable_sort(turned.begin(), turned.end(),
                    [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
   return turned;
@@ -59,15 +59,15 @@ Log reversed(const Log& log) {
 
 Log thinned(const Log& log, std::size_t every) {
   Log thin;
-  std::map<std::string, std::size_t> seen;
+  std::map<std::string, std::size_t> scans;
   for (const auto& observation : log) {
     const bool is_scan = dynamic_cast<const CObservation2DRangeScan*>(observation.get()) != nullptr;
-    if (!is_scan || seen[observation->sensorLabel]++ % every == 0) thin.push_back(observation);
+    if (!is_scan || scans[observation->sensorLabel]++ % every == 0) thin.push_back(observation);
   }
   return thin;
 }
 
-// Each odometry on its own, from where it began.
+// Replaces the motions of each odometry by `measured`, beginning at its first pose.
 Log withWheels(const Log& log, const Wheels& measured) {
   struct Pose {
     CPose2D last, changed;
@@ -118,7 +118,7 @@ Log fromTheMiddle(const Log& log) {
   return rest;
 }
 
-// Travel by the first odometry of the log, at its readings [m].
+// Distance travelled [m] by the first odometry of the log, at its stamps.
 std::vector<std::pair<base::Stamp, double>> travelOf(const Log& log) {
   std::vector<std::pair<base::Stamp, double>> travel;
   std::string label;

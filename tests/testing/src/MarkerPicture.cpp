@@ -9,12 +9,12 @@ namespace omnimapper::testing {
 
 namespace {
 
-constexpr int kCells = 6;        // along a side, with the black border
-constexpr double kPlate = 0.25;  // of a side, white to each side
+constexpr int kCells = 6;        // along a side, black border included
+constexpr double kPlate = 0.25;  // width of the white border, in parts of the side
 constexpr int kSamples = 6;      // along each side of a pixel
 constexpr double kWall = 128, kBlack = 25, kWhite = 230;
 
-// From columns and rows to the marker, whose black square is [0, 1] to the right and down.
+// Homography from columns and rows to the marker, whose black square is [0, 1] x [0, 1], to the right and down.
 Eigen::Matrix3d markerFromImage(const MarkerCorners& corners) {
   const Eigen::Vector2d square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   Eigen::Matrix<double, 8, 8> a;
@@ -35,7 +35,7 @@ Eigen::Matrix3d markerFromImage(const MarkerCorners& corners) {
   return image_from_marker.inverse();
 }
 
-// How bright the plate is at a place of the marker; negative beside it.
+// Brightness of the plate at a point of the marker; negative outside of the plate.
 double shadeAt(const cv::Mat& cells, const Eigen::Vector3d& homogeneous) {
   const double x = homogeneous.x() / homogeneous.z(), y = homogeneous.y() / homogeneous.z();
   if (!(x > -kPlate && x < 1 + kPlate && y > -kPlate && y < 1 + kPlate)) return -1;
@@ -59,7 +59,7 @@ void MarkerPicture::draw(int id, const MarkerCorners& corners) {
     low = low.cwiseMin(corner);
     high = high.cwiseMax(corner);
   }
-  const double margin = 2 * kPlate * (high - low).maxCoeff() + 1;  // more than the plate is wide, seen near
+  const double margin = 2 * kPlate * (high - low).maxCoeff() + 1;  // wide enough for the plate in perspective
   const auto clamped = [](double place, int size) { return static_cast<int>(std::clamp<double>(place, 0, size)); };
   for (int v = clamped(low.y() - margin, height_); v < clamped(high.y() + margin, height_); ++v) {
     for (int u = clamped(low.x() - margin, width_); u < clamped(high.x() + margin, width_); ++u) {

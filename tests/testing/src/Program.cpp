@@ -23,7 +23,8 @@ double now() {
 
 int memoryFile(const char* name) {
   const int fd = ::memfd_create(name, MFD_CLOEXEC);
-  if (fd < 0) throw std::runtime_error(std::string("no file in memory for ") + name + ": " + std::strerror(errno));
+  if (fd < 0)
+    throw std::runtime_error(std::string("cannot make a file in memory for ") + name + ": " + std::strerror(errno));
   return fd;
 }
 
@@ -34,10 +35,10 @@ std::string contentOf(int fd) {
   return content;
 }
 
-// In the child, which has one thread.
+// Becomes the program. Runs in the child process, which has one thread.
 [[noreturn]] void become(const std::vector<std::string>& argv, const ProgramOptions& options, int out, int err) {
   const int nothing = ::open("/dev/null", O_RDONLY);
-  ::setpgid(0, 0);  // so that what it starts itself ends with it
+  ::setpgid(0, 0);  // so that its own child processes end with it
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(err, STDERR_FILENO);

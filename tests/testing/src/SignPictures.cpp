@@ -18,9 +18,9 @@ using namespace omnimapper::sim;
 using Eigen::Vector3d;
 using geometry::Se3;
 
-// Streams of the seed.
+// Independent streams of random numbers from the seed.
 enum Stream : std::uint64_t { kPlaceStream = 0x516e, kViewStream, kLightStream };
-constexpr int kLights = 6;  // cameras of a place
+constexpr int kLights = 6;  // number of lighting conditions of a place
 
 WorldPlan planOf(const SignPictureOptions& options, int number, int attempt, Random random) {
   const bool is_dark = options.style == "dark";
@@ -39,7 +39,7 @@ WorldPlan planOf(const SignPictureOptions& options, int number, int attempt, Ran
     world.length = 200;
   }
   WorldPlan plan = generate(world, "sign pictures");
-  // The walls of one building are painted, those of the other coarser.
+  // Buildings with dark signs have painted walls, those with white signs partly coarser ones.
   static const char* const dark_walls[] = {"paint_white", "paint_cream", "paint_grey"};
   static const char* const white_walls[] = {"paint_cream", "paint_green", "concrete", "brick"};
   for (RoomPlan& room : plan.rooms)
@@ -50,7 +50,7 @@ WorldPlan planOf(const SignPictureOptions& options, int number, int attempt, Ran
   return plan;
 }
 
-// With some seeds doors of a loop overlap, or a sign is wider than its wall, which makeWorld() refuses.
+// Tries other seeds if makeWorld() refuses a plan, because doors of a loop overlap or a sign is wider than its wall.
 World worldOf(const SignPictureOptions& options, int number, const Random& random) {
   constexpr int kTries = 20;
   for (int attempt = 0;; ++attempt) {
@@ -62,7 +62,7 @@ World worldOf(const SignPictureOptions& options, int number, const Random& rando
   }
 }
 
-// The pose of a base whose camera looks along x: `up` is above the horizon [rad].
+// The pose of a base whose camera looks along x. `up`: angle above the horizon [rad].
 Se3 lookingAt(const Vector3d& eye, double yaw, double up, double roll) {
   return {Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(-up, Vector3d::UnitY()) *
               Eigen::AngleAxisd(roll, Vector3d::UnitX()),
@@ -70,8 +70,9 @@ Se3 lookingAt(const Vector3d& eye, double yaw, double up, double roll) {
 }
 
 Se3 lookingAt(const Vector3d& eye, const Vector3d& target, Random& random) {
-  const Vector3d way = target - eye;
-  const double yaw = std::atan2(way.y(), way.x()), up = std::atan2(way.z(), way.head<2>().norm());
+  const Vector3d direction = target - eye;
+  const double yaw = std::atan2(direction.y(), direction.x()),
+               up = std::atan2(direction.z(), direction.head<2>().norm());
   return lookingAt(eye, yaw + random.uniform(-0.33, 0.33), up + random.uniform(-0.24, 0.24), random.gaussian(0.02));
 }
 
@@ -82,14 +83,14 @@ class SignPictures::Place {
   Place(const SignPictureOptions& options, int number)
       : options_(options), number_(static_cast<std::uint64_t>(number)), name_("place" + std::to_string(number)) {
     world_ = worldOf(options, number, Random(options.seed, {kPlaceStream, number_, options.style == "dark" ? 0u : 1u}));
-    spots_ = hangThings(world_, Random(options.seed, {kPlaceStream, number_, 2}));
+    spots_ = addWallObjects(world_, Random(options.seed, {kPlaceStream, number_, 2}));
     scenes_ = std::make_unique<Scenes>(world_);
   }
 
   SignPicture picture(int k) const {
     Random random(options_.seed, {kViewStream, number_, static_cast<std::uint64_t>(k)});
     const Se3 begin = viewpoint(random);
-    // What a hand or a robot's drive moves it by in a twentieth of a second.
+    // The motion of a hand or a driving robot in a twentieth of a second.
     geometry::Vector6d motion;
     for (int i = 0; i < 3; ++i) motion[i] = random.gaussian(0.01);
     for (int i = 3; i < 6; ++i) motion[i] = random.gaussian(0.004);
@@ -134,7 +135,7 @@ class SignPictures::Place {
            "\nvignetting = " + base::fixed(random.uniform(0, 0.4), 3) + "\n";
   }
 
-  // Before a sign, before something else on a wall, or anywhere.
+  // A random pose that looks at a sign, at another object on a wall, or anywhere.
   Se3 viewpoint(Random& random) const {
     const Scene scene = scenes_->at(0);
     const double what = random.uniform();
@@ -150,9 +151,9 @@ class SignPictures::Place {
       const Vector3d direction(std::sin(aside), 0, std::cos(aside));
       Vector3d eye = target * (distance * direction);
       eye.z() += random.uniform(-0.5, 0.2);
-      const Vector3d from = target * Vector3d(0, 0, 0.03), way = eye - from;
+      const Vector3d from = target * Vector3d(0, 0, 0.03), to_eye = eye - from;
       if (!roomAt(world_.rooms, eye.head<2>())) continue;
-      if (scene.cast(Ray{from, way.normalized()}).range < way.norm() + 0.1) continue;
+      if (scene.cast(Ray{from, to_eye.normalized()}).range < to_eye.norm() + 0.1) continue;
       return lookingAt(eye, target.translation, random);
     }
     const auto eye = standpoint(world_, scene, random);

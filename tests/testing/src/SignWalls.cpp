@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Se3;
 
-constexpr int kThings = 60;      // for each place
-constexpr double kDepth = 0.25;  // that is free before a thing on a wall [m]
+constexpr int kObjects = 60;     // number of objects for each place
+constexpr double kDepth = 0.25;  // [m] free space in front of an object on a wall
 
 Material plain(const Eigen::Vector3f& colour) {
   Material material;
@@ -29,7 +29,7 @@ Eigen::Vector3f greyish(Random& random, double low, double high) {
   return Eigen::Vector3f(grey, grey, grey * static_cast<float>(random.uniform(0.85, 1)));
 }
 
-// Whether the wall is flat and free under a rectangle about the spot.
+// Whether the wall is flat and free within a rectangle around the spot.
 bool isFree(const Scene& scene, const Se3& map_from_spot, double width, double height) {
   std::vector<Ray> rays;
   const Vector3d inwards = map_from_spot.rotation * -Vector3d::UnitZ();
@@ -55,7 +55,7 @@ Se3 facing(const Vector3d& at, const Vector3d& normal) {
   return {Eigen::Quaterniond(axes).normalized(), at};
 }
 
-// Small things of doors and walls. Frame: a WallSpot's.
+// A small fixture of a door or wall. Its frame is that of a WallSpot.
 Body makeFitting(const std::string& name, int kind, const Se3& map_from_spot, Random& random) {
   MeshBuilder builder(name, Track(map_from_spot));
   const int plate = builder.addSurface("plate", SurfaceKind::object, plain(greyish(random, 0.4, 0.95)));
@@ -76,7 +76,7 @@ Body makeFitting(const std::string& name, int kind, const Se3& map_from_spot, Ra
       box(part, -0.012, 0, 0.008, 0.012, 0.008, 0.009);
       box(part, 0.012, 0, 0.008, 0.012, 0.008, 0.009);
       break;
-    case 2:  // a thermostat or a reader of cards
+    case 2:  // a thermostat or card reader
       box(plate, 0, 0, 0.1, random.uniform(0.07, 0.16), 0, 0.025);
       box(part, 0, 0.01, 0.06, 0.03, 0.025, 0.026);
       break;
@@ -105,7 +105,7 @@ void addHandles(World& world, std::vector<WallSpot>& spots, Random& random) {
     const Vector3d left = opening.rectangle[0], right = opening.rectangle[1];
     const Vector3d along = (right - left).normalized(), normal = along.cross(Vector3d::UnitZ());
     const bool on_left = random.chance(0.5);
-    // A closed leaf is flush with the wall on the side of the first room.
+    // A closed door leaf is flush with the wall on the side of the first room.
     const Vector3d at =
         (on_left ? left : right) + (on_left ? 0.08 : -0.08) * along + Vector3d(0, 0, 1.05) + 0.002 * normal;
     Se3 pose = facing(at, normal);
@@ -136,24 +136,24 @@ std::optional<Vector3d> standpoint(const World& world, const Scene& scene, Rando
   return {};
 }
 
-std::vector<WallSpot> hangThings(World& world, Random random) {
+std::vector<WallSpot> addWallObjects(World& world, Random random) {
   std::vector<WallSpot> spots;
   const Scenes scenes(world);
   const Scene scene = scenes.at(0);
   std::vector<Body> bodies;
-  const auto isApart = [&](const Vector3d& at) {
+  const auto isFarFromOthers = [&](const Vector3d& at) {
     for (const WallSpot& spot : spots) {
       if ((spot.map_from_spot.translation - at).norm() < 0.6) return false;
     }
     return true;
   };
-  for (int attempt = 0; attempt < 40 * kThings && static_cast<int>(spots.size()) < kThings; ++attempt) {
+  for (int attempt = 0; attempt < 40 * kObjects && static_cast<int>(spots.size()) < kObjects; ++attempt) {
     const auto eye = standpoint(world, scene, random);
     if (!eye) continue;
     const double turn = random.uniform(0, 2 * M_PI);
     Ray ray{*eye, {std::cos(turn), std::sin(turn), 0}};
     ray.origin_in_map.z() += random.uniform(-0.2, 0.3);
-    // Beside a sign, now and then: where people look for one.
+    // Some objects are beside a sign, where people look for one.
     if (!world.signs.empty() && random.chance(0.4)) {
       const Sign& sign =
           world.signs[static_cast<std::size_t>(random.integer(0, static_cast<int>(world.signs.size()) - 1))];
@@ -162,7 +162,7 @@ std::vector<WallSpot> hangThings(World& world, Random random) {
     }
     const Hit hit = scene.cast(ray);
     if (!hit.isHit() || std::abs(hit.normal_in_map.z()) > 1e-3 ||
-        !isApart(ray.origin_in_map + hit.range * ray.direction_in_map))
+        !isFarFromOthers(ray.origin_in_map + hit.range * ray.direction_in_map))
       continue;
     const Se3 spot = facing(ray.origin_in_map + hit.range * ray.direction_in_map, hit.normal_in_map);
     const std::string name = "thing_" + std::to_string(spots.size());

@@ -9,16 +9,16 @@
 
 namespace omnimapper::testing {
 
-/// A spot on a wall: x to the right of who looks at it, y up, z out of the wall.
+/// A spot on a wall. Seen from the room x points to the right, y up and z out of the wall.
 struct WallSpot {
   geometry::Se3 map_from_spot;
 };
 
-/// Hangs what is no sign on the walls of a world, and handles on its closed doors: posters and notices, some of them
-/// beside doors where signs hang, switches, sockets, thermostats and grilles. Returns where.
-std::vector<WallSpot> hangThings(sim::World& world, sim::Random random);
+/// Adds objects that are no signs to the walls of a world (posters and notices, some of them beside signs, switches,
+/// sockets, thermostats and grilles) and handles to its closed doors. Returns their spots.
+std::vector<WallSpot> addWallObjects(sim::World& world, sim::Random random);
 
-/// A point of a room from which one can look: free for 0.3 m around.
+/// A random point in a room from which a camera may look, with free space of 0.3 m around it. None if none was found.
 std::optional<Eigen::Vector3d> standpoint(const sim::World& world, const sim::Scene& scene, sim::Random& random);
 
 }  // namespace omnimapper::testing

@@ -35,10 +35,10 @@ mrpt::obs::CObservation::Ptr SimulatedBeacons::measurements(const FloorPlan& pla
   const Eigen::Vector2d eye(map_from_sensor.x(), map_from_sensor.y());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const double noise[] = {dice.normal(sigma_range), dice.normal(sigma_yaw), dice.normal(sigma_pitch)};
-    const Eigen::Vector2d way = positions[i].head<2>() - eye;
+    const Eigen::Vector2d to_beacon = positions[i].head<2>() - eye;
     double range, yaw, pitch;
     map_from_sensor.sphericalCoordinates({positions[i].x(), positions[i].y(), positions[i].z()}, range, yaw, pitch);
-    if (range > max_range || plan.distanceToWall(eye, way.normalized()) < way.norm()) continue;
+    if (range > max_range || plan.distanceToWall(eye, to_beacon.normalized()) < to_beacon.norm()) continue;
     mrpt::obs::CObservationBearingRange::TMeasurement measurement;
     measurement.landmarkID = static_cast<std::int32_t>(i);
     measurement.range = static_cast<float>(range + noise[0]);

@@ -28,12 +28,12 @@ namespace {
 using geometry::kPi;
 constexpr double kRamp = 1;  // [s]
 
-// Heading along a bend of a quarter turn, part in [0, 1]: the turning sets in and ends without a jerk.
+// Heading in a bend of a quarter turn after the part [0, 1] of its length. The turning begins and ends smoothly.
 double bendHeading(double part) {
   return kPi / 2 * part * part * (3 - 2 * part);
 }
 
-// Where a bend of that length leads from the origin, by Simpson's rule.
+// Position in a bend of that length that begins at the origin, integrated by Simpson's rule.
 Eigen::Vector2d alongBend(double length, double part) {
   constexpr int kSteps = 64;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -76,9 +76,9 @@ SimulatedLog::SimulatedLog(const SimulatedLogOptions& options) : options_(option
   duration_ = options.laps * lapLength() / options.speed + kRamp;
 }
 
-CPose2D SimulatedLog::poseAfter(double way) const {
+CPose2D SimulatedLog::poseAfter(double travel) const {
   CPose2D pose;
-  double left = std::fmod(way, lapLength());
+  double left = std::fmod(travel, lapLength());
   const double straights[] = {straight_x_ / 2, straight_y_, straight_x_, straight_y_, straight_x_ / 2};
   for (int side = 0; side < 5; ++side) {
     const double ahead = std::min(left, straights[side]);
@@ -106,18 +106,18 @@ std::vector<SimulatedLog::Odometry> SimulatedLog::odometry() const {
   Dice dice(options_.seed);
   std::vector<Odometry> all;
   CPose2D odom_from_base;
-  // One reading beyond the end, so that it covers every other observation.
+  // The odometry has one reading after the end, so that it covers all other observations.
   auto stamps = stampsOf(*this, options_.odometry_rate, 0);
   stamps.push_back(stamps.back() + base::durationFromSeconds(1 / options_.odometry_rate));
   for (const auto stamp : stamps) {
     if (!all.empty()) {
       const CPose2D motion = truthAt(stamp) - truthAt(all.back().stamp);
-      const double way = motion.norm();
-      const double jitter = dice.normal(options_.position_noise_per_root_m * std::sqrt(way));
-      const double turn = motion.phi() + options_.yaw_drift_per_m * way +
+      const double travel = motion.norm();
+      const double jitter = dice.normal(options_.position_noise_per_root_m * std::sqrt(travel));
+      const double turn = motion.phi() + options_.yaw_drift_per_m * travel +
                           dice.normal(options_.yaw_noise_per_root_turn * std::sqrt(std::abs(motion.phi())));
-      odom_from_base =
-          odom_from_base + CPose2D(options_.way_scale * motion.x() + jitter, options_.way_scale * motion.y(), turn);
+      odom_from_base = odom_from_base +
+                       CPose2D(options_.travel_scale * motion.x() + jitter, options_.travel_scale * motion.y(), turn);
     }
     all.push_back({stamp, odom_from_base});
   }
@@ -143,7 +143,7 @@ CObservation::Ptr SimulatedLog::scan(const SimulatedLaser& laser, base::Stamp st
       rotation = map_from_sensor.getRotationMatrix();
     }
     const double angle = laser.aperture * (static_cast<double>(i) / (laser.beams - 1) - 0.5);
-    // The walls are upright: the way along the floor, over the part of the beam that runs along it.
+    // Walls are upright, so the range is the distance along the floor, divided by the horizontal part of the beam.
     const Eigen::Vector2d on_floor(rotation(0, 0) * std::cos(angle) + rotation(0, 1) * std::sin(angle),
                                    rotation(1, 0) * std::cos(angle) + rotation(1, 1) * std::sin(angle));
     const double range =
@@ -236,7 +236,7 @@ void SimulatedLog::writeRawlog(const std::string& path, Format format) const {
   if (!file.open(path)) throw std::runtime_error("cannot write " + path);
   auto archive = mrpt::serialization::archiveFrom(file);
   const auto odometry = this->odometry();
-  // Between two readings of the odometry the motion is taken as even.
+  // The motion between two readings of the odometry is interpolated linearly.
   const auto odometryAt = [&](base::Stamp stamp) {
     const auto after = std::find_if(odometry.begin(), odometry.end(), [&](const auto& o) { return o.stamp >= stamp; });
     if (after == odometry.begin()) return after->odom_from_base;

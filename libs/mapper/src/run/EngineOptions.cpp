@@ -9,7 +9,7 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
           .choice("motion", &Options::motion, {{"planar", Motion::planar}, {"spatial", Motion::spatial}},
                   "Motion of the base: planar on a floor, or spatial with six degrees of freedom.")
           .list("pose_plugins", &Options::pose_plugins,
-                "INI sections of the continuous pose sources, such as odometry.")
+                "INI sections of the pose plugins, which measure the motion between two times, such as odometry.")
           .list("measurement_plugins", &Options::measurement_plugins,
                 "INI sections of the measurement plugins, in processing order: a pose measured by one plugin is "
                 "available to those after it.")

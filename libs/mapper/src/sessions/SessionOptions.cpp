@@ -26,7 +26,7 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
           .number("start_sigma_deg", &Options::start_angle_sigma, base::Range::positive(),
                   "Standard deviation of the angles of the session's start pose.")
           .integer("window_key_frames", &Options::window_key_frames, base::Range{5, 1e6},
-                   "Number of newest key frames that are estimated together with --localize; older ones are held "
+                   "With --localize, number of the newest key frames that are estimated; older ones are held "
                    "fixed.");
   return table;
 }

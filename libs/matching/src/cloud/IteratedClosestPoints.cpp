@@ -21,7 +21,8 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
                   {{"point_to_point", CloudMethod::point_to_point},
                    {"point_to_plane", CloudMethod::point_to_plane},
                    {"gicp", CloudMethod::gicp}},
-                  "Residual that is minimized: the distance between points, their distance across the surface, "
+                  "Residual that is minimized: the distance between points, the distance of a point from the other "
+                  "surface along its normal, "
                   "or their distance in standard deviations (gicp).")
           .number("max_distance_m", &Options::max_distance, base::Range::positive(),
                   "Largest distance between corresponding points on the finest level of a match.")

@@ -18,8 +18,8 @@ enum class LineFault {
 /// One line that was read.
 struct OdometryLine {
   std::optional<base::Stamp> stamp;  ///< none: "-", which means the time of arrival
-  /// odom_from_base [m, rad], cumulative; velocityLocal in the base [m/s, rad/s] if the line has it. Without stamp and
-  /// label.
+  /// odom_from_base [m, rad], cumulative; velocityLocal in the base [m/s, rad/s] if the line has it. Its stamp
+  /// and label are not set.
   mrpt::obs::CObservationOdometry odometry;
   std::optional<LineFault> fault;  ///< if set, the other members are invalid
 };

@@ -30,8 +30,8 @@ void walk(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& v
   }
 }
 
-/// Walks only the part of the line that lies in a grid of width x height cells. Its ends may be as far away as they
-/// like, where walk() would overflow an int. Visits nothing if the line misses the grid or an end is not finite.
+/// Walks only the part of the line that lies in a grid of width x height cells. Its ends may be arbitrarily far
+/// away; walk() alone would overflow an int. Visits nothing if the line misses the grid or an end is not finite.
 template <class Visit>
 void walkInside(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int width, int height, const Visit& visit) {
   const Eigen::Vector2d delta = to - from, size(width, height);

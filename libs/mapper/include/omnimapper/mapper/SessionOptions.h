@@ -6,8 +6,8 @@
 
 namespace omnimapper::mapper {
 
-/// Section [session] of an INI: the assumed start of a session that continues a map. It counts until a factor connects
-/// the session to the map.
+/// Section [session] of an INI: the assumed start of a session that continues a map. It places the session until
+/// measurements connect it to the map; if they contradict it by much, it has little effect.
 struct SessionOptions {
   enum class Start {
     end,      ///< where the last session ended

@@ -13,9 +13,9 @@ namespace omnimapper::obs {
 /// are registered in MRPT's run-time class system.
 ///
 /// As text (rawlog-edit --export-txt) each observation is one row: a count, then that many groups of fields. The header
-/// names the fields of a group once, between { and }; a group may contain a count with further groups. Numbers have all
-/// digits. In a text, blanks, control characters and % are written as %20 and the like; an empty text is -. An optional
-/// value that is absent is nan; for indices and colours it is -1.
+/// names the fields of a group once, between { and }; a group may contain a count with further groups. Numbers are
+/// written with full precision. In a text, blanks, control characters and % are written as %20 and the like; an empty
+/// text is -. An optional value that is absent is nan; for indices and colours it is -1.
 class CDerivedObservation : public mrpt::obs::CObservation, public mrpt::opengl::Visualizable {
  public:
   /// Pose of the sensor on the base.

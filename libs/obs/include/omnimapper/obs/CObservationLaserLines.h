@@ -7,7 +7,7 @@
 
 namespace omnimapper::obs {
 
-/// Why a line ends where it does. The numbers are those of the file.
+/// Why a line ends where it does. The values are stored in rawlogs and must not change.
 enum class LineEnd : std::uint8_t {
   wall = 0,      ///< the wall ends: the next beam meets something behind it, or a wall that joins it at a corner
   occluded = 1,  ///< something nearer hides the rest of the wall
@@ -18,8 +18,8 @@ enum class LineEnd : std::uint8_t {
 struct LaserLine {
   geometry::Segment2 segment_in_sensor;  ///< [m] in the plane of the scan (z = 0), from the first beam to the last
   /// The line: x cos(angle) + y sin(angle) = distance. The angle [rad], in (-pi, pi], is the direction from the sensor
-  /// to the line's nearest point; distance [m] >= 0. As a geometry::Plane3 that is normal -(cos, sin), distance
-  /// `distance`.
+  /// to the line's nearest point; distance [m] >= 0. The same line as a geometry::Plane3 has the
+  /// normal -(cos(angle), sin(angle), 0) and the distance `distance`.
   double angle = 0;
   double distance = 0;
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of (angle [rad], distance [m])

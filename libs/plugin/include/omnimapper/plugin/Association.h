@@ -94,14 +94,13 @@ base::OptionTable<Options>& AssociationOptions::declareIn(base::OptionTable<Opti
           "association_inflation", &Options::inflation, base::Range{1, 100},
           "Factor on the standard deviations that the map predicts, because odometry usually reports smaller ones than "
           "it should.")
-      .number(
-          "association_min_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
-          "Smallest ratio of the likelihood of a match to that of the best interpretation with another landmark in its "
-          "place; below it, the measurement is left out. 1 takes the best match. Only for association = joint.")
-      .integer(
-          "association_max_nodes", &Options::max_nodes, base::Range{1, 1e9},
-          "Largest number of interpretations that are searched for association = joint; beyond it, the best so far is "
-          "taken.");
+      .number("association_min_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
+              "Smallest ratio of the likelihood of the best assignment of measurements to landmarks to that of the "
+              "best one that gives this measurement another landmark. Below it the measurement is left out; 1 takes "
+              "the best match. Only for association = joint.")
+      .integer("association_max_nodes", &Options::max_nodes, base::Range{1, 1e9},
+               "Largest number of assignments that are searched for association = joint; beyond it, the best so far is "
+               "taken.");
 }
 
 }  // namespace omnimapper::mapper

@@ -35,7 +35,7 @@ class MeshBuilder {
   /// Adds a flat face to a surface; holes are strictly inside, clockwise or counter-clockwise.
   void addFace(int surface, const std::vector<Eigen::Vector3d>& outline,
                const std::vector<std::vector<Eigen::Vector3d>>& holes = {});
-  /// Adds a surface that is one flat face, with its true PlanarFace. Returns its number.
+  /// Adds a surface of one flat face and records that face as its truth (Surface::face). Returns its number.
   int addPlane(const std::string& part, SurfaceKind kind, const Material& material,
                const std::vector<Eigen::Vector3d>& outline,
                const std::vector<std::vector<Eigen::Vector3d>>& holes = {});

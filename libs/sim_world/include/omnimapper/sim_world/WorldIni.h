@@ -20,13 +20,12 @@ struct WorldOptions {
   ClutterLevel clutter = ClutterLevel::medium;
   double length = 200;    ///< of a loop of corridor, along its middle [m]
   double move_time = 90;  ///< time at which moveable objects are carried elsewhere; negative: never [s]
-  double wear = 0;        ///< standard deviation over mean of the brightness of static surfaces, as World::wear
+  double wear = 0;  ///< standard deviation of the brightness of static surfaces, divided by its mean; see World::wear
   std::string sign_style = "dark";
-  int repeated_signs =
-      0;  ///< number of additional door signs of a generated place that say a repeated word, such as Storage
+  int repeated_signs = 0;  ///< number of additional door signs that say a repeated word, such as Storage
   bool exit_signs = false;
-  int announcements = 0;  ///< largest number of posters with numbers in its corridors
-  std::string hall_wall;  ///< material of the walls of its corridors; empty: the generator's
+  int announcements = 0;  ///< largest number of posters with numbers in the corridors of the place
+  std::string hall_wall;  ///< material of the walls of the corridors; empty: the generator's
   std::vector<std::string> rooms, doors, furniture, objects, signs, posters, markers, landmarks, people;
   static const base::OptionTable<WorldOptions>& table();
 };

@@ -8,7 +8,8 @@
 
 namespace omnimapper::testing {
 
-/// Whether this is a sanitizer's build: some ten times slower, processes too, and their memory cannot be limited.
+/// Whether this is a build with a sanitizer. The test and the programs that it starts are then some ten times slower,
+/// and their memory cannot be limited.
 #if defined(__has_feature)
 #define OMNIMAPPER_HAS_FEATURE(feature) __has_feature(feature)
 #else
@@ -21,7 +22,7 @@ inline constexpr bool kIsSanitized = true;
 inline constexpr bool kIsSanitized = false;
 #endif
 
-/// A folder of its own for one test, removed with its content at the end.
+/// A temporary folder for one test. The destructor removes it with its content.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -29,14 +30,14 @@ class ScratchFolder {
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::string& path() const { return path_; }
-  /// Path of a file in it.
+  /// Path of a file in the folder.
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
 
  private:
   std::string path_;
 };
 
-/// While it lives, no file of this process grows beyond so many bytes: a write fails as on a full disk.
+/// While this object exists, no file of the process can grow beyond the limit [bytes]; a write fails as on a full disk.
 class SmallFiles {
  public:
   explicit SmallFiles(std::uint64_t bytes);
@@ -49,15 +50,16 @@ class SmallFiles {
   void (*handler_)(int);
 };
 
-/// A file of the project's source tree, such as "ini/laser2d.ini".
+/// Path of a file in the project's source tree, such as "ini/laser2d.ini".
 std::string sourceFile(const std::string& relative);
-/// A recording kept beside the project (environment OMNIMAPPER_DATA, else ../shared/data), if it is there.
+/// Path of a recording beside the project (in the folder OMNIMAPPER_DATA of the environment, else in ../shared/data),
+/// if it exists.
 std::optional<std::string> sharedData(const std::string& relative);
-/// A data set of the Debian package mrpt-common, if it is there.
+/// Path of a data set in the Debian package mrpt-common, if it exists.
 std::optional<std::string> mrptDataset(const std::string& relative);
 
 }  // namespace omnimapper::testing
 
-/// Leaves a test whose recording is not on this machine; scripts/test counts and prints these.
+/// Skips a test whose recording is not on this machine. scripts/test counts and prints skipped tests.
 #define OMNIMAPPER_NEEDS(optional_path) \
   if (!(optional_path)) GTEST_SKIP() << "recording not on this machine; the simulated twin of this test has run"

@@ -6,8 +6,8 @@
 
 namespace omnimapper::testing {
 
-/// What stands in the section of key frames, without its compression: their number, then one after the other. For tests
-/// that damage it; they need the private headers of `map`.
+/// The uncompressed content of the section of key frames: their number, then the key frames. For tests that damage it,
+/// which need the private headers of `map`.
 inline std::string unpackedFrames(const map::MapSection& frames) {
   base::ByteReader in(frames.bytes, "the section of a test");
   std::string bytes(in.raw(4));
@@ -15,7 +15,7 @@ inline std::string unpackedFrames(const map::MapSection& frames) {
   return bytes;
 }
 
-/// The section of such bytes.
+/// The section with this content, compressed.
 inline map::MapSection packedFrames(std::uint32_t version, const std::string& bytes) {
   base::ByteWriter out;
   out.raw(bytes.substr(0, 4));

@@ -6,11 +6,11 @@
 
 namespace omnimapper::testing {
 
-/// A map and graph that grow by hand, for what needs a View without an engine.
+/// A map and graph that a test fills by hand, for code that needs a View without an engine.
 struct HandMadeRun : mapper::ViewedRun {
   mapper::Motion motion = mapper::Motion::planar;
 
-  /// A key frame of the graph's session at that estimate, one second after the one before.
+  /// Adds a key frame of the graph's session at that estimate, one second after the one before.
   const map::KeyFrame& addFrame(const mrpt::poses::CPose3D& map_from_base) {
     map::KeyFrame frame;
     const auto index = static_cast<std::uint32_t>(map.key_frames.size());

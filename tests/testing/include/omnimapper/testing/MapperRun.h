@@ -15,11 +15,11 @@
 
 #include "Engine.h"
 
-// For test binaries that link omnimapper-engine, and features that their INIs name: an engine to feed by hand, and what
-// came out of it.
+// An engine to which a test adds observations by hand, and its results. For test binaries that link omnimapper-engine
+// and the features that their INIs name.
 namespace omnimapper::testing {
 
-/// Laser and wheel odometry, the null motion model and loop closures, as ini/laser2d.ini has them, without outputs.
+/// Laser and wheel odometry, the null motion model and loop closures as in ini/laser2d.ini, without outputs.
 inline const std::string kLaserIni = R"(
 [mapper]
 pose_plugins        = scan_odometry, odometry, no_motion
@@ -58,20 +58,20 @@ inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const 
                                           std::move(plugins), threads);
 }
 
-/// Feeds it all observations in that order, to the end.
+/// Adds all observations in this order and finishes the run.
 inline void run(mapper::Engine& engine, const std::vector<mrpt::obs::CObservation::Ptr>& observations) {
   for (const auto& observation : observations) engine.add(observation);
   engine.finish();
 }
 
-/// Every bit of graph and map, to compare two runs.
+/// All bytes of graph and map, for comparing two runs bit by bit.
 inline std::string bitsOf(const mapper::View& view) {
   std::ostringstream bits;
   graph::writeGraph(view.graph, bits);
   return bits.str() + map::framesToSection(view.map).bytes;
 }
 
-/// Root mean square distance [m] of the whole trajectory from the truth, both seen from the first key frame.
+/// Root mean square distance [m] of the whole trajectory from the truth, both relative to the first key frame.
 inline double trajectoryError(const mapper::View& view, const SimulatedLog& log) {
   const auto trajectory = map::denseTrajectory(view.map);
   double sum = 0;

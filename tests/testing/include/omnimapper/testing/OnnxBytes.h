@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-/// Bytes of small ONNX models, made without the libraries that make large ones: messages of protocol buffers by the
-/// numbers of their fields (onnx.proto of ONNX 1.12).
+/// Bytes of small ONNX models, made without the usual libraries: messages of protocol buffers that are written by field
+/// numbers (onnx.proto of ONNX 1.12).
 namespace omnimapper::testing::onnx_bytes {
 
 inline std::string varint(std::uint64_t value) {
@@ -37,7 +37,7 @@ inline std::string weights(const std::string& name, const std::vector<int>& shap
   return bytes + field(2, 1) + field(8, name) + field(9, raw);
 }
 
-/// An attribute of whole numbers.
+/// An attribute that is a list of integers.
 inline std::string attribute(const std::string& name, const std::vector<int>& numbers) {
   std::string bytes = field(1, name);
   for (const int number : numbers) bytes += field(8, number);
@@ -53,7 +53,7 @@ inline std::string node(const std::string& operation, const std::vector<std::str
   return bytes;
 }
 
-/// Of messages that node(), weights() and value() made.
+/// A model of messages that node(), weights() and value() made.
 inline std::string model(const std::vector<std::string>& nodes, const std::vector<std::string>& initializers,
                          const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
   std::string graph;

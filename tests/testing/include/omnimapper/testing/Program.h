@@ -8,43 +8,43 @@
 
 namespace omnimapper::testing {
 
-/// How a program came to its end, and what it printed.
+/// How a program ended, and what it printed.
 struct Ended {
   int code = -1;         ///< exit code; -1 if a signal ended it
   int signal = 0;        ///< the signal that ended it; 0 if it left by itself
-  bool in_time = true;   ///< false if it was killed because its time was over
+  bool in_time = true;   ///< false if it was killed at its time limit
   std::string out, err;  ///< standard output and error, whole
-  double seconds = 0;    ///< from its start to its end
-  double peak_mib = 0;   ///< most memory that it held at a time [MiB]
+  double seconds = 0;    ///< [s] from start to end
+  double peak_mib = 0;   ///< largest memory in use [MiB]
 };
 
-/// One word or two on how it ended, then what it printed: for messages of tests.
+/// How it ended, then what it printed, for messages of tests.
 std::string toString(const Ended& ended);
 
 struct ProgramOptions {
-  double time_limit = 120;         ///< [s] then it is killed
-  std::uint64_t largest_file = 0;  ///< bytes; a file that would grow larger cannot be written; 0: no limit
+  double time_limit = 120;         ///< [s] after which the program is killed
+  std::uint64_t largest_file = 0;  ///< [bytes] a write beyond this size of a file fails; 0: no limit
 };
 
-/// A program as a process of its own. It does not outlive this object.
+/// A program that runs as a child process. The destructor ends it.
 class Program {
  public:
-  /// Starts it: argv[0] is a path, or a name to be found as a shell does.
+  /// Starts the program. argv[0] is a path, or a name that is searched as by a shell.
   explicit Program(const std::vector<std::string>& argv, const ProgramOptions& options = {});
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
   bool isRunning();
-  /// Whether it has that file open now.
+  /// Whether the program has that file open now.
   bool hasOpen(const std::string& path) const;
-  /// Sends it a signal, unless it has ended.
+  /// Sends the program a signal, unless it has ended.
   void send(int signal);
-  /// Waits for its end; the same answer every time.
+  /// Waits for the end of the program. May be called again, with the same result.
   Ended wait();
 
  private:
-  void kill();  ///< and all that it started
+  void kill();  ///< kills the program and all processes that it started
   bool reap(bool block);
   double secondsSinceStart() const;
 
@@ -55,10 +55,10 @@ class Program {
   Ended ended_;
 };
 
-/// Starts it and waits for its end.
+/// Starts a program and waits for its end.
 Ended runProgram(const std::vector<std::string>& argv, const ProgramOptions& options = {});
 
-/// Path of a program of the project, such as "omnimapper-graphslam": it lies beside the test.
+/// Path of a program of the project, such as "omnimapper-graphslam", which is in the folder of the test.
 std::string ownProgram(const std::string& name);
 
 }  // namespace omnimapper::testing

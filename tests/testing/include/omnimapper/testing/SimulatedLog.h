@@ -14,13 +14,13 @@
 
 namespace omnimapper::testing {
 
-/// Seeded random numbers that are the same with every standard library.
+/// Random numbers from a seed, which are the same with every standard library.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  /// Even in [low, high).
+  /// Uniformly distributed in [low, high).
   double uniform(double low, double high);
-  /// Normal of mean 0.
+  /// Normally distributed with mean 0.
   double normal(double sigma);
 
  private:
@@ -32,22 +32,22 @@ struct SimulatedLaser {
   mrpt::poses::CPose3D base_from_sensor{0.2, 0, 0.3, 0, 0, 0};
   int beams = 181;
   double aperture = 3.14159265358979323846;  ///< [rad]
-  double max_range = 12;                     ///< [m]; a beam that meets nothing nearer is invalid
+  double max_range = 12;                     ///< [m] a beam without a hit within this range is invalid
   double sigma = 0.01;                       ///< [m]
   double rate = 10;                          ///< [1/s]
-  double phase = 0.013;                      ///< [s] of the first scan after the start of the log
+  double phase = 0.013;                      ///< [s] from the start of the log to the first scan
   double sweep = 0;                          ///< [s] from the first beam, which has the stamp, to the last
 };
 
-/// An antenna, as CObservationGPS with a GGA message. Altitudes are exact.
+/// A GPS antenna, as CObservationGPS with a GGA message. Altitudes are exact.
 struct SimulatedGps {
   bool on = false;
   double rate = 1, phase = 0.113;                      ///< [1/s] [s]
-  double sigma = 0.02;                                 ///< [m] east and north
+  double sigma = 0.02;                                 ///< [m] of east and of north
   int quality = 4;                                     ///< of the fix: 1 plain, 4 RTK fixed, 5 RTK float
   mrpt::poses::CPose3D antenna{0.3, 0.1, 1, 0, 0, 0};  ///< base_from_antenna
   mrpt::poses::CPose3D enu_from_map{40, -25, 0, 0.7, 0, 0};
-  double latitude = 36.7, longitude = -4.5, altitude = 50;  ///< [deg] [deg] [m] origin of enu
+  double latitude = 36.7, longitude = -4.5, altitude = 50;  ///< [deg] [deg] [m] origin of the enu frame
 };
 
 /// Motion capture, as CObservationRobotPose.
@@ -62,10 +62,10 @@ struct SimulatedTracker {
 struct SimulatedLogOptions {
   enum class Place { ring, box };
   Place place = Place::ring;
-  double laps = 1;                          ///< rounds of the tour, which starts and ends at the origin
-  double speed = 0.7;                       ///< [m/s]; the first and last second are for the ramps
+  double laps = 1;                          ///< number of rounds, which start and end at the origin
+  double speed = 0.7;                       ///< [m/s] reached and left within the first and last second
   double odometry_rate = 20;                ///< [1/s]
-  double way_scale = 1.01;                  ///< measured over true
+  double travel_scale = 1.01;               ///< measured over true distance
   double yaw_drift_per_m = 0.003;           ///< [rad/m]
   double position_noise_per_root_m = 0.01;  ///< [m]
   double yaw_noise_per_root_turn = 0.02;    ///< [rad]
@@ -76,10 +76,10 @@ struct SimulatedLogOptions {
   std::uint64_t seed = 1;
 };
 
-/// The simulated twin of the real logs: a robot drives round a floor plan without stopping and records its odometry
-/// ("odometry"), lasers, and where switched on GPS ("gps"), motion capture ("tracker") and measurements of beacons
-/// ("beacons"). The same options give the same bits; each sensor has random numbers of its own. The map's frame is the
-/// base at the start.
+/// The simulated counterpart of real logs: a robot drives round a floor plan without stopping and records its odometry
+/// ("odometry"), lasers, and optionally GPS ("gps"), motion capture ("tracker") and measurements of beacons
+/// ("beacons"). The same options give the same bits. The random numbers of each sensor are independent of the other
+/// sensors. The frame of the map is the base at the start.
 class SimulatedLog {
  public:
   explicit SimulatedLog(const SimulatedLogOptions& options = {});
@@ -89,17 +89,17 @@ class SimulatedLog {
   const FloorPlan& plan() const { return plan_; }
   base::Stamp begin() const { return begin_; }
   base::Stamp end() const { return begin_ + base::durationFromSeconds(duration_); }
-  /// Way of one lap [m].
+  /// Length of one lap [m].
   double lapLength() const { return 2 * (straight_x_ + straight_y_) + 4 * corner_; }
-  /// map_from_base; outside the log that of its start or end.
+  /// True map_from_base; before and after the log that of its start and end.
   mrpt::poses::CPose2D truthAt(base::Stamp stamp) const;
-  /// All of them in order of stamp; each call makes new ones.
+  /// All observations in the order of their stamps. Each call makes new objects.
   std::vector<mrpt::obs::CObservation::Ptr> observations() const;
 
-  /// gzip. `actions_and_frames`: whatever is no odometry is a sensory frame of its own, after an action with the
-  /// odometry since the frame before; both with stamps.
+  /// Writes a rawlog, compressed by gzip. `actions_and_frames`: each observation other than odometry is a sensory
+  /// frame, after an action with the odometry since the frame before. Both have stamps.
   void writeRawlog(const std::string& path, Format format = Format::observations) const;
-  /// TUM lines of the truth at the stamps of all observations.
+  /// Writes the true poses at the stamps of all observations in TUM format.
   void writeTruthTum(const std::string& path) const;
 
  private:
@@ -107,7 +107,7 @@ class SimulatedLog {
     base::Stamp stamp;
     mrpt::poses::CPose2D odom_from_base;
   };
-  mrpt::poses::CPose2D poseAfter(double way) const;
+  mrpt::poses::CPose2D poseAfter(double travel) const;
   std::vector<Odometry> odometry() const;
   mrpt::obs::CObservation::Ptr scan(const SimulatedLaser& laser, base::Stamp stamp, Dice& dice) const;
   mrpt::obs::CObservation::Ptr fix(base::Stamp stamp, Dice& dice) const;

@@ -5,8 +5,8 @@
 
 namespace omnimapper::testing {
 
-/// What the programs do when they start, for tests and benchmarks that map in their own process and link
-/// omnimapper::export.
+/// Registers plugins and classes as the programs do at their start, for tests and benchmarks that map in their own
+/// process and link omnimapper::export.
 inline void registerPlugins() {
   exports::registerOutputs();
   mapper::loadFeatures();

@@ -1,4 +1,4 @@
-#include "Trials.h"
+#include "FuzzedRuns.h"
 
 #include <mrpt/img/CImage.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -32,10 +32,10 @@ void write(const fs::path& path, const std::string& bytes) {
 
 void expectWell(const std::vector<std::string>& command) {
   const auto ended = testing::runProgram(command);
-  if (ended.code != 0) throw std::runtime_error(command.front() + " on what is sound " + toString(ended));
+  if (ended.code != 0) throw std::runtime_error(command.front() + " with valid input " + toString(ended));
 }
 
-// Three depth images of a slope with their colours, as TUM has them.
+// Writes three depth images of a slope and their colour images, in the layout of the TUM benchmark.
 void writeImages(const fs::path& folder) {
   constexpr int kWidth = 160, kHeight = 120;
   std::string depths, colours, poses;
@@ -112,7 +112,7 @@ void mutateFile(const fs::path& file, Dice& dice) {
 
 }  // namespace
 
-Trials::Trials(Wrong wrong, const std::string& programs, const std::string& scratch)
+FuzzedRuns::FuzzedRuns(Wrong wrong, const std::string& programs, const std::string& scratch)
     : wrong_(wrong), programs_(programs), scratch_(scratch), scenes_(scenes(programs, scratch)) {
   for (const auto& scene : scenes_) {
     logs_.push_back(scratch_ + "/" + std::to_string(logs_.size()) + ".rawlog");
@@ -131,12 +131,13 @@ Trials::Trials(Wrong wrong, const std::string& programs, const std::string& scra
               "--poses", "--images", "external", "--intrinsics", scratch_ + "/images/camera.txt"});
 }
 
-std::vector<std::string> Trials::command(const Scene& scene, const std::string& log, const std::string& folder) const {
+std::vector<std::string> FuzzedRuns::command(const Scene& scene, const std::string& log,
+                                             const std::string& folder) const {
   const bool perceives = scene.program == "omnimapper-perceive";
   return {programs_ + "/" + scene.program, "-i", scene.ini, "-r", log, "-o", perceives ? folder + ".rawlog" : folder};
 }
 
-Trial Trials::make(std::uint64_t number, const std::string& folder) const {
+FuzzedRun FuzzedRuns::make(std::uint64_t number, const std::string& folder) const {
   fs::remove_all(folder);
   fs::create_directories(folder);
   Dice dice(number);
@@ -153,7 +154,7 @@ Trial Trials::make(std::uint64_t number, const std::string& folder) const {
   return ofFolder(dice, folder);
 }
 
-Trial Trials::ofLog(Dice& dice, const std::string& folder) const {
+FuzzedRun FuzzedRuns::ofLog(Dice& dice, const std::string& folder) const {
   const auto& scene = scenes_[below(dice, scenes_.size())];
   const std::string log = folder + "/log.rawlog";
   write(log, mutatedLog(scene.log, dice));
@@ -161,7 +162,7 @@ Trial Trials::ofLog(Dice& dice, const std::string& folder) const {
   return {scene.name, command(scene, log, folder + "/out")};
 }
 
-Trial Trials::ofMap(Dice& dice, const std::string& folder) const {
+FuzzedRun FuzzedRuns::ofMap(Dice& dice, const std::string& folder) const {
   const auto& made = maps_[below(dice, maps_.size())];
   const std::string file = folder + "/map.omnimap";
   mutatedMap(made.map, maps_[below(dice, maps_.size())].map, dice).write(file);
@@ -171,7 +172,7 @@ Trial Trials::ofMap(Dice& dice, const std::string& folder) const {
   return {scene.name, words};
 }
 
-Trial Trials::ofIni(Dice& dice, const std::string& folder) const {
+FuzzedRun FuzzedRuns::ofIni(Dice& dice, const std::string& folder) const {
   const std::size_t chosen = below(dice, scenes_.size());
   auto scene = scenes_[chosen];
   const auto keys = keysOf(scene.ini);
@@ -189,7 +190,7 @@ Trial Trials::ofIni(Dice& dice, const std::string& folder) const {
   return {scene.name, words};
 }
 
-Trial Trials::ofFolder(Dice& dice, const std::string& folder) const {
+FuzzedRun FuzzedRuns::ofFolder(Dice& dice, const std::string& folder) const {
   const char* const kinds[] = {"images", "clouds", "carmen", "external"};
   const std::string kind = kinds[below(dice, std::size(kinds))], input = folder + "/" + kind;
   fs::copy(scratch_ + "/" + kind, input, fs::copy_options::recursive);
@@ -211,7 +212,7 @@ std::optional<std::string> complaint(const testing::Ended& ended, const Bounds& 
   const bool is_documented = ended.code == 0 || (ended.code >= 2 && ended.code <= 19);
   if (!is_documented) return "exit code " + std::to_string(ended.code);
   if (ended.peak_mib > bounds.mib) return "took " + std::to_string(ended.peak_mib) + " MiB";
-  if (ended.code != 0 && ended.err.empty() && ended.out.empty()) return std::string("failed without a word");
+  if (ended.code != 0 && ended.err.empty() && ended.out.empty()) return std::string("failed without a message");
   for (const auto* said : {&ended.out, &ended.err}) {
     if (said->find('\x1b') != std::string::npos) return std::string("wrote escape codes");
   }
