@@ -19,7 +19,7 @@ TEST(ChildProcess, WhatTheWorkChangesStaysInTheChild) {
   EXPECT_EQ(number, 1);
 }
 
-TEST(ChildProcess, TellsHowTheWorkEnded) {
+TEST(ChildProcess, ReportsHowTheWorkEnded) {
   const auto thrown = tryInChild([] { throw std::runtime_error("a reason"); }, kMemory);
   EXPECT_EQ(thrown.how, ChildOutcome::How::threw);
   EXPECT_EQ(thrown.message, "a reason");

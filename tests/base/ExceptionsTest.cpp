@@ -8,7 +8,7 @@ namespace {
 
 using omnimapper::base::sentenceOf;
 
-TEST(Exceptions, OfMrptTellTheirSentenceAlone) {
+TEST(Exceptions, OfMrptAreGivenAsTheirSentenceAlone) {
   const std::runtime_error mrpt(
       "==== MRPT exception ====\nMessage:  Cannot write to the file\nLocation: a.cpp:12: [write]\nCall stack: ...");
   EXPECT_EQ(sentenceOf(mrpt), "Cannot write to the file");
@@ -18,7 +18,7 @@ TEST(Exceptions, OfMrptTellTheirSentenceAlone) {
   EXPECT_EQ(sentenceOf(std::runtime_error("Message:   ")), "Message:   ");
 }
 
-TEST(Exceptions, OfOthersTellAll) {
+TEST(Exceptions, OfOthersAreGivenAsAWhole) {
   EXPECT_EQ(sentenceOf(std::runtime_error("no such place\nat all")), "no such place\nat all");
   EXPECT_EQ(sentenceOf(std::runtime_error("")), "");
 }

@@ -14,7 +14,7 @@ TEST(Id, OrdersBySessionThenIndexWhichIsTheOrderOfCommit) {
   for (const auto& [id, position] : by_id) EXPECT_EQ(position, expected++) << id;
 }
 
-TEST(Id, TellsSessionsAndIndicesApartInHashTablesToo) {
+TEST(Id, DistinguishesSessionsAndIndicesInHashTablesToo) {
   std::unordered_set<KeyFrameId> ids{{0, 1}, {1, 0}, {1, 1}, {0, 0}};
   EXPECT_EQ(ids.size(), 4u);
   EXPECT_EQ(ids.count({1, 0}), 1u);

@@ -47,7 +47,7 @@ std::unique_ptr<BadValue> set(Options& options, const std::string& key, const st
   return Options::table().set(options, indexOf(key), text);
 }
 
-TEST(OptionTable, TellsKeyTypeDefaultAndRangeAsAUserWritesThem) {
+TEST(OptionTable, PrintsKeyTypeDefaultAndRangeAsAUserWritesThem) {
   const auto& specs = Options::table().specs();
   const std::vector<std::vector<std::string>> expected = {
       {"distance_m", "number", "0.5", "> 0"},     {"angle_deg", "number", "30", "[0, 180]"},

@@ -28,13 +28,13 @@ struct FoundSign {
 /// The truth of a place with door signs by omnimapper-simulate, and which of these signs a perceived log has found.
 class SignTruth {
  public:
-  using Seen = std::map<base::Stamp, std::vector<FoundSign>>;
+  using FoundSigns = std::map<base::Stamp, std::vector<FoundSign>>;
 
   std::vector<std::string> names;  ///< names of signs, then of posters
   std::size_t signs = 0;           ///< the first `signs` of the names are those of signs
   int repeated = 0;                ///< number of signs whose text another sign has too
   eval::Trajectory trajectory;     ///< of the base in the world
-  Seen found;
+  FoundSigns found;
   std::size_t of_signs = 0, of_posters = 0, elsewhere = 0;  ///< number of detections of each
   base::Stamp first, last;                                  ///< of the perceived log
 

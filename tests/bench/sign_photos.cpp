@@ -163,7 +163,7 @@ cv::Mat blackInTheMiddle(const cv::Mat& picture, bool is_row) {
   return result;
 }
 
-// Words with digits that were read with a high confidence but are not in the photograph as a whole.
+// Texts with digits that were read with a high confidence but are not in the photograph as a whole.
 std::string wrongAndSure(const std::vector<ObservedDoorSign>& signs, const Photo& photo) {
   std::string label = photo.number + " " + photo.others;
   std::replace(label.begin(), label.end(), '_', ' ');

@@ -49,7 +49,7 @@ TEST(Views, ShowTheFloorOfASimulatedHomeWhereItIs) {
   EXPECT_GT(read.views.size(), 4U) << "not thinned by more than half";
   const auto agreement = judgeByViews({}, read.views);
   ASSERT_FALSE(agreement.levels.empty());
-  const auto& floor = agreement.seen[agreement.levels.front().seen_surface].surface;
+  const auto& floor = agreement.seen[agreement.levels.front().merged_surface].surface;
   EXPECT_NEAR(floor.plane.normal.z(), 1, 1e-3);
   EXPECT_NEAR(floor.plane.distance, 0, 0.02);
   EXPECT_GT(agreement.points, 1000U);

@@ -182,7 +182,7 @@ TEST(GeoJsonOutput, aPlaceWhoseVariableIsGoneIsNone) {
   EXPECT_EQ(featureOf(floorPlanOf(run.view()), "0:1")["geometry"]["coordinates"][0][0], 3);
 }
 
-TEST(GeoJsonOutput, theGpsPluginTellsThePlace) {
+TEST(GeoJsonOutput, theGpsPluginGivesThePlace) {
   omnimapper::testing::SimulatedLogOptions options;
   options.lasers.clear();
   options.gps.on = true;

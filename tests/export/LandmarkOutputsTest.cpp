@@ -196,7 +196,7 @@ class LandmarkReport : public ::testing::Test {
   std::string html_;
 };
 
-TEST_F(LandmarkReport, theTableTellsWhatEachIsAndWhoSawIt) {
+TEST_F(LandmarkReport, theTableStatesWhatEachIsAndWhichSensorsMeasuredIt) {
   const std::string landmarks = between("id=\"landmarks\"", "</table>");
   EXPECT_NE(landmarks.find("kinect 3, laser 9</td><td class=\"num\">0.0</td><td class=\"num\">2.0</td>"),
             std::string::npos)

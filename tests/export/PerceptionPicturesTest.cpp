@@ -117,7 +117,7 @@ int inkIn(const draw::Image& picture, const mrpt::img::TColor& colour) {
   return count;
 }
 
-TEST_F(PerceptionPicturesTest, aLegendTellsWhatColoursMeanWhereThereIsRoom) {
+TEST_F(PerceptionPicturesTest, aLegendExplainsTheColoursWhereThereIsRoom) {
   const auto scan = depthsAt(1);
   EXPECT_FALSE(inkIn(drawCameraPicture(*scan, {plane()}), {255, 255, 255})) << "100 px are too few";
   scan->rangeImage_setSize(480, 640);

@@ -118,7 +118,7 @@ TEST(Report, thePictureOfTheMapShowsWallsTrackAndClosureWhereTheyAre) {
   EXPECT_GT(closure.g, closure.r + 60);
 }
 
-TEST(Report, closuresTellTheirReasons) {
+TEST(Report, closuresStateTheirReasons) {
   const std::string html = reportOf(boxRun());
   const std::size_t refused = html.find("<g class=\"refused\">"), accepted = html.find("<g class=\"accepted\">");
   ASSERT_LT(refused, accepted);

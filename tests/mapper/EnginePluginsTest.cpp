@@ -242,7 +242,7 @@ TEST_F(EnginePlugins, AnExtractorThatFailsIsReportedAndTheRunGoesOn) {
   EXPECT_EQ(view.map.key_frames.size(), 3U);
   EXPECT_EQ(engine_->extractionErrors().code(), base::ExitCode::damaged_input);
   ASSERT_EQ(view.warnings.size(), 1U);
-  for (const auto& word : {std::string("1 times"), base::formatUnix(at(1), 6), std::string("cannot make sense")})
+  for (const auto& word : {std::string("1 observation"), base::formatUnix(at(1), 6), std::string("cannot make sense")})
     EXPECT_NE(view.warnings[0].find(word), std::string::npos) << word << ": " << view.warnings[0];
 }
 

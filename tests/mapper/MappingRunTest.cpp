@@ -75,7 +75,7 @@ TEST_F(MappingRun, FactorsAreOneLinkBetweenNeighboursAndTheClosures) {
   EXPECT_EQ(result.factors, result.key_frames - 1 + result.closures);
 }
 
-TEST_F(MappingRun, OfATiltedLaserTheUserIsToldThatItsOdometryIsLeftToTheWheels) {
+TEST_F(MappingRun, OfATiltedLaserAWarningSaysThatOdometryIsLeftToTheWheels) {
   auto options = boxLap();
   options.lasers.front().base_from_sensor = mrpt::poses::CPose3D(0.2, 0, 0.3, 0, 0.5, 0);
   SimulatedLog(options).writeRawlog(path_);

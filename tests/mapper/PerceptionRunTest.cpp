@@ -94,7 +94,7 @@ TEST_F(PerceptionRunTest, AScanWithoutAPictureIsLeftOutAndSaid) {
   planes_ = "comparator = plane_colour\n";
   writeRaw({withoutPicture(wallAt(1)), wallAt(2), withoutPicture(wallAt(3)), wallAt(4)});
   const auto result = run({raw_}, derived_);
-  expectWarning(result, ExitCode::damaged_input, {"2 times", "kinect", "comparator = plane does without"});
+  expectWarning(result, ExitCode::damaged_input, {"2 observations", "kinect", "comparator = plane does without"});
   EXPECT_EQ(labelsOf(derived_), std::vector<std::string>(2, "kinect.planes"));
   EXPECT_EQ(result.extractors[0].taken, 2U);
   EXPECT_EQ(result.extractors[0].failed, 2U);
@@ -103,7 +103,7 @@ TEST_F(PerceptionRunTest, AScanWithoutAPictureIsLeftOutAndSaid) {
 
 TEST_F(PerceptionRunTest, AScanOfNoCalibrationIsLeftOutAndStaysInTheLog) {
   writeRaw({wallAt(1), withoutFocalLength(wallAt(2))});
-  expectWarning(run({raw_}, derived_, true), ExitCode::damaged_input, {"1 times", "kinect", "calibrate"});
+  expectWarning(run({raw_}, derived_, true), ExitCode::damaged_input, {"1 observation", "kinect", "calibrate"});
   EXPECT_EQ(labelsOf(derived_), (std::vector<std::string>{"kinect", "kinect.planes", "kinect"}));
 }
 

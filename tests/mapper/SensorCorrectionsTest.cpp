@@ -70,7 +70,7 @@ TEST(SensorCorrections, OneForTheRunFindsHowTheSensorIsMounted) {
   EXPECT_LT(worstBeacon(engine->view(), log, options), 0.3);
 }
 
-TEST(SensorCorrections, TakenAsToldTheSameErrorBendsTheMap) {
+TEST(SensorCorrections, TakenAsGivenTheSameErrorDistortsTheMap) {
   const auto options = panTilt();
   const SimulatedLog log(options);
   const auto engine = testing::makeEngine(kBeaconIni, {"beacons.confidence=1"});

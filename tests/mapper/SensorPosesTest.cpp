@@ -48,7 +48,7 @@ TEST(SensorPoses, AStaticPoseHoldsAtAnyTimeForItsLabelOnly) {
   EXPECT_FALSE(poses.find("other", base::stampFromUnix(1e9)));
 }
 
-TEST(SensorPoses, AnApertureIsToldOrLeftAsTheScanHasIt) {
+TEST(SensorPoses, AnApertureIsGivenOrLeftAsTheScanHasIt) {
   auto scan = mrpt::obs::CObservation2DRangeScan::Create();
   scan->sensorLabel = "laser";
   scan->aperture = 1.5F;

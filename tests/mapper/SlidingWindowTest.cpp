@@ -79,7 +79,7 @@ class Session {
 
 const base::Stamp kLater = base::stampFromUnix(2e9);
 
-TEST(SlidingWindow, RetiredKeyFramesLeaveWhatTheyToldAndNoMore) {
+TEST(SlidingWindow, RetiredKeyFramesLeaveTheirInformationAndNoMore) {
   Session whole, windowed;
   for (int i = 0; i < 12; ++i) {
     whole.drive(1);

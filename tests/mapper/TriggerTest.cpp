@@ -98,7 +98,7 @@ TEST(Trigger, EachLabelHasItsOwnState) {
   EXPECT_TRUE(trigger.fires("rear", at(4), motion)) << "0.5 m since its own key frame";
 }
 
-TEST(Trigger, WhereNoOdometryTellsTheMotionTimeFiresUntilItIsBack) {
+TEST(Trigger, WhereNoOdometryMeasuresTheMotionTimeFiresUntilItIsBack) {
   matching::PoseTimeline timeline;  // no motion between 2 s and 6 s
   timeline.insert(at(0), at(2), matching::identityMotion());
   timeline.insert(at(6), at(20), matching::identityMotion());

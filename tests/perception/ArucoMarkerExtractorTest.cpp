@@ -98,7 +98,7 @@ void expectPlaced(const CObservationBearingRange& found) {
   }
 }
 
-TEST(ArucoMarkerExtractor, TellsWhereMarkersAreInColourAndGrey) {
+TEST(ArucoMarkerExtractor, FindsWhereMarkersAreInColourAndGrey) {
   for (const bool colour : {false, true}) {
     const auto found = ArucoMarkerExtractor(options()).markersIn(picture(kPlaced, colour));
     expectPlaced(*found);

@@ -136,7 +136,7 @@ TEST(ColourCamera, opencvFindsMarkersWhereTruthHasThem) {
   }
 }
 
-TEST(ColourCamera, signsTellTheirTextAndWhatHidesThem) {
+TEST(ColourCamera, signsReportTheirTextAndWhatHidesThem) {
   CameraFixture fixture;
   Eigen::Matrix3d axes;
   axes << 0, 0, -1, -1, 0, 0, 0, 1, 0;
@@ -175,7 +175,7 @@ TEST(ColourCamera, theViewOfAPictureIsTheTruthOfIt) {
   }
 }
 
-TEST(ColourCamera, sweepsAndTellsItsAnglesWithNoiseAndBias) {
+TEST(ColourCamera, sweepsAndReportsItsAnglesWithNoiseAndBias) {
   CameraFixture fixture;
   fixture.addBoard("wall", 2, 0, 0, 9, 9);
   const auto camera = fixture.make(
@@ -212,7 +212,7 @@ TEST(ColourCamera, turningBlursAcrossAndNotDown) {
   EXPECT_GT(contrast(blurred->image, 0, 4), 0.75 * contrast(sharp->image, 0, 4));
 }
 
-TEST(ColourCamera, gainBrightensCornersDarkenNoiseIsAsTold) {
+TEST(ColourCamera, gainBrightensCornersDarkenNoiseIsAsSet) {
   CameraFixture fixture;
   fixture.addBoard("wall", 2, 0, 0, 20, 20);
   const auto image = [&](const std::string& ini) {

@@ -70,7 +70,7 @@ TEST(RgbdCamera, mrptProjectsItsPointsOntoTheTrueWall) {
   }
 }
 
-TEST(RgbdCamera, noModelTellsDepthsOutOfItsRange) {
+TEST(RgbdCamera, noModelReportsDepthsOutOfItsRange) {
   for (const std::string model : {"ideal", "kinect", "stereo"}) {
     CameraFixture fixture;
     fixture.addFacing("near", sim::SurfaceKind::wall, turnedAt(1, 0, 0, 0), 0.2, 4);

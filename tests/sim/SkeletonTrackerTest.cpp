@@ -141,7 +141,7 @@ TEST(SkeletonTracker, jointsAreInTheOpticalFrameInMetres) {
   EXPECT_EQ(truth.count("pointing"), 0u);
 }
 
-TEST(SkeletonTracker, truthTellsTheTargetWhileThePersonPoints) {
+TEST(SkeletonTracker, truthNamesTheTargetWhileThePersonPoints) {
   const SensorRun run(pointing(2, false), sim::Track(at(0, 0, 1.2)), "class = SkeletonTracker\nrate_hz = 2", 8);
   const auto truth = nlohmann::json::parse(run.truth(3));
   EXPECT_EQ(truth["pointing"]["arm"], "left");
@@ -167,7 +167,7 @@ TEST(SkeletonTracker, noiseAndBiasAreAsAsked) {
   EXPECT_NEAR(std::sqrt(noise.mean()), 0.01, 0.001);
 }
 
-TEST(SkeletonTracker, onlyTheNearestWhoCanBeSeenIsTold) {
+TEST(SkeletonTracker, onlyTheNearestWhoCanBeSeenIsReported) {
   const auto reportedPerson = [](const std::vector<sim::PersonSpec>& people, double wall_x) -> std::string {
     sim::World world;
     for (const auto& spec : people) add(world, spec);

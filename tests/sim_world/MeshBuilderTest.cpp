@@ -117,7 +117,7 @@ TEST(MeshBuilder, shapesHaveTheAreaAndVolumeOfTheirFormulas) {
   EXPECT_NEAR(areaOf(sphere), 4 * M_PI * 4, 0.1);
 }
 
-TEST(MeshBuilder, aPlaneTellsItsTruthInTheBody) {
+TEST(MeshBuilder, aPlaneReportsItsTruthInTheBody) {
   MeshBuilder builder("wall");
   builder.at({Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ())), {5, 0, 0}});
   // In the part a wall of 4 x 3 m is along x and faces -y; in the body it is along y at x = 5 and faces +x.

@@ -20,11 +20,11 @@ namespace fs = std::filesystem;
 using omnimapper::base::ExitCode;
 using omnimapper::testing::Ended;
 using omnimapper::testing::ProgramOptions;
-using Words = std::vector<std::string>;
+using Texts = std::vector<std::string>;
 
 /// The command line that maps the logs with ini/laser2d.ini.
-inline Words mappingCommand(const Words& logs, const std::string& output_folder, const Words& more = {}) {
-  Words words{omnimapper::testing::ownProgram("omnimapper-graphslam"), "-i",
+inline Texts mappingCommand(const Texts& logs, const std::string& output_folder, const Texts& more = {}) {
+  Texts words{omnimapper::testing::ownProgram("omnimapper-graphslam"), "-i",
               omnimapper::testing::sourceFile("ini/laser2d.ini")};
   for (const auto& log : logs) words.insert(words.end(), {"-r", log});
   words.insert(words.end(), {"-o", output_folder});
@@ -32,13 +32,13 @@ inline Words mappingCommand(const Words& logs, const std::string& output_folder,
   return words;
 }
 
-inline Ended map(const Words& logs, const std::string& output_folder, const Words& more = {},
+inline Ended map(const Texts& logs, const std::string& output_folder, const Texts& more = {},
                  const ProgramOptions& options = {}) {
   return omnimapper::testing::runProgram(mappingCommand(logs, output_folder, more), options);
 }
 
-inline Ended graphslam(const Words& arguments) {
-  Words words{omnimapper::testing::ownProgram("omnimapper-graphslam")};
+inline Ended graphslam(const Texts& arguments) {
+  Texts words{omnimapper::testing::ownProgram("omnimapper-graphslam")};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return omnimapper::testing::runProgram(words);
 }
@@ -48,7 +48,7 @@ inline int number(ExitCode code) {
 }
 
 /// Whether the program ended by itself with that code and printed all of the words to standard error.
-inline ::testing::AssertionResult endedWith(ExitCode code, const Ended& ended, const Words& words = {}) {
+inline ::testing::AssertionResult endedWith(ExitCode code, const Ended& ended, const Texts& words = {}) {
   if (ended.code != number(code)) {
     return ::testing::AssertionFailure() << "expected code " << number(code) << ", but it " << toString(ended);
   }

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "SeenSurfaces.h"
+#include "MergedSurfaces.h"
 
 namespace omnimapper::eval {
 
@@ -39,7 +39,7 @@ class ViewJudge {
     }
     for (std::size_t v = 0; v < views.size(); ++v) {
       for (std::size_t p = 0; p < views[v].planes.size(); ++p) {
-        ViewPlane plane{v, p, CoveredSurface::bySeen(views[v].planes[p].surface, options.same.cell)};
+        PlaneCells plane{v, p, CoveredSurface::bySeen(views[v].planes[p].surface, options.same.cell)};
         if (plane.covered.cells.area() >= options.min_plane) planes_.push_back(std::move(plane));
       }
     }
@@ -106,7 +106,7 @@ class ViewJudge {
   std::optional<std::pair<std::size_t, std::size_t>> twoThatAgree(const std::vector<std::size_t>& planes) const {
     for (std::size_t i = 0; i < planes.size(); ++i) {
       for (std::size_t j = i + 1; j < planes.size(); ++j) {
-        const ViewPlane &a = planes_[planes[i]], &b = planes_[planes[j]];
+        const PlaneCells &a = planes_[planes[i]], &b = planes_[planes[j]];
         if (a.view != b.view && areSame(a.covered, b.covered, options_.same)) return std::pair(planes[i], planes[j]);
       }
     }
@@ -125,7 +125,7 @@ class ViewJudge {
     forEachSetCell(cells, [&](const Eigen::Vector3d& middle, CellGrid::Cell) { box.extend(middle); });
     return box;
   }
-  void addArea(SeenSurface& seen, ViewAgreement& agreement) const {
+  void addArea(MergedSurface& seen, ViewAgreement& agreement) const {
     const CellGrid& cells = *seen.surface.seen;
     const auto on = near(seen.surface.plane, boxOf(cells));
     const auto is_covered = [&](const Eigen::Vector3d& point) {
@@ -142,9 +142,9 @@ class ViewJudge {
     });
   }
 
-  LevelPieces piecesOf(std::size_t seen_surface, const SeenSurface& level) const {
+  LevelPieces piecesOf(std::size_t merged_surface, const MergedSurface& level) const {
     LevelPieces pieces;
-    pieces.seen_surface = seen_surface;
+    pieces.merged_surface = merged_surface;
     const CellGrid& cells = *level.surface.seen;
     pieces.area = cells.area();
     double heights = 0;
@@ -166,8 +166,8 @@ class ViewJudge {
 
   void addDistances(ViewAgreement& agreement) const {
     std::vector<double> distances;
-    for (const ViewPlane& plane : planes_) {
-      const SeenPlane& seen = views_[plane.view].planes[plane.plane];
+    for (const PlaneCells& plane : planes_) {
+      const ViewPlane& seen = views_[plane.view].planes[plane.plane];
       const auto on = near(seen.surface.plane, plane.covered.box);
       agreement.points += seen.points.size();
       for (const auto& point : seen.points) {
@@ -186,7 +186,7 @@ class ViewJudge {
   const std::vector<View>& views_;
   std::vector<CoveredSurface> drawn_;
   std::vector<std::size_t> index_;  // of each drawn surface in the map's set
-  std::vector<ViewPlane> planes_;
+  std::vector<PlaneCells> planes_;
 };
 
 }  // namespace

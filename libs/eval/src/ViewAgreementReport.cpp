@@ -18,7 +18,7 @@ std::string metres(double value) {
   return base::fixed(value, 4) + " m";
 }
 
-std::string areaLine(const std::string& name, const SeenArea& area) {
+std::string areaLine(const std::string& name, const AreaCoverage& area) {
   return line(name, percent(area.covered, area.seen), "of " + base::fixed(area.seen, 1) + " m^2");
 }
 

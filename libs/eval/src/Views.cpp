@@ -31,15 +31,15 @@ class PosedImage {
   PosedImage(const perception::DepthImage& image, const Se3& world_from_optical, const ViewOptions& options)
       : image_(image), world_from_optical_(world_from_optical), options_(options) {}
 
-  std::vector<SeenPlane> planes(const perception::PlaneSegmentation& found) const {
-    std::vector<SeenPlane> planes;
+  std::vector<ViewPlane> planes(const perception::PlaneSegmentation& found) const {
+    std::vector<ViewPlane> planes;
     for (const auto& region : found.planes) planes.push_back(planeOf(region));
     for (int y = 0; y < found.height; y += options_.pixels_of_point) {
       for (int x = 0; x < found.width; x += options_.pixels_of_point) {
         const std::uint16_t label = found.labels[static_cast<std::size_t>(y) * static_cast<std::size_t>(found.width) +
                                                  static_cast<std::size_t>(x)];
         if (label == 0) continue;
-        SeenPlane& plane = planes[label - 1U];
+        ViewPlane& plane = planes[label - 1U];
         const Eigen::Vector3d point = world_from_optical_ * pointAt(x, y);
         if (counts(plane.surface.plane, point)) plane.points.push_back(point);
       }
@@ -61,8 +61,8 @@ class PosedImage {
     const double range = to_camera.norm();
     return range <= options_.max_range && plane.normal.dot(to_camera) >= std::cos(options_.max_slant) * range;
   }
-  SeenPlane planeOf(const perception::PlaneRegion& region) const {
-    SeenPlane seen;
+  ViewPlane planeOf(const perception::PlaneRegion& region) const {
+    ViewPlane seen;
     surfaces::Surface& surface = seen.surface;
     surface.name = "a plane of an image";
     surface.plane = world_from_optical_ * region.plane_in_sensor;

@@ -1,5 +1,6 @@
 #include "ExtractionErrors.h"
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/Stamp.h>
 
 namespace omnimapper::mapper {
@@ -20,8 +21,8 @@ void ExtractionErrors::add(const ExtractionErrors& later) {
 
 std::string ExtractionErrors::sentence() const {
   if (count_ == 0) return "";
-  return std::to_string(count_) + "  times an extractor could not process an observation; the first is of " +
-         first_of_ + ": " + first_->what();
+  return "an extractor could not process " + base::counted(count_, "observation") + "; the first is of " + first_of_ +
+         ": " + first_->what();
 }
 
 base::ExitCode ExtractionErrors::code() const {

@@ -121,8 +121,9 @@ bool WheelOdometry::isImpossible(const mrpt::poses::CPose3D& motion, double seco
 
 std::vector<std::string> WheelOdometry::warnings() const {
   if (impossible_ == 0) return {};
-  return {std::to_string(impossible_) + " times the odometry leaps, by up to " + base::brief(farthest_) +
-          " m, farther than any vehicle drives in the time: these motions are left out. Cut the log there ([source] " +
+  return {"the odometry leaps " + base::counted(impossible_, "time") + ", by up to " + base::brief(farthest_) +
+          " m, which is farther than a vehicle drives in that time; these motions are left out. Cut the log there "
+          "([source] " +
           "start_s, end_s), or measure the motion with another sensor"};
 }
 

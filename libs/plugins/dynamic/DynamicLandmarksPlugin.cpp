@@ -156,8 +156,8 @@ class MovedLandmarkSearch {
     }
   }
 
-  void judge(const WeighedLandmark& landmark, std::vector<SeenPlace> places, graph::Graph& graph) {
-    const auto enough = [&](const SeenPlace& place) {
+  void judge(const WeighedLandmark& landmark, std::vector<MeasuredPlace> places, graph::Graph& graph) {
+    const auto enough = [&](const MeasuredPlace& place) {
       return place.measurements.size() >= static_cast<std::size_t>(options_.min_measurements);
     };
     places.erase(std::remove_if(places.begin(), places.end(), [&](const auto& place) { return !enough(place); }),
@@ -193,13 +193,13 @@ class MovedLandmarkSearch {
     batch_.retireLandmark(landmark.id);
   }
 
-  void addRecord(const WeighedLandmark& landmark, const std::vector<SeenPlace>& places, const MeasurementFrames& frames,
-                 const graph::Graph& graph) {
+  void addRecord(const WeighedLandmark& landmark, const std::vector<MeasuredPlace>& places,
+                 const MeasurementFrames& frames, const graph::Graph& graph) {
     const map::Landmark& gone = view_.map.landmark(landmark.id);
     auto payload = std::make_shared<MovedThingPayload>();
     payload->landmark = landmark.id;
     payload->label = gone.payload->shape(valuesOf(landmark), view_.map.key_frames).label;
-    for (const SeenPlace& place : places) {
+    for (const MeasuredPlace& place : places) {
       const auto* first = frames.of(graph.factor(place.measurements.front()));
       const auto* last = frames.of(graph.factor(place.measurements.back()));
       std::set<base::KeyFrameId> seen_from;
@@ -217,7 +217,7 @@ class MovedLandmarkSearch {
   const DynamicLandmarksOptions& options_;
   const std::string& section_;
   const mapper::View& view_;
-  std::vector<std::pair<WeighedLandmark, std::vector<SeenPlace>>> moved_;
+  std::vector<std::pair<WeighedLandmark, std::vector<MeasuredPlace>>> moved_;
   std::set<base::FactorId> removed_;
   mapper::Batch batch_;
 };

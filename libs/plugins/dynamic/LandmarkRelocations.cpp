@@ -155,13 +155,14 @@ std::vector<Eigen::VectorXd> valuesOfVisit(const std::vector<base::VariableId>& 
 }
 
 // Assigns each visit to the place that it fits best, or to a new place if it fits none.
-std::vector<SeenPlace> placesOfVisits(const map::Landmark& landmark, const std::vector<Visit>& visits,
-                                      const VisitVariables& variables, const map::Map& map, const graph::Graph& graph,
-                                      const mapper::Uncertainty& uncertainty, const DynamicLandmarksOptions& options) {
+std::vector<MeasuredPlace> placesOfVisits(const map::Landmark& landmark, const std::vector<Visit>& visits,
+                                          const VisitVariables& variables, const map::Map& map,
+                                          const graph::Graph& graph, const mapper::Uncertainty& uncertainty,
+                                          const DynamicLandmarksOptions& options) {
   int rows = 0;
   for (const auto id : variables.front()) rows += graph.variable(id).kind->tangentSize();
   const double limit = graph::chiSquareQuantile(options.confidence, rows);
-  std::vector<SeenPlace> places;
+  std::vector<MeasuredPlace> places;
   std::vector<std::vector<std::size_t>> members;
   // The displacement is computed from the whole surface, because each visit may have seen another part of a wall.
   for (std::size_t i = 0; i < visits.size(); ++i) {
@@ -203,9 +204,9 @@ const map::KeyFrame* MeasurementFrames::of(const graph::FactorRecord& measuremen
   return nullptr;
 }
 
-std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map::Map& map, const graph::Graph& graph,
-                                                                       const std::vector<WeighedLandmark>& landmarks,
-                                                                       const DynamicLandmarksOptions& options) {
+std::optional<std::vector<std::vector<MeasuredPlace>>> clusterMeasurements(
+    const map::Map& map, const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks,
+    const DynamicLandmarksOptions& options) {
   const MeasurementFrames frames(map.key_frames);
   graph::Graph copy = graph;
   std::vector<std::vector<Visit>> visits;
@@ -217,9 +218,9 @@ std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map
   graph::solve(copy, kVisitSolve);
   const mapper::Uncertainty uncertainty(copy);
   if (!uncertainty.joint(copy, {map.key_frames.back().pose})) return std::nullopt;
-  std::vector<std::vector<SeenPlace>> places;
+  std::vector<std::vector<MeasuredPlace>> places;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    places.push_back(visits[i].empty() ? std::vector<SeenPlace>()
+    places.push_back(visits[i].empty() ? std::vector<MeasuredPlace>()
                                        : placesOfVisits(map.landmark(landmarks[i].id), visits[i], variables[i], map,
                                                         copy, uncertainty, options));
   }

@@ -23,7 +23,7 @@ class MeasurementFrames {
 };
 
 /// The measurements of one landmark at one of its places, in the order of visits.
-struct SeenPlace {
+struct MeasuredPlace {
   std::vector<base::FactorId> measurements;
 };
 
@@ -32,9 +32,9 @@ struct SeenPlace {
 /// trajectory; two visits are at one place if they differ by no more than their covariance allows, or by less than
 /// `min_move`. Factors on the landmark alone apply to each visit, relations to other landmarks to none. None if some
 /// direction of another variable is undetermined.
-std::optional<std::vector<std::vector<SeenPlace>>> clusterMeasurements(const map::Map& map, const graph::Graph& graph,
-                                                                       const std::vector<WeighedLandmark>& landmarks,
-                                                                       const DynamicLandmarksOptions& options);
+std::optional<std::vector<std::vector<MeasuredPlace>>> clusterMeasurements(
+    const map::Map& map, const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks,
+    const DynamicLandmarksOptions& options);
 
 /// The values of a landmark's variables by these measurements alone, with the poses fixed at their values in `graph`.
 std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& measurements,

@@ -4,7 +4,7 @@
 
 namespace omnimapper::plugins {
 
-// The build links this file last: the ids of the classes are made before.
+// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
   using mrpt::rtti::registerClass;
   mapper::registerFactoryBases();

@@ -2,6 +2,7 @@
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/plugin/SharedSection.h>
@@ -111,9 +112,9 @@ std::vector<std::string> ScanOdometryPlugin::warnings() const {
   for (const auto& [label, tilted] : tilted_) {
     if (label_ && label != *label_) continue;
     const auto degrees = std::lround(tilted.tilt / base::option_text::kRadiansPerDegree);
-    sentences.push_back(std::to_string(tilted.scans) + " scans of the laser '" + label +
-                        "' were left out: by its sensor pose it is tilted by " + std::to_string(degrees) +
-                        " deg, but it measures motion on a floor only up to " +
+    sentences.push_back(base::counted(tilted.scans, "scan") + " of the laser '" + label + "' " +
+                        base::wasOrWere(tilted.scans) + " left out: by its sensor pose it is tilted by " +
+                        std::to_string(degrees) + " deg, but it measures motion on a floor only up to " +
                         std::to_string(std::lround(matching::kLargestTilt / base::option_text::kRadiansPerDegree)) +
                         " deg; name a level laser as label, correct the sensor pose in [mapper] sensors, or remove " +
                         "the plugin from [mapper] pose_plugins");

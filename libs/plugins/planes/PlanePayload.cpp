@@ -108,7 +108,7 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(base::KeyFrameId frame, c
     more->roughness.sum += measurement.roughness;
     ++more->roughness.count;
   }
-  SeenBy& seen = more->seen_by[measurement.sensor_label];
+  SensorCounts& seen = more->seen_by[measurement.sensor_label];
   ++(measurement.is_line ? seen.lines : seen.planes);
   more->resetJudgement();
   more->last_seen_from = frame;
@@ -269,7 +269,7 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
     payload->last_seen_from = graph::readId<base::KeyFrameId>(in);
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       const std::string label = graph::readText(in);
-      SeenBy& seen = payload->seen_by[label];
+      SensorCounts& seen = payload->seen_by[label];
       seen.planes = static_cast<std::uint32_t>(graph::readUint(in, 4));
       seen.lines = static_cast<std::uint32_t>(graph::readUint(in, 4));
     }

@@ -43,7 +43,7 @@ class SurfacePatch {
 };
 
 /// How often a sensor measured a surface.
-struct SeenBy {
+struct SensorCounts {
   std::uint32_t planes = 0;  ///< as planes
   std::uint32_t lines = 0;   ///< as lines of a laser
 };
@@ -92,8 +92,8 @@ struct PlanePayload : map::LandmarkPayload {
   landmarks::PlaneParametrization::Kind form = landmarks::PlaneParametrization::Kind::plane;
   Ground ground = Ground::start;  ///< for its class
   Boundary boundary = Boundary::hull;
-  std::vector<SurfacePatch> patches;      ///< each adds to the extent of the others
-  std::map<std::string, SeenBy> seen_by;  ///< sensor label
+  std::vector<SurfacePatch> patches;            ///< each adds to the extent of the others
+  std::map<std::string, SensorCounts> seen_by;  ///< sensor label
   Roughness roughness;
   base::KeyFrameId last_seen_from;
   /// Its class in the whole map, determined at the end of a run; none before.

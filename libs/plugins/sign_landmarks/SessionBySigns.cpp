@@ -37,9 +37,9 @@ double sigmaOf(base::VariableId variable, const mapper::View& view) {
 }
 
 // None if the position of the sign is too uncertain, or its normal is unknown.
-std::optional<SeenKnownSign> seenKnown(const SignMeasurement& measurement, base::LandmarkId sign,
-                                       const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view,
-                                       const KnownOffsets& offsets) {
+std::optional<KnownSignBearing> seenKnown(const SignMeasurement& measurement, base::LandmarkId sign,
+                                          const map::KeyFrame& frame, const SignTracks& tracks,
+                                          const mapper::View& view, const KnownOffsets& offsets) {
   constexpr double kUncertain = 0.5;  // [m]
   const auto variable = tracks.known().at(sign).variable;
   const auto normal = mapper::shapeOf(view.map.landmark(sign), view).normal;
@@ -47,17 +47,17 @@ std::optional<SeenKnownSign> seenKnown(const SignMeasurement& measurement, base:
   if (!normal || !(sign_sigma < kUncertain)) return std::nullopt;
   const double own = std::max(measurement.sigma_left, measurement.sigma_down);
   const Vector3d direction = turnedBy(offsets.pan_tilt, measurement.tilt_axis, measurement.seen.direction());
-  return SeenKnownSign{sign,
-                       isOfOneSign(measurement.text),
-                       view.graph.value(variable),
-                       *normal,
-                       geometry::fromMrpt(frame.map_from_base),
-                       SeenDirection(measurement.seen.camera(), direction),
-                       std::hypot(own, std::hypot(offsets.sigma, sign_sigma / kReadingDistance))};
+  return KnownSignBearing{sign,
+                          isOfOneSign(measurement.text),
+                          view.graph.value(variable),
+                          *normal,
+                          geometry::fromMrpt(frame.map_from_base),
+                          MeasuredDirection(measurement.seen.camera(), direction),
+                          std::hypot(own, std::hypot(offsets.sigma, sign_sigma / kReadingDistance))};
 }
 
 // A place in front of the sign, at the typical reading distance. The tilt of the base is kept.
-mapper::SessionPlace guessBefore(const SeenKnownSign& seen, const map::KeyFrame& frame) {
+mapper::SessionPlace guessBefore(const KnownSignBearing& seen, const map::KeyFrame& frame) {
   constexpr double kPositionSigma = 2, kAngleSigma = 0.7;  // [m] [rad]
   const auto before = baseBefore(seen, kReadingDistance);
   const Vector3d ahead = before.rotation * Vector3d::UnitX(), now = seen.session_from_base.rotation * Vector3d::UnitX();
@@ -83,13 +83,13 @@ void SessionBySigns::learnState(const map::KeyFrame& frame, const SignTracks& tr
 }
 
 // Readings of a sign from one spot count as one measurement, and only the latest few of each sign are kept.
-void SessionBySigns::remember(const map::KeyFrame& frame, const SeenKnownSign& known, double travelled,
+void SessionBySigns::remember(const map::KeyFrame& frame, const KnownSignBearing& known, double travelled,
                               double recent_travel) {
   constexpr double kSpot = 0.2;  // [m]
   constexpr std::ptrdiff_t kMostOfOne = 5;
-  const auto isOld = [&](const Seen& seen) { return travelled - seen.travelled > recent_travel; };
+  const auto isOld = [&](const RecentBearing& seen) { return travelled - seen.travelled > recent_travel; };
   seen_.erase(std::remove_if(seen_.begin(), seen_.end(), isOld), seen_.end());
-  const auto isSame = [&](const Seen& seen) { return seen.known.sign == known.sign; };
+  const auto isSame = [&](const RecentBearing& seen) { return seen.known.sign == known.sign; };
   const auto last = std::find_if(seen_.rbegin(), seen_.rend(), isSame);
   if (last != seen_.rend() && travelled - last->travelled < kSpot) return;
   if (std::count_if(seen_.begin(), seen_.end(), isSame) >= kMostOfOne)
@@ -100,7 +100,7 @@ void SessionBySigns::remember(const map::KeyFrame& frame, const SeenKnownSign& k
 }
 
 std::optional<SessionFit> SessionBySigns::fit(const mapper::View& view) const {
-  std::vector<SeenKnownSign> measurements;
+  std::vector<KnownSignBearing> measurements;
   for (const auto& seen : seen_) {
     const auto* frame = view.map.key_frames.find(seen.frame);
     if (!frame) continue;
@@ -117,7 +117,7 @@ std::optional<SessionBySigns::Placement> SessionBySigns::take(const std::vector<
   learnState(frame, tracks, view, recent_travel);
   if (!is_lost_) return std::nullopt;
   bool has_known = false;
-  std::optional<SeenKnownSign> numbered;
+  std::optional<KnownSignBearing> numbered;
   for (const auto& measurement : measurements) {
     const auto sign = oneWith(measurement.text, tracks, view);
     if (!sign) continue;

@@ -37,19 +37,19 @@ class SessionBySigns {
   bool isPlaced() const { return placed_at_.has_value(); }
 
  private:
-  struct Seen {
+  struct RecentBearing {
     base::KeyFrameId frame;
-    SeenKnownSign known;  // all but the pose of the base in the session
-    double travelled;     // [m]
+    KnownSignBearing known;  // all but the pose of the base in the session
+    double travelled;        // [m]
   };
 
   void learnState(const map::KeyFrame& frame, const SignTracks& tracks, const mapper::View& view, double recent_travel);
-  void remember(const map::KeyFrame& frame, const SeenKnownSign& known, double travelled, double recent_travel);
+  void remember(const map::KeyFrame& frame, const KnownSignBearing& known, double travelled, double recent_travel);
   std::optional<SessionFit> fit(const mapper::View& view) const;
 
   bool is_known_whether_lost_ = false, is_lost_ = false, is_guessed_ = false;
   std::optional<double> placed_at_;  // [m] of the distance travelled
-  std::deque<Seen> seen_;
+  std::deque<RecentBearing> seen_;
 };
 
 }  // namespace omnimapper::plugins

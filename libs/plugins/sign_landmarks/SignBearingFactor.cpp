@@ -43,14 +43,14 @@ bool isUnit(const Vector3d& vector) {
 
 }  // namespace
 
-SeenDirection::SeenDirection(const Vector3d& camera, const Vector3d& direction)
+MeasuredDirection::MeasuredDirection(const Vector3d& camera, const Vector3d& direction)
     : camera_(camera), direction_(direction) {
   const Vector3d left = Vector3d::UnitZ().cross(direction).normalized();
   across_.row(0) = left;
   across_.row(1) = left.cross(direction);
 }
 
-Vector2d SeenDirection::angleTo(const Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const {
+Vector2d MeasuredDirection::angleTo(const Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const {
   // The residual is `aside`, scaled to the length of the angle: by angle / sine, which is 1 / ahead if both are small.
   const Vector2d aside = across_ * seen;
   const double ahead = direction_.dot(seen), sine = aside.norm();
@@ -73,12 +73,12 @@ Vector2d SeenDirection::angleTo(const Vector3d& seen, Eigen::Matrix<double, 2, 3
   return scale * aside;
 }
 
-void SeenDirection::write(std::ostream& out) const {
+void MeasuredDirection::write(std::ostream& out) const {
   graph::writeVector(out, camera_);
   graph::writeVector(out, direction_);
 }
 
-SeenDirection SeenDirection::read(std::istream& in) {
+MeasuredDirection MeasuredDirection::read(std::istream& in) {
   const Vector3d camera = graph::readVector<3>(in), direction = graph::readVector<3>(in);
   if (!camera.allFinite() || !isUnit(direction) || !(direction.head<2>().norm() > 1e-6))
     refuse("the direction to a sign is vertical or not a unit vector");
@@ -96,7 +96,7 @@ void SignBearingFactor::evaluate(const double* const* values, double* residual, 
 
 void SignBearingFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("sign_bearing",
-               [](std::istream& in) { return std::make_shared<SignBearingFactor>(SeenDirection::read(in)); });
+               [](std::istream& in) { return std::make_shared<SignBearingFactor>(MeasuredDirection::read(in)); });
 }
 
 void PanTiltBearingFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
@@ -126,7 +126,7 @@ void PanTiltBearingFactor::write(std::ostream& out) const {
 
 void PanTiltBearingFactor::addTo(graph::FactorRegistry& registry) {
   registry.add("sign_bearing_pan_tilt", [](std::istream& in) {
-    const SeenDirection direction = SeenDirection::read(in);
+    const MeasuredDirection direction = MeasuredDirection::read(in);
     const Vector3d tilt_axis = graph::readVector<3>(in);
     if (!isUnit(tilt_axis)) refuse("the tilt axis of a camera is not a unit vector");
     return std::make_shared<PanTiltBearingFactor>(direction, tilt_axis);

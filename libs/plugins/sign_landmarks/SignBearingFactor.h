@@ -10,10 +10,10 @@
 namespace omnimapper::plugins {
 
 /// A measured direction from a camera to a point. Derivation: doc/derivations/bearing.md.
-class SeenDirection {
+class MeasuredDirection {
  public:
   /// Both in the base: position of the camera [m], and the direction, a unit vector that is not vertical.
-  SeenDirection(const Eigen::Vector3d& camera, const Eigen::Vector3d& direction);
+  MeasuredDirection(const Eigen::Vector3d& camera, const Eigen::Vector3d& direction);
 
   const Eigen::Vector3d& camera() const { return camera_; }
   const Eigen::Vector3d& direction() const { return direction_; }
@@ -24,7 +24,7 @@ class SeenDirection {
   Eigen::Vector2d angleTo(const Eigen::Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const;
 
   void write(std::ostream& out) const;
-  static SeenDirection read(std::istream& in);
+  static MeasuredDirection read(std::istream& in);
 
  private:
   Eigen::Vector3d camera_, direction_;
@@ -32,10 +32,10 @@ class SeenDirection {
 };
 
 /// The direction in which a camera sees a point of the map. Variables: map_from_base (se3, or se2), point in map
-/// (point3). Residual: SeenDirection::angleTo() the point [rad].
+/// (point3). Residual: MeasuredDirection::angleTo() the point [rad].
 class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind> {
  public:
-  explicit SignBearingFactor(const SeenDirection& direction) : direction_(direction) {}
+  explicit SignBearingFactor(const MeasuredDirection& direction) : direction_(direction) {}
 
   std::string_view kind() const override { return "sign_bearing"; }
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
@@ -43,7 +43,7 @@ class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Po
   static void addTo(graph::FactorRegistry& registry);
 
  private:
-  SeenDirection direction_;
+  MeasuredDirection direction_;
 };
 
 /// The same for a camera on a pan-tilt unit with unknown zero offsets (thesis 4.3.2.5). Variables: map_from_base (se3,
@@ -51,7 +51,7 @@ class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Po
 class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind, graph::PanTiltKind> {
  public:
   /// `tilt_axis`: level unit vector to the left of the panned camera, in the base.
-  PanTiltBearingFactor(const SeenDirection& direction, const Eigen::Vector3d& tilt_axis)
+  PanTiltBearingFactor(const MeasuredDirection& direction, const Eigen::Vector3d& tilt_axis)
       : direction_(direction), tilt_axis_(tilt_axis) {}
 
   std::string_view kind() const override { return "sign_bearing_pan_tilt"; }
@@ -60,7 +60,7 @@ class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph:
   static void addTo(graph::FactorRegistry& registry);
 
  private:
-  SeenDirection direction_;
+  MeasuredDirection direction_;
   Eigen::Vector3d tilt_axis_;
 };
 

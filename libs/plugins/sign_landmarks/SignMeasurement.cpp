@@ -122,7 +122,7 @@ std::vector<SignMeasurement> signMeasurements(const obs::CObservationDoorSigns& 
                            relative < kMostRelative;
     const double pixel_sigma = sign.is_cut ? std::hypot(options.pixel_sigma, kSigmaOfCut) : options.pixel_sigma;
     // A pan rotates a direction near the vertical by a smaller angle.
-    measurements.push_back({std::move(text), SeenDirection(base_from_camera.translation, direction.normalized()),
+    measurements.push_back({std::move(text), MeasuredDirection(base_from_camera.translation, direction.normalized()),
                             tilt_axis, std::hypot(pixel_sigma, level * options.pan_sigma),
                             std::hypot(pixel_sigma, options.tilt_sigma), has_range ? sign.range : std::nullopt,
                             sign.range_sigma, areaOf(sign), reduced(sign.patch)});

@@ -22,7 +22,7 @@ inline constexpr double kReadingDistance = 2.5;
 /// The measurement of a sign in an image, from which its factors are made.
 struct SignMeasurement {
   SignText text;
-  SeenDirection seen;
+  MeasuredDirection seen;
   Eigen::Vector3d tilt_axis;      ///< unit, level, to the left of the camera, in the base
   double sigma_left, sigma_down;  ///< [rad] of the direction
   std::optional<double> range;    ///< [m] if it was measured

@@ -23,7 +23,7 @@ Se3 levelPose(const Vector3d& x_y_yaw) {
 }
 
 // Error of the direction [sigma]. `place`: x, y, yaw of the session in the map.
-Vector2d missOf(const SeenKnownSign& measurement, const Vector3d& place) {
+Vector2d missOf(const KnownSignBearing& measurement, const Vector3d& place) {
   const Vector3d in_base = geometry::inverse(levelPose(place) * measurement.session_from_base) * measurement.in_map;
   return measurement.seen.angleTo(in_base - measurement.seen.camera(), nullptr) / measurement.sigma;
 }
@@ -34,7 +34,7 @@ double yawOf(const Se3& pose) {
 }
 
 // x, y, yaw of the session if the sign is seen from `distance` [m] straight in front of it.
-Vector3d placeBefore(const SeenKnownSign& measurement, double distance) {
+Vector3d placeBefore(const KnownSignBearing& measurement, double distance) {
   const Se3 base = baseBefore(measurement, distance);
   const Vector3d& in_session = measurement.session_from_base.translation;
   const double yaw = yawOf(base) - yawOf(measurement.session_from_base);
@@ -44,13 +44,13 @@ Vector3d placeBefore(const SeenKnownSign& measurement, double distance) {
 
 // Starts in front of each sign, by its last measurement, at several distances and from several sides: normals are known
 // only roughly, and two signs that are seen over a short distance travelled fit more than one place.
-std::vector<Vector3d> startsOf(const std::vector<SeenKnownSign>& measurements) {
+std::vector<Vector3d> startsOf(const std::vector<KnownSignBearing>& measurements) {
   std::vector<Vector3d> starts;
   std::set<base::LandmarkId> done;
   for (auto seen = measurements.rbegin(); seen != measurements.rend(); ++seen) {
     if (!done.insert(seen->sign).second) continue;
     for (const double turn : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
-      SeenKnownSign turned = *seen;
+      KnownSignBearing turned = *seen;
       turned.normal = Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * seen->normal;
       for (const double distance : {1.2, 2.5, 5.0}) starts.push_back(placeBefore(turned, distance));
     }
@@ -64,7 +64,7 @@ struct Descent {
 };
 
 // Gauss-Newton with a Cauchy loss, so that a sign that was moved has little influence.
-Descent descended(const std::vector<SeenKnownSign>& measurements, const Vector3d& start) {
+Descent descended(const std::vector<KnownSignBearing>& measurements, const Vector3d& start) {
   constexpr int kRounds = 30;
   constexpr double kStep = 1e-6, kDamping = 1e-3;
   constexpr double kLongestStep = 2, kLargestTurn = 0.3;  // [m] [rad]
@@ -114,7 +114,7 @@ struct Candidate {
   }
 };
 
-Candidate candidateAt(const std::vector<SeenKnownSign>& measurements, const Vector3d& place) {
+Candidate candidateAt(const std::vector<KnownSignBearing>& measurements, const Vector3d& place) {
   Candidate candidate{place, levelPose(place) * measurements.back().session_from_base.translation};
   for (const auto& measurement : measurements) {
     const double miss = missOf(measurement, place).norm();
@@ -130,7 +130,7 @@ Candidate candidateAt(const std::vector<SeenKnownSign>& measurements, const Vect
 
 }  // namespace
 
-Se3 baseBefore(const SeenKnownSign& measurement, double distance) {
+Se3 baseBefore(const KnownSignBearing& measurement, double distance) {
   const Vector3d& seen = measurement.seen.direction();
   const double yaw = std::atan2(-measurement.normal.y(), -measurement.normal.x()) - std::atan2(seen.y(), seen.x());
   const Eigen::AngleAxisd turn(yaw, Vector3d::UnitZ());
@@ -139,7 +139,7 @@ Se3 baseBefore(const SeenKnownSign& measurement, double distance) {
   return {Eigen::Quaterniond(turn), base};
 }
 
-std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measurements) {
+std::optional<SessionFit> resection(const std::vector<KnownSignBearing>& measurements) {
   constexpr std::size_t kFewest = 4, kSigns = 2;
   constexpr double kMostSigma = 0.35, kLeastBase = 0.5;  // [m]
   if (measurements.size() < kFewest) return std::nullopt;

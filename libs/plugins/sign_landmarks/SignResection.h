@@ -12,18 +12,18 @@
 namespace omnimapper::plugins {
 
 /// The direction to a known sign of the map, measured in a session whose place in the map is unknown.
-struct SeenKnownSign {
+struct KnownSignBearing {
   base::LandmarkId sign;
   bool is_numbered;                 ///< it has a number that is probably on this sign only
   Eigen::Vector3d in_map;           ///< [m] position of the sign in the map
   Eigen::Vector3d normal;           ///< unit vector, towards the side from which the sign is read
   geometry::Se3 session_from_base;  ///< by odometry
-  SeenDirection seen;
+  MeasuredDirection seen;
   double sigma;  ///< [rad] standard deviation, including that of the sign's position
 };
 
 /// map_from_base of a level base that sees the sign from `distance` [m] straight in front of it.
-geometry::Se3 baseBefore(const SeenKnownSign& measurement, double distance);
+geometry::Se3 baseBefore(const KnownSignBearing& measurement, double distance);
 
 /// The pose of a session in the map.
 struct SessionFit {
@@ -37,6 +37,6 @@ struct SessionFit {
 /// if at least four measurements of at least two signs fit, one of them numbered; at least two thirds of all
 /// measurements fit; the base moved at least 0.5 m between them; the position's sigma is at most 0.35 m; and no other
 /// place fits nearly as many. Derivation: doc/derivations/bearing.md.
-std::optional<SessionFit> resection(const std::vector<SeenKnownSign>& measurements);
+std::optional<SessionFit> resection(const std::vector<KnownSignBearing>& measurements);
 
 }  // namespace omnimapper::plugins

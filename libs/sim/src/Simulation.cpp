@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "SeenMoves.h"
+#include "VisibleMoves.h"
 
 namespace omnimapper::sim {
 
@@ -95,7 +95,7 @@ Simulation::Simulation(const base::Config& config)
       warnings_.push_back(config.file() + ": [" + options_.sensors[i] + "] first_s is after the end of the run at " +
                           base::option_text::format(duration_) + " s; the sensor measures nothing");
   }
-  for (const std::string& seen : seenMoves(world_, map_from_base_, duration_))
+  for (const std::string& seen : visibleMoves(world_, map_from_base_, duration_))
     warnings_.push_back(config.file() + ": " + seen);
   config.refuseUnreadSections();
   const bool is_meant = config.placeOf("simulation", "sensors").rfind("--set", 0) == 0;

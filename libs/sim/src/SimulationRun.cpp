@@ -266,7 +266,7 @@ SimulationResult runSimulation(const Simulation& simulation, const SimulationReq
   }
   if (result.code != base::ExitCode::ok && outputs.holdsRun()) {
     outputs.commitInto("interrupted");
-    result.warnings.push_back(request.folder + " is as it was; what was simulated until now is in " + request.folder +
+    result.warnings.push_back(request.folder + " is unchanged; what was simulated until now is in " + request.folder +
                               "/interrupted");
   } else {
     outputs.commit();

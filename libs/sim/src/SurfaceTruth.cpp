@@ -39,9 +39,9 @@ SurfaceTruth::SurfaceTruth(const World& world) : world_(world), patches_(findPat
   }
 }
 
-void SurfaceTruth::add(const std::vector<SeenPoint>& seen, double time) {
+void SurfaceTruth::add(const std::vector<VisiblePoint>& seen, double time) {
   std::vector<std::optional<geometry::Se3>> body_from_map(world_.bodies.size());
-  for (const SeenPoint& point : seen) {
+  for (const VisiblePoint& point : seen) {
     const auto surface = static_cast<std::size_t>(point.surface);
     if (patch_of_[surface].empty()) continue;
     const auto body = static_cast<std::size_t>(body_of_[surface]);

@@ -17,7 +17,7 @@ class SurfaceTruth {
   explicit SurfaceTruth(const World& world);
 
   /// Adds the points of a measurement of the log, which was taken at `time` [s].
-  void add(const std::vector<SeenPoint>& seen, double time);
+  void add(const std::vector<VisiblePoint>& seen, double time);
 
   /// Patches over 0.05 m^2 at their places at time 0, each with the cells of 5 cm that were seen, if any, and openings.
   /// Patches of bodies that are not in the world at time 0 are left out.

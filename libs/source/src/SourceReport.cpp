@@ -108,9 +108,9 @@ std::vector<std::string> SourceReport::unusableText() const {
   std::vector<std::string> sentences;
   for (const auto& [key, left_out] : unusable) {
     sentences.push_back(base::counted(left_out.observations, "observation") + " of " +
-                        (key.first.empty() ? "a sensor without a label" : "'" + key.first + "'") +
-                        " were left out because " + key.second + ", the first at " + stampText(left_out.first_stamp) +
-                        " s");
+                        (key.first.empty() ? "a sensor without a label" : "'" + key.first + "'") + " " +
+                        base::wasOrWere(left_out.observations) + " left out because " + key.second + ", the first at " +
+                        stampText(left_out.first_stamp) + " s");
   }
   return sentences;
 }

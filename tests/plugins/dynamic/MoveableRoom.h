@@ -22,7 +22,7 @@ namespace omnimapper::plugins {
 class MoveableRoom {
  public:
   static constexpr std::uint32_t kRound = 20;
-  enum class Seen { as_lines, as_planes, never };
+  enum class MeasuredAs { as_lines, as_planes, never };
 
   /// `two_sessions`: each round is a session, and no odometry connects them.
   explicit MoveableRoom(unsigned seed = 1, bool two_sessions = false) : random_(seed) {
@@ -51,8 +51,8 @@ class MoveableRoom {
   /// A surface over a segment of the floor, with its free side on the left, which is at `first` in the first round and
   /// at `second` in the other.
   base::LandmarkId addSurface(landmarks::PlaneParametrization::Kind form, const geometry::Segment2& first,
-                              const geometry::Segment2& second, Seen in_first = Seen::as_lines,
-                              Seen in_second = Seen::as_lines) {
+                              const geometry::Segment2& second, MeasuredAs in_first = MeasuredAs::as_lines,
+                              MeasuredAs in_second = MeasuredAs::as_lines) {
     const auto planeOf = [](const geometry::Segment2& wall) {
       const Eigen::Vector2d normal = landmarks::normalOf(wall);
       return geometry::Plane3::through({wall.from.x(), wall.from.y(), 0}, {normal.x(), normal.y(), 0});
@@ -64,12 +64,12 @@ class MoveableRoom {
         "plane", "walls", its.variable(),
         its.value(planeOf(first), {{first.from.x(), first.from.y(), 0}, {first.to.x(), first.to.y(), 0}}), payload);
     for (std::size_t i = 0; i < truth_.size(); ++i) {
-      const Seen seen = i < kRound ? in_first : in_second;
-      if (seen == Seen::never) continue;
+      const MeasuredAs seen = i < kRound ? in_first : in_second;
+      if (seen == MeasuredAs::never) continue;
       const geometry::Segment2& there = i < kRound ? first : second;
       const geometry::Se2 base_from_map = inverse(truth_[i]);
       if (i % kRound == 0) payload->patches.push_back({frame(i).id, {inBase(i, there.from), inBase(i, there.to)}});
-      if (seen == Seen::as_planes) {
+      if (seen == MeasuredAs::as_planes) {
         const geometry::Se3 lifted{Eigen::Quaterniond(Eigen::AngleAxisd(base_from_map.yaw, Eigen::Vector3d::UnitZ())),
                                    {base_from_map.x, base_from_map.y, 0}};
         const geometry::Plane3 plane = geometry::plus(lifted * planeOf(there), {noise(0.01), noise(0.01), noise(0.02)});
@@ -83,7 +83,7 @@ class MoveableRoom {
         ++payload->seen_by["laser"].lines;
       }
     }
-    if (its.mayTilt() && in_first != Seen::as_planes && in_second != Seen::as_planes)
+    if (its.mayTilt() && in_first != MeasuredAs::as_planes && in_second != MeasuredAs::as_planes)
       run.graph.addFactor({{variableOf(id)},
                            std::make_shared<landmarks::UprightFactor>(),
                            graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, 0.02))});

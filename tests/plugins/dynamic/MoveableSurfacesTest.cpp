@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Segment2;
 using Kind = landmarks::PlaneParametrization::Kind;
-using Seen = MoveableRoom::Seen;
+using MeasuredAs = MoveableRoom::MeasuredAs;
 using State = map::Landmark::State;
 
 const Segment2 kSouth{{-3, -2.3}, {3, -2.3}}, kEast{{3, -2.3}, {3, 4.7}}, kNorth{{3, 4.7}, {-3, 4.7}},
@@ -24,7 +24,7 @@ Segment2 shifted(const Segment2& wall, const Eigen::Vector2d& by) {
   return {wall.from + by, wall.to + by};
 }
 
-std::vector<base::LandmarkId> addWalls(MoveableRoom& room, Kind form, Seen seen = Seen::as_lines) {
+std::vector<base::LandmarkId> addWalls(MoveableRoom& room, Kind form, MeasuredAs seen = MeasuredAs::as_lines) {
   std::vector<base::LandmarkId> walls;
   for (const auto& wall : {kSouth, kEast, kNorth, kWest})
     walls.push_back(room.addSurface(form, wall, wall, seen, seen));
@@ -140,8 +140,9 @@ TEST(MoveableThings, APointOnAMovedWallMovesWithIt) {
 TEST(MoveableThings, SeenAsPlanesAndAfterTheMoveAsLinesOfOneHeight) {
   MoveableRoom room;
   addPoints(room);
-  addWalls(room, Kind::plane, Seen::as_planes);
-  const auto panel = room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}), Seen::as_planes, Seen::as_lines);
+  addWalls(room, Kind::plane, MeasuredAs::as_planes);
+  const auto panel =
+      room.addSurface(Kind::plane, kPanel, shifted(kPanel, {-0.5, 0}), MeasuredAs::as_planes, MeasuredAs::as_lines);
   ASSERT_NO_THROW(room.look());
   EXPECT_TRUE(room.recordOf(panel)) << "its tilt is unknown there, but its distance is known";
   expectWhole(room);

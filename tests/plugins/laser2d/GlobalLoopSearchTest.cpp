@@ -7,14 +7,14 @@
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-#include "SeenWalls.h"
+#include "WallWorlds.h"
 #include "laser2d/GlobalLoopSearch.h"
 
 namespace omnimapper::plugins::global_loop_search_test {
 namespace {
 
 using mrpt::poses::CPose3D;
-using namespace seen_walls;
+using namespace wall_worlds;
 
 constexpr double kApart = 15;  // [m]
 constexpr char kLabel[] = "laser.points";
@@ -45,7 +45,7 @@ class GlobalLoopSearchTest : public ::testing::Test {
     const CPose3D estimate = estimated.value_or(truly);
     const auto id = run_.addFrame(estimate).id;
     auto& frame = run_.map.key_frames.edit(id);
-    const auto scan = seenFrom(truly, world, 5.5);
+    const auto scan = scanFrom(truly, world, 5.5);
     auto cloud = mrpt::obs::CObservationPointCloud::Create();
     auto points = mrpt::maps::CSimplePointsMap::Create();
     for (const auto& point : scan->points) points->insertPoint(point.x(), point.y(), 0);

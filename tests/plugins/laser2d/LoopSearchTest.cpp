@@ -6,7 +6,7 @@
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-#include "SeenWalls.h"
+#include "WallWorlds.h"
 #include "laser2d/LoopSearch.h"
 
 namespace omnimapper::plugins::loop_search_test {
@@ -14,7 +14,7 @@ namespace {
 
 using mrpt::poses::CPose3D;
 using testing::HandMadeRun;
-using namespace seen_walls;
+using namespace wall_worlds;
 
 class LoopSearchVerdict : public ::testing::Test {
  protected:
@@ -34,11 +34,11 @@ class LoopSearchVerdict : public ::testing::Test {
           {{run_.map.keyFrame(place).pose, run_.map.keyFrame(newest).pose}, measured, sigmas, {}, 1, {}});
       run_.uncertainty = mapper::Uncertainty(run_.graph);
     }
-    const LoopSearch::KeyScan first{place, seenFrom({}, then, 12), 0};
+    const LoopSearch::KeyScan first{place, scanFrom({}, then, 12), 0};
     mapper::PluginContext context;
     context.section = "loop_closure";
     const LoopSearch search(options_, context, matching::makeMatcher({}),
-                            {{newest, seenFrom(truly, now, reach_now), 20}}, {{first, {first}}});
+                            {{newest, scanFrom(truly, now, reach_now), 20}}, {{first, {first}}});
     batch_ = search(run_.view());
     if (batch_.decisions().empty()) return {};
     EXPECT_EQ(batch_.addedFactors().size(), batch_.decisions().front().accepted ? 1U : 0U);
@@ -103,9 +103,9 @@ TEST_F(LoopSearchVerdict, ARoomThatLooksLikeAnotherIsNoClosureIfTheOtherFitsBett
   bind(second, {12, 0, 0}, {0.05, 0.05, 0.01});
   bind(newest, {7, 0.5, 0.2}, {4, 4, 0.2});
   run_.uncertainty = mapper::Uncertainty(run_.graph);
-  const LoopSearch::KeyScan in_first{first, seenFrom({}, whole, 12), 0},
-      in_second{second, seenFrom({}, lacking, 12), 12};
-  const LoopSearch::KeyScan seen{newest, seenFrom({1, 0.2, 0, 0.1, 0, 0}, whole, 8), 40};
+  const LoopSearch::KeyScan in_first{first, scanFrom({}, whole, 12), 0},
+      in_second{second, scanFrom({}, lacking, 12), 12};
+  const LoopSearch::KeyScan seen{newest, scanFrom({1, 0.2, 0, 0.1, 0, 0}, whole, 8), 40};
   mapper::PluginContext context;
   context.section = "loop_closure";
   const std::shared_ptr<const matching::ScanMatcher> matcher = matching::makeMatcher({});

@@ -6,7 +6,7 @@
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-#include "SeenWalls.h"
+#include "WallWorlds.h"
 #include "laser2d/SlipSearch.h"
 
 namespace omnimapper::plugins::slip_search_test {
@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Se2;
 using mrpt::poses::CPose3D;
-using namespace seen_walls;
+using namespace wall_worlds;
 
 // 14 x 10 m, with fins that are all different.
 World hall() {
@@ -56,7 +56,7 @@ class SlipSearchTest : public ::testing::Test {
       }
       if (i == kSlipped + 1) slipped_ = step_;
       const auto truth = CPose3D(mrpt::poses::CPose2D(geometry::toMrpt(trueMapFromBase(i))));
-      drive_.push_back({frame.id, seenFrom(truth, world_, reach_), static_cast<double>(i)});
+      drive_.push_back({frame.id, scanFrom(truth, world_, reach_), static_cast<double>(i)});
     }
     run_.uncertainty = mapper::Uncertainty(run_.graph);
   }

@@ -20,7 +20,7 @@ graph::Evaluation at(const graph::Factor& factor, const Se3& map_from_base, cons
 // The numbers of doc/derivations/bearing.md: the base at (1, 2) looks along y, its camera is 0.5 m ahead, 1 m up.
 TEST(SignBearingFactor, ResidualAsWorkedByHand) {
   const Se3 map_from_base{geometry::expSo3({0, 0, geometry::kPi / 2}), {1, 2, 0}};
-  const SignBearingFactor factor(SeenDirection({0.5, 0, 1}, Vector3d::UnitX()));
+  const SignBearingFactor factor(MeasuredDirection({0.5, 0, 1}, Vector3d::UnitX()));
   const auto left = at(factor, map_from_base, {0, 3.5, 1}).residual();
   EXPECT_NEAR(left[0], geometry::kPi / 4, 1e-12) << "one metre ahead, one to the left";
   EXPECT_NEAR(left[1], 0, 1e-12);
@@ -31,7 +31,7 @@ TEST(SignBearingFactor, ResidualAsWorkedByHand) {
 }
 
 TEST(SignBearingFactor, IsFiniteEverywhere) {
-  const SignBearingFactor factor(SeenDirection({0, 0, 1}, Vector3d::UnitX()));
+  const SignBearingFactor factor(MeasuredDirection({0, 0, 1}, Vector3d::UnitX()));
   for (const Vector3d& point : {Vector3d(0, 0, 1), Vector3d(-1, 0, 1), Vector3d(-1, 1e-9, 1), Vector3d(0, 0, 5)}) {
     EXPECT_TRUE(at(factor, Se3{}, point).residual().allFinite()) << point.transpose();
     for (const auto& jacobian : at(factor, Se3{}, point).jacobians())
@@ -40,7 +40,7 @@ TEST(SignBearingFactor, IsFiniteEverywhere) {
 }
 
 TEST(SignBearingFactor, WhatIsBehindTheCameraIsHalfATurnOff) {
-  const SignBearingFactor factor(SeenDirection({0, 0, 1}, Vector3d::UnitX()));
+  const SignBearingFactor factor(MeasuredDirection({0, 0, 1}, Vector3d::UnitX()));
   EXPECT_NEAR(at(factor, Se3{}, {-1, 0, 1}).residual().norm(), geometry::kPi, 1e-12);
   EXPECT_NEAR(at(factor, Se3{}, {-1, 1e-6, 1}).residual().norm(), geometry::kPi, 1e-5);
 }
@@ -51,7 +51,7 @@ TEST(SignBearingFactor, JacobiansMatchDifferences) {
   for (int i = 0; i < 100; ++i) {
     const Se3 base{geometry::expSo3({any(1), any(1), any(1)}), {any(5), any(5), any(5)}};
     const Vector3d camera(any(1), any(1), any(1)), direction = Vector3d(any(1), any(1), any(0.5)).normalized();
-    const SignBearingFactor factor(SeenDirection(camera, direction));
+    const SignBearingFactor factor(MeasuredDirection(camera, direction));
     const double aside = i % 2 == 0 ? 3 : 1e-5;  // where the angle is small too
     const Vector3d seen = camera + dice.uniform(1, 8) * direction + Vector3d(any(aside), any(aside), any(aside));
     graph::expectJacobiansMatchDifferences(at(factor, base, base * seen), 1e-5);
@@ -59,7 +59,7 @@ TEST(SignBearingFactor, JacobiansMatchDifferences) {
 }
 
 TEST(SignBearingFactor, IsReadAsItWasWritten) {
-  const SignBearingFactor factor(SeenDirection({0.1, 0.2, 1.4}, Vector3d(1, 2, 0.5).normalized()));
+  const SignBearingFactor factor(MeasuredDirection({0.1, 0.2, 1.4}, Vector3d(1, 2, 0.5).normalized()));
   std::stringstream bytes;
   factor.write(bytes);
   graph::FactorRegistry registry;
@@ -75,7 +75,7 @@ graph::Evaluation at(const PanTiltBearingFactor& factor, const Se3& map_from_bas
 
 // The camera reports that it looks ahead, but its pan unit is turned by 45 degrees to the left.
 TEST(PanTiltBearingFactor, ResidualAsWorkedByHand) {
-  const PanTiltBearingFactor factor(SeenDirection({0, 0, 1}, Vector3d::UnitX()), Vector3d::UnitY());
+  const PanTiltBearingFactor factor(MeasuredDirection({0, 0, 1}, Vector3d::UnitX()), Vector3d::UnitY());
   const double pan = geometry::kPi / 4;
   EXPECT_NEAR(at(factor, Se3{}, {2, 2, 1}, {pan, 0}).residual().norm(), 0, 1e-12);
   EXPECT_NEAR(at(factor, Se3{}, {2, 2, 1}, {0, 0}).residual()[0], pan, 1e-12);
@@ -94,7 +94,7 @@ TEST(PanTiltBearingFactor, TurnsAboutTheVerticalAndThenAboutThePannedAxis) {
     const Vector3d axis(-std::sin(pan), std::cos(pan), 0);
     const Vector3d reported = looksAlong(pan, tilt), meant = looksAlong(pan + offsets[0], tilt + offsets[1]);
     EXPECT_LT((turnedBy(offsets, axis, reported) - meant).norm(), 1e-12);
-    const PanTiltBearingFactor factor(SeenDirection({0.1, 0, 1}, reported), axis);
+    const PanTiltBearingFactor factor(MeasuredDirection({0.1, 0, 1}, reported), axis);
     EXPECT_LT(at(factor, Se3{}, Vector3d(0.1, 0, 1) + 3 * meant, offsets).residual().norm(), 1e-12);
   }
 }
@@ -106,7 +106,7 @@ TEST(PanTiltBearingFactor, JacobiansMatchDifferences) {
     const Se3 base{geometry::expSo3({any(1), any(1), any(1)}), {any(5), any(5), any(5)}};
     const Vector3d camera(any(1), any(1), any(1)), direction = Vector3d(any(1), any(1), any(0.5)).normalized();
     const double turn = any(3);
-    const PanTiltBearingFactor factor(SeenDirection(camera, direction), {std::cos(turn), std::sin(turn), 0});
+    const PanTiltBearingFactor factor(MeasuredDirection(camera, direction), {std::cos(turn), std::sin(turn), 0});
     const Vector3d seen = camera + dice.uniform(1, 8) * direction + Vector3d(any(2), any(2), any(2));
     graph::expectJacobiansMatchDifferences(at(factor, base, base * seen, {any(0.2), any(0.2)}), 1e-5);
   }
@@ -132,7 +132,7 @@ TEST(SignRangeFactor, JacobiansMatchDifferences) {
 }
 
 TEST(PanTiltBearingFactor, AndRangesAreReadAsTheyWereWritten) {
-  const PanTiltBearingFactor factor(SeenDirection({0.1, 0.2, 1.4}, Vector3d(1, 2, 0.5).normalized()),
+  const PanTiltBearingFactor factor(MeasuredDirection({0.1, 0.2, 1.4}, Vector3d(1, 2, 0.5).normalized()),
                                     Vector3d::UnitY());
   const SignRangeFactor range({0.1, 0.2, 1.4}, 3);
   std::stringstream bytes;

@@ -17,7 +17,7 @@ constexpr double kDegree = geometry::kPi / 180;
 /// A base that drives along a corridor, with the views of signs on the walls by its camera.
 class Drive {
  public:
-  std::vector<SeenKnownSign> seen;
+  std::vector<KnownSignBearing> seen;
 
   explicit Drive(const Se3& map_from_session) : map_from_session_(map_from_session) {}
 
@@ -36,7 +36,7 @@ class Drive {
                     in_map,
                     normal,
                     geometry::inverse(map_from_session_) * map_from_base,
-                    SeenDirection(camera, direction),
+                    MeasuredDirection(camera, direction),
                     1 * kDegree});
   }
 

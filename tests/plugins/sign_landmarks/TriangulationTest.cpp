@@ -27,7 +27,7 @@ class Views {
     const auto pose = graph.addVariable(graph::se3(), graph::toValue(Se3{Eigen::Quaterniond::Identity(), base}));
     const Vector3d camera(0, 0, 1);
     const Vector3d direction = geometry::expSo3({0, 0, error}) * (sign - base - camera).normalized();
-    SignMeasurement measurement{{}, SeenDirection(camera, direction), Vector3d::UnitY(), kDegree, kDegree, {}, 0, 0,
+    SignMeasurement measurement{{}, MeasuredDirection(camera, direction), Vector3d::UnitY(), kDegree, kDegree, {}, 0, 0,
                                 {}};
     if (range > 0) {
       measurement.range = range;

@@ -137,7 +137,7 @@ TEST_F(Check, ALogWithoutAnythingToMapHasItsCode) {
 }
 
 TEST_F(Check, EveryIniThatItNamesMapsTheLog) {
-  const std::vector<std::pair<std::string, Words>> logs{
+  const std::vector<std::pair<std::string, Texts>> logs{
       {"rawlogs/home_30s/home_30s.rawlog", {"ini/home_planes.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}},
       {"rawlogs/box/box.rawlog", {"ini/laser2d.ini", "ini/laser_walls.ini", "ini/landmarks.ini"}}};
   for (const auto& [name, inis] : logs) {
@@ -166,8 +166,8 @@ TEST_F(Check, ARangeCameraWithoutALaserIsMappedByTheProposal) {
   EXPECT_TRUE(endedWith(ExitCode::ok, checked)) << checked.out;
   const auto first = checked.out.find("ini/rgbd_robot.ini"), second = checked.out.find("ini/home_planes.ini");
   EXPECT_TRUE(first < second && second != std::string::npos) << checked.out;
-  const auto expectMapped = [&](const Words& inis) {
-    Words words{"-r", log, "-o", scratch_ / "map"};
+  const auto expectMapped = [&](const Texts& inis) {
+    Texts words{"-r", log, "-o", scratch_ / "map"};
     for (const auto& ini : inis) words.insert(words.end(), {"-i", ini});
     const auto mapped = graphslam(words);
     EXPECT_TRUE(endedWith(ExitCode::ok, mapped)) << mapped.out;

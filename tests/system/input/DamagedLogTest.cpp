@@ -24,11 +24,11 @@ class DamagedLog : public ::testing::Test {
   std::string file(const std::string& name) const { return scratch_ / name; }
 
   /// Maps the bytes of a log, of which only the first `objects` observations can be read.
-  void expectMapOfWhatWasReadable(const std::string& bytes, std::size_t objects, ExitCode code, const Words& words) {
+  void expectMapOfWhatWasReadable(const std::string& bytes, std::size_t objects, ExitCode code, const Texts& words) {
     writeFile(log_path_, bytes);
     expectMapOfWhatWasReadable(objects, code, words);
   }
-  void expectMapOfWhatWasReadable(std::size_t objects, ExitCode code, Words words) {
+  void expectMapOfWhatWasReadable(std::size_t objects, ExitCode code, Texts words) {
     words.push_back(log_path_);
     ASSERT_TRUE(endedWith(code, map({log_path_}, folder_), words));
     EXPECT_EQ(filesIn(folder_), allOutputs());

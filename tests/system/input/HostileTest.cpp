@@ -192,7 +192,7 @@ TEST_F(Hostile, APipeIsNoLog) {
 TEST_F(Hostile, APipeIsNoFileOfAnyOtherKind) {
   const std::string pipe = scratch_ / "pipe", log = save(ring());
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  const auto refuses = [&](const Words& command) {
+  const auto refuses = [&](const Texts& command) {
     return endedWith(ExitCode::unreadable_input, runProgram(command), {pipe + ": is a pipe or a device"});
   };
   const std::string mapper = ownProgram("omnimapper-graphslam"), eval = ownProgram("omnimapper-eval");

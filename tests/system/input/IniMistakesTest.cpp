@@ -23,7 +23,7 @@ class IniMistakes : public ::testing::Test {
   std::string laser2dAnd(const std::string& more) const {
     return readFile(omnimapper::testing::sourceFile("ini/laser2d.ini")) + more;
   }
-  void expectRefused(const std::string& ini, ExitCode code, Words words) {
+  void expectRefused(const std::string& ini, ExitCode code, Texts words) {
     words.push_back(ini_);
     EXPECT_TRUE(endedWith(code, mapWith(ini), words)) << ini;
     EXPECT_FALSE(fs::exists(scratch_ / "map"));
@@ -99,7 +99,7 @@ TEST_F(IniMistakes, AnIniThatCannotBeReadIsRefusedByName) {
 }
 
 TEST_F(IniMistakes, SettingsOfTheCommandLineAreCheckedAlike) {
-  const auto refused = [&](const std::string& setting, ExitCode code, const Words& words) {
+  const auto refused = [&](const std::string& setting, ExitCode code, const Texts& words) {
     EXPECT_TRUE(endedWith(code, map({scratch_ / "none.rawlog"}, scratch_ / "map", {"--set", setting}), words));
   };
   refused("trigger.distanse_m=1", ExitCode::unknown_key, {"'distance_m'"});

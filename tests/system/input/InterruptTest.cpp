@@ -57,7 +57,7 @@ TEST_P(Interrupt, OverAnOlderMapLeavesThatAndKeepsItsOwnElsewhere) {
   const auto program = started("4");
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   program->send(GetParam());
-  EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"is as it was", folder_ + "/interrupted"}));
+  EXPECT_TRUE(endedWith(ExitCode::interrupted, program->wait(), {"is unchanged", folder_ + "/interrupted"}));
   EXPECT_EQ(filesIn(folder_ + "/interrupted"), allOutputs());
   EXPECT_LT(loadMap(folder_ + "/interrupted").map.key_frames.size(), loadMap(folder_).map.key_frames.size());
   EXPECT_EQ(contentsOf(folder_), before);
@@ -106,7 +106,7 @@ for try in $(seq 600); do
 done
 kill -"$signal" $program
 wait $program)";
-  Words command = {"xvfb-run", "-a", "bash", "-c", script, "bash", said, std::to_string(GetParam())};
+  Texts command = {"xvfb-run", "-a", "bash", "-c", script, "bash", said, std::to_string(GetParam())};
   for (const auto& word : mappingCommand({log_path_}, folder_, {"--gui"})) command.push_back(word);
   EXPECT_TRUE(endedWith(ExitCode::ok, runProgram(command)));
   const std::string text = readFile(said);

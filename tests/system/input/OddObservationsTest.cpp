@@ -43,7 +43,7 @@ class OddObservations : public ::testing::Test {
 
   /// Maps the observations. Expects the exit code, the words on standard error, and a trajectory that is close to the
   /// truth and has the stamps `expected`.
-  void expectMap(const std::vector<omnimapper::base::Stamp>& expected, const Words& words = {},
+  void expectMap(const std::vector<omnimapper::base::Stamp>& expected, const Texts& words = {},
                  ExitCode code = ExitCode::ok) {
     writeFile(scratch_ / "odd.rawlog", rawlogs::bytesOf(observations_).text);
     const auto ended = map({scratch_ / "odd.rawlog"}, folder_);

@@ -69,7 +69,7 @@ TEST_F(OutputFolder, OnAFullDiskKeepsTheOldMapAndNamesAllThatFailed) {
   writeFile(folder + "/filler", std::string(930'000, 'x'));
   EXPECT_TRUE(endedWith(
       ExitCode::disk_full, map({log_path_}, folder),
-      {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room", "is as it was"}));
+      {folder + "/map.omnimap: ", folder + "/map.png: ", "No space left on device", "Free some room", "is unchanged"}));
   EXPECT_EQ(readFile(folder + "/map.omnimap"), old_map);
   EXPECT_EQ(filesIn(folder), (std::set<std::string>{"map.omnimap", "filler", "interrupted"}));
   EXPECT_EQ(filesIn(folder + "/interrupted").count("trajectory.tum"), 1U) << "outputs that fit must be written";
@@ -91,7 +91,7 @@ TEST_F(OutputFolder, FilesThatMayNotGrowKeepTheOldMapAndTheOtherOutputsAreWritte
   ProgramOptions limited;
   limited.largest_file = before.at("map.omnimap").size() / 2;
   EXPECT_TRUE(endedWith(ExitCode::disk_full, map({log_path_}, folder, {}, limited),
-                        {folder + "/map.omnimap: cannot be written", "is as it was", "Free some room"}));
+                        {folder + "/map.omnimap: cannot be written", "is unchanged", "Free some room"}));
   EXPECT_EQ(contentsOf(folder), before);
   auto written = allOutputs();
   written.erase("map.omnimap");
@@ -124,7 +124,7 @@ TEST_F(OutputFolder, OfARunThatStillGoesOnIsRefusedToASecond) {
 // Whenever a run is ended, and by whichever signal, the next program finds the outputs of one whole run in the folder.
 TEST_F(OutputFolder, KilledAtAnyTimeHoldsOneWholeRun) {
   const std::string folder = scratch_ / "map";
-  const Words other{"--set", "grid.resolution_m=0.1"};
+  const Texts other{"--set", "grid.resolution_m=0.1"};
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, scratch_ / "new", other)));
   ASSERT_TRUE(endedWith(ExitCode::ok, map({log_path_}, folder)));
   const auto stable = [](std::map<std::string, std::string> files) {
@@ -135,7 +135,7 @@ TEST_F(OutputFolder, KilledAtAnyTimeHoldsOneWholeRun) {
   const auto old_run = stable(contentsOf(folder)), new_run = stable(contentsOf(scratch_ / "new"));
   ASSERT_NE(old_run, new_run);
   for (int i = 0; i < 30; ++i) {
-    omnimapper::testing::Program program(mappingCommand({log_path_}, folder, i % 2 == 0 ? other : Words{}));
+    omnimapper::testing::Program program(mappingCommand({log_path_}, folder, i % 2 == 0 ? other : Texts{}));
     std::this_thread::sleep_for(std::chrono::milliseconds(20 * i));
     program.send(std::array{SIGKILL, SIGINT, SIGTERM}[i % 3]);
     program.wait();

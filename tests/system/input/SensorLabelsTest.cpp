@@ -15,8 +15,8 @@ class SensorLabels : public ::testing::Test {
     options.laps = 0.5;
     SimulatedLog(options).writeRawlog(scratch_ / "box.rawlog");
   }
-  Ended mapWith(const Words& settings) {
-    Words more;
+  Ended mapWith(const Texts& settings) {
+    Texts more;
     for (const auto& setting : settings) more.insert(more.end(), {"--set", setting});
     return map({scratch_ / "box.rawlog"}, scratch_ / "map", more);
   }

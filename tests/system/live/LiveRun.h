@@ -37,7 +37,7 @@ inline double errorOf(const std::string& trajectory, const std::string& truth) {
 class LiveRun {
  public:
   /// `faults` are those of the played laser, `odometry_faults` those of the played odometry. No program runs yet.
-  explicit LiveRun(double pace, Words faults = {}, Words odometry_faults = {})
+  explicit LiveRun(double pace, Texts faults = {}, Texts odometry_faults = {})
       : pace_(pace), faults_(std::move(faults)), odometry_faults_(std::move(odometry_faults)) {
     using omnimapper::live::boundPort;
     using omnimapper::live::listenTcp;
@@ -52,7 +52,7 @@ class LiveRun {
 
   /// Starts the player and waits until its laser listens.
   void play(const std::string& log, const std::string& truth = "") {
-    Words words{omnimapper::testing::ownProgram("omnimapper-play"),
+    Texts words{omnimapper::testing::ownProgram("omnimapper-play"),
                 log,
                 "--hokuyo",
                 "127.0.0.1:" + std::to_string(laser_port_),
@@ -68,14 +68,14 @@ class LiveRun {
       std::this_thread::sleep_for(std::chrono::milliseconds(25));
   }
 
-  Words command(const Words& task) const {
-    Words words{omnimapper::testing::ownProgram("omnimapper-graphslam"), "-i",
+  Texts command(const Texts& task) const {
+    Texts words{omnimapper::testing::ownProgram("omnimapper-graphslam"), "-i",
                 omnimapper::testing::sourceFile("ini/laser2d.ini"), "-i", folder / "live.ini"};
     words.insert(words.end(), task.begin(), task.end());
     return words;
   }
-  Words live(const Words& more = {}) const {
-    Words task{"--live", "-o", out()};
+  Texts live(const Texts& more = {}) const {
+    Texts task{"--live", "-o", out()};
     task.insert(task.end(), more.begin(), more.end());
     return command(task);
   }
@@ -99,7 +99,7 @@ class LiveRun {
   }
 
   double pace_;
-  Words faults_, odometry_faults_;
+  Texts faults_, odometry_faults_;
   std::uint16_t laser_port_ = 0, odometry_port_ = 0;
 };
 

@@ -21,7 +21,7 @@ void sleep(double seconds) {
 }
 
 // Runs the mapper until the player has played the whole log.
-Ended playAndMap(LiveRun& run, const Words& more = {}, const ProgramOptions& options = {}) {
+Ended playAndMap(LiveRun& run, const Texts& more = {}, const ProgramOptions& options = {}) {
   run.play(kBox, kTruth);
   Program mapper(run.live(more), options);
   run.player->wait();

@@ -51,12 +51,12 @@ class BadData : public ::testing::Test {
   void each(const std::function<void(Class&)>& change) {
     each<Class>(0, 1e9, change);
   }
-  Ended mapThem(const Words& more = {}) {
+  Ended mapThem(const Texts& more = {}) {
     writeFile(scratch_ / "bad.rawlog", rawlogs::bytesOf(observations_).text);
     return map({scratch_ / "bad.rawlog"}, folder_, more);
   }
   /// Maps the observations and expects exit code 0 and a trajectory that is close to the truth.
-  void expectMap(const Words& words = {}, double largest_error = 0.15) {
+  void expectMap(const Texts& words = {}, double largest_error = 0.15) {
     const auto ended = mapThem();
     ASSERT_TRUE(endedWith(ExitCode::ok, ended, words));
     const auto trajectory = loadTrajectory(folder_);

@@ -13,10 +13,10 @@ using omnimapper::testing::ScratchFolder;
 using omnimapper::testing::SimulatedLogOptions;
 
 /// Classes that --list-plugins prints, by heading such as "pose plugins".
-std::map<std::string, Words> listedPlugins() {
+std::map<std::string, Texts> listedPlugins() {
   const auto ended = graphslam({"--list-plugins"});
   EXPECT_TRUE(endedWith(ExitCode::ok, ended));
-  std::map<std::string, Words> listed;
+  std::map<std::string, Texts> listed;
   std::istringstream in(ended.out);
   std::string heading;
   for (std::string line; std::getline(in, line);) {
@@ -35,7 +35,7 @@ std::map<std::string, Words> listedPlugins() {
   return listed;
 }
 
-std::string joined(const Words& words) {
+std::string joined(const Texts& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
@@ -94,7 +94,7 @@ TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
   auto plugins = listedPlugins();
   ASSERT_EQ(plugins.size(), 4U) << "pose, measurement and output plugins, and extractors";
   std::string ini;
-  std::map<std::string, Words> sections;
+  std::map<std::string, Texts> sections;
   const std::regex title(R"(\[(\w+)\]\nclass = (\w+)\n)");
   for (auto& [heading, classes] : plugins) {
     for (const auto& name : classes) {
@@ -126,7 +126,7 @@ TEST_F(CommandLine, UnknownPluginToPrintIsAnsweredWithTheNearest) {
 }
 
 TEST_F(CommandLine, SetOverrulesTheIni) {
-  const auto keyFrames = [&](const Words& more) {
+  const auto keyFrames = [&](const Texts& more) {
     EXPECT_TRUE(endedWith(ExitCode::ok, map({file("box.rawlog")}, file("set"), more)));
     return loadMap(file("set")).map.key_frames.size();
   };

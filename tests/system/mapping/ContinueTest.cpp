@@ -33,7 +33,7 @@ class Continue : public CutRing {
     continued_ = map({file("b.rawlog")}, file("both"), {"--continue", file("first/map.omnimap")});
     ASSERT_TRUE(endedWith(ExitCode::ok, continued_));
   }
-  static Ended goOn(const std::string& from, const std::string& to, Words more = {}) {
+  static Ended goOn(const std::string& from, const std::string& to, Texts more = {}) {
     more.insert(more.end(), {"--continue", from});
     return map({file("b.rawlog")}, to, more);
   }
@@ -131,7 +131,7 @@ TEST_F(Continue, ALogOfAnotherBuildingStaysUnalignedWithAWarning) {
 }
 
 TEST_F(Continue, AnIniThatCannotAlignALogWithAMapIsRefused) {
-  const Words no_measurements{"--set", "mapper.measurement_plugins="};
+  const Texts no_measurements{"--set", "mapper.measurement_plugins="};
   const auto ended =
       map({file("box.rawlog")}, file("none"), {"--continue", file("first"), no_measurements[0], no_measurements[1]});
   EXPECT_TRUE(

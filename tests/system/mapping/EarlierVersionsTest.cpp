@@ -16,8 +16,8 @@ class EarlierVersions : public ::testing::Test {
  protected:
   static std::string earlier(const std::string& file) { return sourceFile("tests/system/mapping/earlier/" + file); }
   /// Maps a part of the log from which they were made, without its depth images.
-  Ended mapHome(const std::string& labels, const Words& more) {
-    Words words{
+  Ended mapHome(const std::string& labels, const Texts& more) {
+    Texts words{
         "-i",    sourceFile("ini/home_planes.ini"), "-r", sourceFile("rawlogs/home_30s/home_30s.rawlog"), "-o", out_,
         "--set", "source.labels=" + labels};
     words.insert(words.end(), more.begin(), more.end());

@@ -16,7 +16,7 @@ class Localize : public CutRing {
     CutRing::SetUpTestSuite();
     map_bytes_ = readFile(file("first/map.omnimap"));
   }
-  static Ended localize(const std::string& to, Words more = {}) {
+  static Ended localize(const std::string& to, Texts more = {}) {
     more.insert(more.end(), {"--localize", file("first")});
     return map({file("b.rawlog")}, file(to), more);
   }

@@ -18,8 +18,8 @@ class Moveables : public ::testing::Test {
                                           "simulation.sensors=markers,odometry", "-o", *scratch_ / "offices"})));
   }
   static void TearDownTestSuite() { scratch_.reset(); }
-  static Ended mapIt(const std::string& folder, const Words& more = {}) {
-    Words words{"-i", sourceFile("ini/moveables.ini"), "-r", *scratch_ / "offices/two_offices.rawlog", "-o", folder};
+  static Ended mapIt(const std::string& folder, const Texts& more = {}) {
+    Texts words{"-i", sourceFile("ini/moveables.ini"), "-r", *scratch_ / "offices/two_offices.rawlog", "-o", folder};
     words.insert(words.end(), more.begin(), more.end());
     return graphslam(words);
   }

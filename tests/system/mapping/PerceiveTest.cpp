@@ -15,8 +15,8 @@ class Perceive : public ::testing::Test {
     options.place = SimulatedLogOptions::Place::box;
     SimulatedLog(options).writeRawlog(raw_);
   }
-  Ended perceive(const std::string& log, const std::string& output, const Words& more = {}) {
-    Words words{omnimapper::testing::ownProgram("omnimapper-perceive"),
+  Ended perceive(const std::string& log, const std::string& output, const Texts& more = {}) {
+    Texts words{omnimapper::testing::ownProgram("omnimapper-perceive"),
                 "-i",
                 omnimapper::testing::sourceFile("ini/laser2d.ini"),
                 "-r",
@@ -66,9 +66,9 @@ TEST_F(Perceive, RawAndDerivedTogetherMapAsTheRawLogDoes) {
 TEST_F(Perceive, WithoutTheRawScansItMapsAsTheRawLogDoes) {
   ASSERT_TRUE(endedWith(ExitCode::ok, perceive(raw_, scratch_ / "both.rawlog", {"--with-raw"})));
   // Laser odometry needs raw scans, so both runs take the motion from the wheels.
-  const Words wheels{"--set", "mapper.pose_plugins=odometry, no_motion", "--set",
+  const Texts wheels{"--set", "mapper.pose_plugins=odometry, no_motion", "--set",
                      "mapper.output_plugins=trajectory, graph"};
-  Words derived = wheels;
+  Texts derived = wheels;
   derived.insert(derived.end(), {"--set", "source.labels=odometry, laser.points"});
   ASSERT_TRUE(endedWith(ExitCode::ok, map({raw_}, scratch_ / "raw", wheels)));
   ASSERT_TRUE(endedWith(ExitCode::ok, map({scratch_ / "both.rawlog"}, scratch_ / "derived", derived)));

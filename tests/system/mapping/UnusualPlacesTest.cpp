@@ -12,12 +12,12 @@ using omnimapper::testing::sourceFile;
 class UnusualPlaces : public ::testing::Test {
  protected:
   // Simulates, maps and compares, and returns the numbers of omnimapper-eval map.
-  json judged(const std::string& rawlog_ini, const Words& world, const Words& mapping = {}) {
-    Words simulate{
+  json judged(const std::string& rawlog_ini, const Texts& world, const Texts& mapping = {}) {
+    Texts simulate{
         ownProgram("omnimapper-simulate"), "-i", sourceFile(rawlog_ini), "-o", scratch_ / "log", "--name", "log"};
     for (const auto& setting : world) simulate.insert(simulate.end(), {"--set", setting});
     EXPECT_TRUE(endedWith(ExitCode::ok, runProgram(simulate)));
-    Words map{"-i", sourceFile("ini/home_planes.ini"), "-r", scratch_ / "log/log.rawlog", "-o", scratch_ / "map"};
+    Texts map{"-i", sourceFile("ini/home_planes.ini"), "-r", scratch_ / "log/log.rawlog", "-o", scratch_ / "map"};
     for (const auto& setting : mapping) map.insert(map.end(), {"--set", setting});
     EXPECT_TRUE(endedWith(ExitCode::ok, graphslam(map)));
     EXPECT_TRUE(endedWith(ExitCode::ok, runProgram({ownProgram("omnimapper-eval"), "map", scratch_ / "map",
@@ -25,7 +25,7 @@ class UnusualPlaces : public ::testing::Test {
     return json::parse(readFile(scratch_ / "quality/numbers.json"));
   }
   // Settings that add a depth camera with three images a second.
-  static Words withCamera(const std::string& sensors) {
+  static Texts withCamera(const std::string& sensors) {
     return {"simulation.sensors=" + sensors, "simulation.duration_s=20", "kinect.class=RgbdCamera",
             "kinect.model=kinect",           "kinect.x_m=0.1",           "kinect.z_m=1.1",
             "kinect.pitch_deg=10",           "kinect.rate_hz=3",         "kinect.colour=false"};

@@ -29,7 +29,7 @@ class Verdict : public ::testing::Test {
   ScratchFolder scratch_;
   std::string log_ = scratch_ / "log.rawlog", folder_ = scratch_ / "map";
   // Neither laser odometry nor closures, so the map is as distorted as the odometry of the wheels.
-  Words wheels_alone_{"--set", "mapper.pose_plugins=odometry",   "--set", "odometry.fallback=false",
+  Texts wheels_alone_{"--set", "mapper.pose_plugins=odometry",   "--set", "odometry.fallback=false",
                       "--set", "loop_closure.min_travel_m=10000"};
 };
 
@@ -48,7 +48,7 @@ TEST_F(Verdict, OnADistortedMapIsSuspiciousAndAWarning) {
 }
 
 TEST_F(Verdict, OnADistortedMapIsAnExitCodeWithStrict) {
-  Words strict = wheels_alone_;
+  Texts strict = wheels_alone_;
   strict.insert(strict.end(), {"--strict", "-q"});
   EXPECT_TRUE(endedWith(ExitCode::suspicious_map, map({log_}, folder_, strict), {"The map is suspicious"}));
   EXPECT_EQ(filesIn(folder_), allOutputs()) << "the map must be written nevertheless";

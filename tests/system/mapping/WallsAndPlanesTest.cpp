@@ -26,14 +26,14 @@ mrpt::poses::CPose3D worldFromMap(const std::string& place) {
 class WallsAndPlanes : public ::testing::Test {
  protected:
   /// Maps a log with an INI.
-  void mapIt(const std::string& ini, const std::string& log, const Words& more = {}) {
-    Words words{"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_};
+  void mapIt(const std::string& ini, const std::string& log, const Texts& more = {}) {
+    Texts words{"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_};
     words.insert(words.end(), more.begin(), more.end());
     ASSERT_TRUE(endedWith(ExitCode::ok, graphslam(words)));
     plan_ = json::parse(readFile(folder_ + "/floorplan.geojson"))["features"];
   }
-  std::string import(const Words& words, const std::string& name) {
-    Words all{omnimapper::testing::ownProgram("omnimapper-import")};
+  std::string import(const Texts& words, const std::string& name) {
+    Texts all{omnimapper::testing::ownProgram("omnimapper-import")};
     all.insert(all.end(), words.begin(), words.end());
     all.insert(all.begin() + 3, scratch_ / name);
     EXPECT_TRUE(endedWith(ExitCode::ok, omnimapper::testing::runProgram(all)));

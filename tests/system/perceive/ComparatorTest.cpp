@@ -109,7 +109,7 @@ rate_hz = 2
 class Comparator : public ::testing::Test {
  protected:
   // Number of planes on the wall in each frame.
-  std::vector<std::size_t> countOnWall(Words more) {
+  std::vector<std::size_t> countOnWall(Texts more) {
     more.insert(more.end(), {"--set", "perception.extractors=planes"});
     more.insert(more.end(), {"--set", "planes.min_pixels=3000"});  // more than the white parts of the red plates
     EXPECT_TRUE(endedWith(ExitCode::ok, perceive(log_, scratch_ / "derived.rawlog", more)));
@@ -146,8 +146,8 @@ TEST_F(Comparator, IsSwappedByTheIni) {
 TEST_F(Comparator, OfColoursWithoutAPictureLeavesScansOutAndIsAnErrorAlone) {
   simulate("colour = false\n");
   const std::string derived = scratch_ / "derived.rawlog";
-  const Words words{"kinect", "picture", "comparator = plane"};
-  Words by_colour{"--set", "planes.comparator=plane_colour"};
+  const Texts words{"kinect", "picture", "comparator = plane"};
+  Texts by_colour{"--set", "planes.comparator=plane_colour"};
   EXPECT_TRUE(endedWith(ExitCode::damaged_input, perceive(log_, derived, by_colour), words));
   EXPECT_EQ(ofClass<CObservationPlanes>(readLog(derived)).size(), 0U);
   EXPECT_FALSE(readLog(derived).empty()) << "the other extractors process the scans all the same";

@@ -16,8 +16,8 @@ using namespace runs;
 using omnimapper::testing::runProgram;
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
-inline Words perceiving(const std::string& log, const std::string& output, const Words& more) {
-  Words words{omnimapper::testing::ownProgram("omnimapper-perceive"),
+inline Texts perceiving(const std::string& log, const std::string& output, const Texts& more) {
+  Texts words{omnimapper::testing::ownProgram("omnimapper-perceive"),
               "-i",
               omnimapper::testing::sourceFile("ini/perceive.ini"),
               "-r",
@@ -28,7 +28,7 @@ inline Words perceiving(const std::string& log, const std::string& output, const
   return words;
 }
 
-inline Ended perceive(const std::string& log, const std::string& output, const Words& more = {}) {
+inline Ended perceive(const std::string& log, const std::string& output, const Texts& more = {}) {
   return runProgram(perceiving(log, output, more));
 }
 

@@ -61,7 +61,7 @@ TEST_F(Planes, AreTheSameBytesOnAnyNumberOfThreadsAndBesideTheRawLog) {
 }
 
 TEST_F(Planes, MapAlikeFromTheRawLogAndFromWhatWasDerived) {
-  const Words more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
+  const Texts more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
                    "perception.extractors=laser_points, planes, edges, cloud_planes, laser_lines"};
   ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome}, scratch_ / "raw", more)));
   ASSERT_TRUE(endedWith(ExitCode::ok, map({kHome, derived_}, scratch_ / "merged", more)));
@@ -79,7 +79,7 @@ TEST_F(Planes, ScansWithoutCalibrationEndNoMapAndAreReported) {
       rawlog.add(*observation);
     }
   });
-  const Words more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
+  const Texts more{"-i", omnimapper::testing::sourceFile("ini/perceive.ini"), "--set",
                    "perception.extractors=laser_points, planes"};
   EXPECT_TRUE(endedWith(ExitCode::damaged_input, map({bad}, scratch_ / "bad", more),
                         {"an extractor could not process", "'kinect' at 17000000", "calibrate"}));

@@ -10,14 +10,14 @@ using namespace perceived;
 class SameBits : public ::testing::Test {
  protected:
   // Runs the extractors on a log without AVX2.
-  Ended perceiveWithout(const std::string& log, const std::string& output, const Words& more) {
-    Words words{"env", "OMNIMAPPER_AVX2=0"};
-    const Words command = perceiving(log, output, more);
+  Ended perceiveWithout(const std::string& log, const std::string& output, const Texts& more) {
+    Texts words{"env", "OMNIMAPPER_AVX2=0"};
+    const Texts command = perceiving(log, output, more);
     words.insert(words.end(), command.begin(), command.end());
     return runProgram(words);
   }
   // Runs the extractors with and without AVX2, expects the same bytes, and returns the observations.
-  Observations madeAlike(const std::string& log, const Words& more) {
+  Observations madeAlike(const std::string& log, const Texts& more) {
     const std::string with = scratch_ / "with.rawlog", without = scratch_ / "without.rawlog";
     EXPECT_TRUE(endedWith(ExitCode::ok, perceive(log, with, more)));
     EXPECT_TRUE(endedWith(ExitCode::ok, perceiveWithout(log, without, more)));

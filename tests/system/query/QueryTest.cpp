@@ -37,13 +37,13 @@ class Query : public ::testing::Test {
   static std::string office() { return *scratch_ / "office"; }
   static std::string map() { return *scratch_ / "map"; }
 
-  static Ended ask(const Words& words, const std::string& of = map()) {
-    Words command{omnimapper::testing::ownProgram("omnimapper-query"), of};
+  static Ended ask(const Texts& words, const std::string& of = map()) {
+    Texts command{omnimapper::testing::ownProgram("omnimapper-query"), of};
     command.insert(command.end(), words.begin(), words.end());
     return omnimapper::testing::runProgram(command);
   }
   /// The answer as JSON; null if the query fails.
-  static json answer(Words words) {
+  static json answer(Texts words) {
     words.emplace_back("--json");
     const auto ended = ask(words);
     EXPECT_EQ(ended.code, 0) << toString(ended);
@@ -180,7 +180,7 @@ TEST_F(Query, WrongWordsGetTheNearestRightOnes) {
 }
 
 TEST_F(Query, WhatCannotBeAskedIsAnErrorThatSaysWhy) {
-  const auto refuses = [](const Words& words, ExitCode code, const std::string& why) {
+  const auto refuses = [](const Texts& words, ExitCode code, const std::string& why) {
     const auto ended = ask(words);
     EXPECT_TRUE(endedWith(code, ended, {why}));
     EXPECT_EQ(ended.err.find('\x1b'), std::string::npos);

@@ -42,7 +42,7 @@ class Crash : public ::testing::Test {
     }
     fs::copy(scratch_ / versions_[0], folder_);
   }
-  static Words settingsOf(const std::string& version) {
+  static Texts settingsOf(const std::string& version) {
     return {"-q", "--set", version == "coarse" ? "trigger.distance_m=0.8" : "trigger.distance_m=0.3"};
   }
   void expectOneOfBothVersions() {
@@ -56,7 +56,7 @@ class Crash : public ::testing::Test {
   }
 
   ScratchFolder scratch_;
-  const Words versions_{"coarse", "fine"};
+  const Texts versions_{"coarse", "fine"};
   std::string log_path_ = scratch_ / "box.rawlog", folder_ = scratch_ / "map";
   double seconds_ = 0;
 };

@@ -35,7 +35,7 @@ class Presets : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Presets, AreMadeWithoutAWarningAndAllTheirSensorsMeasure) {
   const Simulation simulation(Config::fromFile(sourceFile("rawlogs/" + GetParam() + ".ini")));
-  EXPECT_EQ(simulation.warnings(), Words());
+  EXPECT_EQ(simulation.warnings(), Texts());
   EXPECT_GT(simulation.duration(), 10);
   expectMeasures(simulation);
 }
@@ -56,7 +56,7 @@ TEST(RawlogsReadme, ItsExampleOverThePresetItNamesIsAPlace) {
   const std::string example = writeFile(scratch / "mine.ini", page.substr(first, page.find("```", first) - first));
   ASSERT_NE(page.find("-i rawlogs/home.ini -i mine.ini"), std::string::npos);
   const Simulation simulation(Config::fromFiles({sourceFile("rawlogs/home.ini"), example}));
-  EXPECT_EQ(simulation.warnings(), Words());
+  EXPECT_EQ(simulation.warnings(), Texts());
   EXPECT_EQ(simulation.world().people.size(), 1U);
   const auto& objects = simulation.world().objects;
   EXPECT_TRUE(std::any_of(objects.begin(), objects.end(), [](const auto& object) { return object.name == "my_cup"; }));

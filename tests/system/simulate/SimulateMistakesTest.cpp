@@ -13,8 +13,8 @@ using omnimapper::testing::Program;
 class SimulateMistakes : public ::testing::Test {
  protected:
   SimulateMistakes() { writeFile(ini_, kSmallWorld); }
-  Ended with(const Words& settings, const ProgramOptions& options = {}) {
-    Words words{"-i", ini_, "-o", folder_};
+  Ended with(const Texts& settings, const ProgramOptions& options = {}) {
+    Texts words{"-i", ini_, "-o", folder_};
     for (const auto& setting : settings) words.insert(words.end(), {"--set", setting});
     return simulate(words, options);
   }
@@ -25,9 +25,9 @@ class SimulateMistakes : public ::testing::Test {
 
 TEST_F(SimulateMistakes, AreRefusedWithTheirPlaceInTheIni) {
   struct Case {
-    Words settings;
+    Texts settings;
     ExitCode code;
-    Words words;
+    Texts words;
   };
   const std::vector<Case> cases{
       {{"kitchen.rectangle_m=3 0 8 4"}, ExitCode::out_of_range, {"small.ini", "[kitchen]", "hall"}},
@@ -71,7 +71,7 @@ TEST_F(SimulateMistakes, AFullDiskLeavesNoHalfLog) {
 
 TEST_F(SimulateMistakes, AFullDiskKeepsTheOlderRunWhole) {
   // A log with odometry alone is smaller than the list of landmarks, for which the disk then has no room.
-  const Words settings{"simulation.sensors=odometry", "simulation.duration_s=1"};
+  const Texts settings{"simulation.sensors=odometry", "simulation.duration_s=1"};
   ASSERT_TRUE(endedWith(ExitCode::ok, with(settings)));
   const auto before = contentOf(folder_);
   ASSERT_GT(before.at("landmarks.json").size(), before.at("small.rawlog").size() + 1000);

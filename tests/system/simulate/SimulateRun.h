@@ -55,8 +55,8 @@ class = Odometry
 rate_hz = 20
 )";
 
-inline Ended simulate(const Words& arguments, const ProgramOptions& options = {}) {
-  Words words{omnimapper::testing::ownProgram("omnimapper-simulate")};
+inline Ended simulate(const Texts& arguments, const ProgramOptions& options = {}) {
+  Texts words{omnimapper::testing::ownProgram("omnimapper-simulate")};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return omnimapper::testing::runProgram(words, options);
 }

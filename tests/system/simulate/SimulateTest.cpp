@@ -20,8 +20,8 @@ using omnimapper::source::SourceReport;
 class Simulate : public ::testing::Test {
  protected:
   Simulate() { writeFile(ini_, kSmallWorld); }
-  Ended run(const std::string& folder, const Words& more = {}) {
-    Words words{"-i", ini_, "-o", scratch_ / folder};
+  Ended run(const std::string& folder, const Texts& more = {}) {
+    Texts words{"-i", ini_, "-o", scratch_ / folder};
     words.insert(words.end(), more.begin(), more.end());
     return simulate(words);
   }
@@ -227,7 +227,7 @@ TEST_F(Simulate, LostMeasurementsAreCounted) {
 }
 
 TEST_F(Simulate, AFolderUsedAgainHoldsTheNewRunAlone) {
-  const Words fewer{"--set", "simulation.sensors=laser", "--set", "simulation.duration_s=2", "--name", "other"};
+  const Texts fewer{"--set", "simulation.sensors=laser", "--set", "simulation.duration_s=2", "--name", "other"};
   ASSERT_TRUE(endedWith(ExitCode::ok, run("twice", {"--set", "simulation.images=external"})));
   writeFile(scratch_ / "twice/notes.txt", "mine");
   ASSERT_TRUE(endedWith(ExitCode::ok, run("twice", fewer)));

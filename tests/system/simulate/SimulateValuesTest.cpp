@@ -10,8 +10,8 @@ using namespace runs;
 class SimulateValues : public ::testing::Test {
  protected:
   SimulateValues() { writeFile(ini_, kSmallWorld); }
-  Ended with(const Words& settings, const Words& more = {}) {
-    Words words{"-i", ini_, "-o", folder_};
+  Ended with(const Texts& settings, const Texts& more = {}) {
+    Texts words{"-i", ini_, "-o", folder_};
     for (const auto& setting : settings) words.insert(words.end(), {"--set", setting});
     words.insert(words.end(), more.begin(), more.end());
     return simulate(words);
@@ -23,7 +23,7 @@ class SimulateValues : public ::testing::Test {
 
 TEST_F(SimulateValues, AreRefusedWithTheirPlaceInTheIni) {
   struct Case {
-    Words settings, words;
+    Texts settings, words;
   };
   const std::vector<Case> cases{
       {{"robot.waypoints=1 1, 2 2 nan"}, {"[robot]", "waypoints", "2 2 nan"}},

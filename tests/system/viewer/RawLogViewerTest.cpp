@@ -105,8 +105,8 @@ class RawLogViewer : public PerceivedHome {
   }
 
   /// Perceives the home with one extractor.
-  void perceiveHome(const std::string& extractor, const Words& more = {}) {
-    Words words{"--set", "perception.extractors=" + extractor};
+  void perceiveHome(const std::string& extractor, const Texts& more = {}) {
+    Texts words{"--set", "perception.extractors=" + extractor};
     words.insert(words.end(), more.begin(), more.end());
     ASSERT_TRUE(endedWith(ExitCode::ok, perceive(kHome, derived_, words)));
   }

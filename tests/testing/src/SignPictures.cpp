@@ -20,7 +20,6 @@ using geometry::Se3;
 
 // Independent streams of random numbers from the seed.
 enum Stream : std::uint64_t { kPlaceStream = 0x516e, kViewStream, kLightStream };
-constexpr int kLights = 6;  // number of lighting conditions of a place
 
 WorldPlan planOf(const SignPictureOptions& options, int number, int attempt, Random random) {
   const bool is_dark = options.style == "dark";

@@ -1,5 +1,6 @@
 #include "run/PerceivedLog.h"
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/source/ExternalImages.h>
 
 #include <algorithm>
@@ -84,13 +85,13 @@ void PerceivedLog::warn() {
   auto& warnings = result_.warnings;
   if (errors_.count() > 0) warnings.push_back(errors_.sentence());
   if (in_log_ > 0)
-    warnings.push_back(std::to_string(in_log_) +
-                       " derived observations are in the log already and were not written a second time; without " +
-                       "--with-raw they are derived again");
+    warnings.push_back(base::counted(in_log_, "derived observation") + " " + base::wasOrWere(in_log_) +
+                       " in the log already and not written a second time; without " +
+                       "--with-raw all are derived again");
   if (repeated_ > 0)
-    warnings.push_back(std::to_string(repeated_) +
-                       " derived observations have the label and stamp of another one and were left out, first " +
-                       first_repeated_ + "; name only one of these extractors in [perception] extractors");
+    warnings.push_back(base::counted(repeated_, "derived observation") + " " + base::wasOrWere(repeated_) +
+                       " left out because another one has the same label and stamp, first " + first_repeated_ +
+                       "; name only one of these extractors in [perception] extractors");
   if (result_.code == base::ExitCode::ok) result_.code = errors_.code();
 }
 

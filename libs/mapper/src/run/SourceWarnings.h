@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/source/ObservationSource.h>
 
 #include <string>
@@ -18,10 +19,10 @@ inline std::vector<std::string> warningsOf(const source::SourceReport& report) {
         "and do the clocks of their computers agree? A log of another drive is a session: map it with --continue");
   }
   if (report.missing_images > 0) {
-    warnings.push_back(std::to_string(report.missing_images) +
-                       " observations were left out because one of their external files cannot be read, first " +
-                       report.first_missing_image +
-                       "; put the files there, or name their folder as [source] images_folder");
+    warnings.push_back(
+        base::counted(report.missing_images, "observation") + " " + base::wasOrWere(report.missing_images) +
+        " left out because one of their external files cannot be read, first " + report.first_missing_image +
+        "; put the files there, or name their folder as [source] images_folder");
   }
   return warnings;
 }

@@ -18,7 +18,7 @@ struct PixelHit {
 };
 
 /// What a pixel shows through glass.
-struct SeenThrough {
+struct HitThroughGlass {
   int pixel = 0;           ///< its number, row by row
   float transmission = 1;  ///< part of the light that passes the panes in one direction
   PixelHit hit;            ///< the first surface that is not glass; depth 0: none
@@ -29,7 +29,7 @@ struct Frame {
   Pinhole camera;
   geometry::Se3 map_from_optical;
   std::vector<PixelHit> pixels;  ///< row by row
-  std::vector<SeenThrough> seen_through;
+  std::vector<HitThroughGlass> seen_through;
 
   const PixelHit& at(int column, int row) const {
     return pixels[static_cast<std::size_t>(row) * camera.width + column];
@@ -45,7 +45,7 @@ std::pair<Hit, float> castThroughGlass(const Scenes& scenes, const Scene& scene,
 /// For each pixel with a depth: whether something stands between its point and another one beside the camera.
 std::vector<char> findShadow(const Frame& frame, const Scene& scene, const Eigen::Vector3d& other_in_optical);
 
-/// Surface numbers plus one, row by row; 0: nothing. Throws base::Error(out_of_range) above 65534 surfaces.
+/// Surface numbers plus one, row by row; 0: nothing. Throws base::Error(out_of_range) above 65535 surfaces.
 std::vector<std::uint16_t> labelsOf(const Frame& frame);
 
 /// Depths row by row, 0: nothing [m].

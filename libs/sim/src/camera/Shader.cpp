@@ -92,7 +92,7 @@ std::vector<Eigen::Vector3f> Shader::shade(const Frame& frame) const {
           colourOf(hit, along(column, row), eye, pixel_side, texels);
     }
   }
-  for (const SeenThrough& seen : frame.seen_through) {
+  for (const HitThroughGlass& seen : frame.seen_through) {
     const int row = seen.pixel / camera.width, column = seen.pixel % camera.width;
     constexpr float kUnknown = 2;  // texels: what is behind glass has no neighbours here
     Eigen::Vector3f& colour = colours[seen.pixel];

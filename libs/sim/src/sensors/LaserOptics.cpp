@@ -68,8 +68,8 @@ struct LaserOptics::Fate {
   std::array<double, kMostPanes> at_pane;
 };
 
-std::vector<SeenPoint> seenPoints(const std::vector<Echo>& echoes) {
-  std::vector<SeenPoint> points;
+std::vector<VisiblePoint> seenPoints(const std::vector<Echo>& echoes) {
+  std::vector<VisiblePoint> points;
   for (const Echo& echo : echoes) {
     const bool is_plain = echo.is_valid && echo.surface >= 0 && !echo.is_mixed && !echo.is_mirrored;
     if (is_plain && isSeenWell(echo.true_range, echo.cosine))

@@ -109,12 +109,12 @@ void RgbdCamera::fillColour(const Pictures& pictures, int k, mrpt::obs::CObserva
 
 // Points of pixels that are 2.5 cm apart at 4 m and in the range image. A depth measured through glass does not show
 // the glass.
-std::vector<SeenPoint> RgbdCamera::seenPoints(const Frame& frame, const std::vector<float>& depths) const {
+std::vector<VisiblePoint> RgbdCamera::seenPoints(const Frame& frame, const std::vector<float>& depths) const {
   constexpr double kGap = 0.025 / 4;  // between pixels, at 1 m [m]
   constexpr double kSame = 0.3;       // largest error of a Kinect at 4 m [m]
   const Pinhole& camera = frame.camera;
   const int step = std::max(1, static_cast<int>(kGap * camera.fx));
-  std::vector<SeenPoint> points;
+  std::vector<VisiblePoint> points;
   for (int row = step / 2; row < camera.height; row += step) {
     for (int column = step / 2; column < camera.width; column += step) {
       const PixelHit& hit = frame.at(column, row);

@@ -25,7 +25,7 @@ class RgbdCamera : public Sensor {
   /// Depths that the depth camera measures.
   std::vector<float> sense(const Pictures& pictures, int k) const;
   bool isInRange(float depth) const;
-  std::vector<SeenPoint> seenPoints(const Frame& frame, const std::vector<float>& depths) const;
+  std::vector<VisiblePoint> seenPoints(const Frame& frame, const std::vector<float>& depths) const;
   void fillDepth(const std::vector<float>& depths, mrpt::obs::CObservation& observation) const;
   void fillColour(const Pictures& pictures, int k, mrpt::obs::CObservation& observation) const;
 

@@ -27,4 +27,9 @@ inline std::string counted(std::uint64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+/// "was" for one, "were" for any other number.
+inline std::string wasOrWere(std::uint64_t count) {
+  return count == 1 ? "was" : "were";
+}
+
 }  // namespace omnimapper::base

@@ -49,7 +49,7 @@ struct SoughtSurface {
   bool isOnce() const { return is_found && by.size() == 1; }
 };
 
-struct SeenArea {
+struct AreaCoverage {
   double seen = 0, covered = 0;  ///< [m^2]
 };
 
@@ -59,7 +59,7 @@ struct MapQuality {
   std::vector<JudgedSurface> candidates;  ///< surfaces that the map keeps and does not draw
   std::vector<SoughtSurface> sought;
   std::vector<std::pair<std::size_t, std::size_t>> doubles;  ///< indices of the map's surfaces, each pair once
-  std::map<surfaces::SurfaceClass, SeenArea> area;           ///< by true class, of surfaces that never moved
+  std::map<surfaces::SurfaceClass, AreaCoverage> area;       ///< by true class, of surfaces that never moved
   /// Number of drawn surfaces that are not spurious, by the class in the map and the true class.
   std::map<surfaces::SurfaceClass, std::map<surfaces::SurfaceClass, std::size_t>> labels;
 

@@ -27,7 +27,7 @@ struct SplitSurface {
 };
 
 /// One surface of the place as all views together show it, on the plane of the view that shows most of it.
-struct SeenSurface {
+struct MergedSurface {
   surfaces::Surface surface;      ///< its plane; `seen`: the cells that any view shows
   surfaces::CellGrid seen_twice;  ///< cells that two planes of views show
   surfaces::CellGrid missing;     ///< cells of seen_twice that no drawn surface of the map covers
@@ -36,7 +36,7 @@ struct SeenSurface {
 
 /// The pieces that a level surface, such as a desk or the floor, is split into.
 struct LevelPieces {
-  std::size_t seen_surface = 0;       ///< index in ViewAgreement::seen
+  std::size_t merged_surface = 0;     ///< index in ViewAgreement::seen
   double area = 0;                    ///< [m^2] its seen area
   double height = 0;                  ///< [m] height of its middle, in the frame of the views
   std::vector<std::size_t> of_map;    ///< drawn surfaces that cover a share of it, largest share first
@@ -49,8 +49,8 @@ struct ViewAgreement {
   std::vector<SplitSurface> split;         ///< pairs in the map that two views show as one surface
   std::vector<SplitSurface> split_of_one;  ///< pairs in the map that only one view shows as one surface
   std::vector<std::pair<std::size_t, std::size_t>> doubles;  ///< drawn surfaces that lie on each other, by area alone
-  std::vector<SeenSurface> seen;                             ///< the largest first
-  SeenArea area, area_twice;                                 ///< area in any view, and in two views
+  std::vector<MergedSurface> seen;                           ///< the largest first
+  AreaCoverage area, area_twice;                             ///< area in any view, and in two views
   std::vector<LevelPieces> levels;                           ///< of level surfaces over min_area, the largest first
   Statistics distance;     ///< [m] of points on planes from the nearest drawn surface there
   double distance_95 = 0;  ///< [m]

@@ -12,7 +12,7 @@
 namespace omnimapper::eval {
 
 /// A plane that a single depth image shows, in the frame of the poses that were given.
-struct SeenPlane {
+struct ViewPlane {
   surfaces::Surface surface;            ///< its plane and outline; `seen` has the cells that count
   std::vector<Eigen::Vector3d> points;  ///< some of its points, as they were measured
 };
@@ -20,14 +20,14 @@ struct SeenPlane {
 /// The planes that perception finds in one depth image alone.
 struct View {
   std::string name;  ///< label and stamp of the image
-  std::vector<SeenPlane> planes;
+  std::vector<ViewPlane> planes;
 };
 
 struct ViewOptions {
   base::Duration tolerance = base::durationFromSeconds(0.01);  ///< between the stamps of an image and of its pose
   base::Duration longest_gap{0};  ///< above zero: interpolate the poses over gaps up to this instead
   std::size_t most_views = 200;   ///< if there are more images, every second, fourth, ... is used
-  double cell = 0.05;             ///< [m] of SeenPlane::surface.seen
+  double cell = 0.05;             ///< [m] of ViewPlane::surface.seen
   /// Points farther away or seen at a flatter angle do not count, because the error of depth there is larger than the
   /// errors of the map that are judged. The simulator has the same bounds for what counts as seen.
   double max_range = 4;      ///< [m]

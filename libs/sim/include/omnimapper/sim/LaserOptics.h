@@ -45,7 +45,7 @@ struct Echo {
 };
 
 /// Points of the echoes that show a surface well: valid, neither mixed nor mirrored, and isSeenWell().
-std::vector<SeenPoint> seenPoints(const std::vector<Echo>& echoes);
+std::vector<VisiblePoint> seenPoints(const std::vector<Echo>& echoes);
 
 /// Casts beams like those of a real laser. A beam passes a pane, is sent back by it (near face-on) or is mirrored by it
 /// (grazing, by Fresnel's law). `scouts` rays of each beam look for edges: with 1 its axis, with 3 its two sides too.

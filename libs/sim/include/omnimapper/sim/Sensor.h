@@ -52,7 +52,7 @@ struct TruthFile {
 };
 
 /// A point of a surface that a beam or pixel measured from nearby and at a moderate angle.
-struct SeenPoint {
+struct VisiblePoint {
   int surface = 0;         ///< number as numberSurfaces() counts
   Eigen::Vector3f in_map;  ///< the true point, without noise [m]
 };
@@ -65,7 +65,7 @@ struct Measurement {
   mrpt::obs::CObservation::Ptr observation;
   std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: none
   std::vector<TruthFile> truth_files;
-  std::vector<SeenPoint> seen = {};
+  std::vector<VisiblePoint> seen = {};
   std::vector<SignView> signs = {};  ///< the signs in its picture, if it has one
 };
 

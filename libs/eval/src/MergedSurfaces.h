@@ -9,7 +9,7 @@
 namespace omnimapper::eval {
 
 /// A plane of a view, with the cells that count for the comparison.
-struct ViewPlane {
+struct PlaneCells {
   std::size_t view = 0, plane = 0;
   CoveredSurface covered;
 };
@@ -23,6 +23,6 @@ bool areSame(const CoveredSurface& a, const CoveredSurface& b, const MapQualityO
 /// Unites planes that lie on each other, beginning with the largest. Every part of a united surface lies on the plane
 /// of its largest, so that a chain of planes does not climb from a table to the books on it. Each plane is part of
 /// exactly one surface; the largest surface comes first.
-std::vector<SeenSurface> unitePlanes(const std::vector<ViewPlane>& planes, const MapQualityOptions& options);
+std::vector<MergedSurface> unitePlanes(const std::vector<PlaneCells>& planes, const MapQualityOptions& options);
 
 }  // namespace omnimapper::eval

@@ -1,4 +1,4 @@
-#include "SeenMoves.h"
+#include "VisibleMoves.h"
 
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/sim/Drive.h>
@@ -46,7 +46,7 @@ double distanceTo(const Visit& visit, double time) {
 
 }  // namespace
 
-std::vector<std::string> seenMoves(const World& world, const Track& map_from_base, double duration) {
+std::vector<std::string> visibleMoves(const World& world, const Track& map_from_base, double duration) {
   std::vector<std::string> sentences;
   const auto carryings = carryingsOf(world, duration);
   if (carryings.empty()) return sentences;

@@ -1,4 +1,4 @@
-#include "SeenSurfaces.h"
+#include "MergedSurfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ using surfaces::CellGrid;
 /// A surface that grows by adding planes of views that lie on it.
 class GrowingSurface {
  public:
-  GrowingSurface(const ViewPlane& first, const MapQualityOptions& options)
+  GrowingSurface(const PlaneCells& first, const MapQualityOptions& options)
       : normal_cosine_(std::cos(options.max_turn)), options_(options), box_(first.covered.box) {
     grown_.surface.name = first.covered.surface->name;
     grown_.surface.plane = first.covered.surface->plane;
@@ -23,7 +23,7 @@ class GrowingSurface {
     count_ = first.covered.cells.count();
   }
 
-  bool takes(const ViewPlane& more) {
+  bool takes(const PlaneCells& more) {
     const CoveredSurface& covered = more.covered;
     if (plane().normal.dot(covered.surface->plane.normal) < normal_cosine_ ||
         box_.exteriorDistance(covered.box) > options_.max_distance)
@@ -35,7 +35,7 @@ class GrowingSurface {
     add(more);
     return true;
   }
-  SeenSurface take() { return std::move(grown_); }
+  MergedSurface take() { return std::move(grown_); }
 
  private:
   const geometry::Plane3& plane() const { return grown_.surface.plane; }
@@ -49,7 +49,7 @@ class GrowingSurface {
     const auto cell = grown_.surface.seen->cellAt(point);
     return cell && grown_.surface.seen->isSet(*cell);
   }
-  void add(const ViewPlane& more) {
+  void add(const PlaneCells& more) {
     std::vector<Eigen::Vector3d> points;
     more.covered.forEach([&](const Eigen::Vector3d& point, CellGrid::Cell) {
       if (isOnPlane(point)) points.push_back(point - signedDistance(plane(), point) * plane().normal);
@@ -75,7 +75,7 @@ class GrowingSurface {
 
   double normal_cosine_;
   const MapQualityOptions& options_;
-  SeenSurface grown_;
+  MergedSurface grown_;
   Eigen::AlignedBox3d box_;
   std::size_t count_ = 0;  // cells
 };
@@ -97,13 +97,13 @@ bool areSame(const CoveredSurface& a, const CoveredSurface& b, const MapQualityO
   return sharedShare(is_first ? a : b, is_first ? b : a, options) >= options.overlap_share;
 }
 
-std::vector<SeenSurface> unitePlanes(const std::vector<ViewPlane>& planes, const MapQualityOptions& options) {
+std::vector<MergedSurface> unitePlanes(const std::vector<PlaneCells>& planes, const MapQualityOptions& options) {
   std::vector<std::size_t> left(planes.size());
   std::iota(left.begin(), left.end(), 0U);
   std::stable_sort(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
     return planes[a].covered.cells.count() > planes[b].covered.cells.count();
   });
-  std::vector<SeenSurface> united;
+  std::vector<MergedSurface> united;
   while (!left.empty()) {
     GrowingSurface surface(planes[left.front()], options);
     left.erase(left.begin());

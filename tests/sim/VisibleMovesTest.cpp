@@ -2,9 +2,9 @@
 #include <omnimapper/sim/Drive.h>
 #include <omnimapper/sim_world/WorldIni.h>
 
-#include "SeenMoves.h"
+#include "VisibleMoves.h"
 
-namespace seen_moves_test {
+namespace visible_moves_test {
 namespace {
 
 using namespace omnimapper;
@@ -21,10 +21,10 @@ std::vector<std::string> warningsWhenCarriedAt(const std::string& time, double d
           time + " 11 2.5 0\n[robot]\nmode = waypoints\nwaypoints = 2 1.5, 10 1.5\n",
       "w.ini");
   const sim::World world = sim::readWorld(config);
-  return sim::seenMoves(world, sim::planDrive(config, world), duration);
+  return sim::visibleMoves(world, sim::planDrive(config, world), duration);
 }
 
-TEST(SeenMoves, areThoseInTheRoomWhereTheRobotIs) {
+TEST(VisibleMoves, areThoseInTheRoomWhereTheRobotIs) {
   // 8 m take 17 s: it is in the hall from about 5 to 13 s.
   for (const auto& [time, room] :
        {std::pair("2", "'kitchen'"), std::pair("15", "'study'"), std::pair("60", "'study'")}) {
@@ -36,9 +36,9 @@ TEST(SeenMoves, areThoseInTheRoomWhereTheRobotIs) {
   EXPECT_TRUE(warningsWhenCarriedAt("9").empty());
 }
 
-TEST(SeenMoves, areNotThoseAfterTheEndOfTheRun) {
+TEST(VisibleMoves, areNotThoseAfterTheEndOfTheRun) {
   EXPECT_TRUE(warningsWhenCarriedAt("15", 14).empty());
 }
 
 }  // namespace
-}  // namespace seen_moves_test
+}  // namespace visible_moves_test

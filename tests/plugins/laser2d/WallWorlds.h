@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace omnimapper::plugins::seen_walls {
+namespace omnimapper::plugins::wall_worlds {
 
 struct Wall {
   Eigen::Vector2d from, to;
@@ -26,7 +26,7 @@ inline World corridor() {
 }
 
 /// The points of all walls within `reach` [m], in the base: walls do not hide each other.
-inline std::shared_ptr<const matching::ScanWithNormals> seenFrom(const mrpt::poses::CPose3D& map_from_base,
+inline std::shared_ptr<const matching::ScanWithNormals> scanFrom(const mrpt::poses::CPose3D& map_from_base,
                                                                  const World& world, double reach) {
   constexpr double kSpacing = 0.05;  // [m]
   auto scan = std::make_shared<matching::ScanWithNormals>();
@@ -46,4 +46,4 @@ inline std::shared_ptr<const matching::ScanWithNormals> seenFrom(const mrpt::pos
   return scan;
 }
 
-}  // namespace omnimapper::plugins::seen_walls
+}  // namespace omnimapper::plugins::wall_worlds
