@@ -168,7 +168,7 @@ truth = ${SCRATCH}/beacons.txt
 ")
 # The program knows its classes and keys.
 execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${ini}" --list-plugins OUTPUT_VARIABLE listed)
-if(NOT listed MATCHES "BeaconPlugin +Beacons that tell")
+if(NOT listed MATCHES "BeaconPlugin +Beacons with numbers")
   message(FATAL_ERROR "--list-plugins does not know BeaconPlugin:\n${listed}")
 endif()
 execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${ini}" --print-ini BeaconPlugin OUTPUT_VARIABLE printed)
