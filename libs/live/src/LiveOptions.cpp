@@ -39,8 +39,9 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
                   "A sensor is closed and opened again, until it answers, after this time without data, or after three "
                   "times the longest of its last ten intervals if that is longer.")
           .number("max_clock_off_s", &LiveOptions::max_clock_off, Range::positive(),
-                  "Largest difference between a stamp and its arrival that still counts as the same clock; beyond it "
-                  "the offset of the sensor's clock is estimated, and again where it jumps.")
+                  "Largest difference between an observation's stamp and its arrival at which the stamp is used as it "
+                  "is. If the difference is larger, the offset of the sensor's clock is estimated, and estimated again "
+                  "when the offset changes abruptly.")
           .number("checkpoint_s", &LiveOptions::checkpoint, Range::notNegative(),
                   "Time between two checkpoints of the map, checkpoint.omnimap in the output folder, which stays there "
                   "if the run is killed; 0 writes none.")

@@ -21,8 +21,8 @@ const base::OptionTable<ScanMatcherOptions>& ScanMatcherOptions::table() {
                   {{"classic", IcpMethod::classic}, {"levenberg_marquardt", IcpMethod::levenberg_marquardt}},
                   "Variant of MRPT's ICP.")
           .number("icp_max_angle_deg", &Options::icp_max_angle, base::Range{0, 45},
-                  "MRPT's ICP: the largest distance between corresponding points grows with the distance from the "
-                  "sensor as if it were seen at this angle.")
+                  "MRPT's ICP: this angle times a point's distance from the sensor is added to the largest distance "
+                  "between corresponding points.")
           .integer("icp_decimation", &Options::icp_decimation, base::Range{1, 1000},
                    "MRPT's ICP: only every n-th point is used for correspondences.");
   return table;

@@ -38,10 +38,11 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
                   "Largest distance between the middle of one plane and the other plane if both are pieces of one "
                   "surface, in addition to the sensor's systematic distortion.")
           .number("min_height_m", &Options::min_height, Range::notNegative(),
-                  "Points above a surface by less than this and the noise together belong to the surface itself.")
+                  "Points that are above a surface by less than the sum of this and the noise belong to the surface "
+                  "itself.")
           .number("max_gap_m", &Options::max_gap, Range::notNegative(),
-                  "Neighbouring pixels farther apart than this and the noise together belong to different "
-                  "objects.")
+                  "Neighbouring pixels belong to different objects if their points are farther apart than the sum of "
+                  "this and the noise.")
           .number("max_standing_gap_m", &Options::max_standing_gap, Range::notNegative(),
                   "Largest distance between a surface and the lowest visible point of an object on it. It is not zero, "
                   "because nearer objects may hide the foot of an object.")

@@ -30,9 +30,9 @@ const base::OptionTable<PlaneComparisonOptions>& PlaneComparisonOptions::table()
           .choice<const PlaneComparison*>(
               "comparator", &Options::comparison,
               {{"plane", &kSamePlane}, {"plane_colour", &kSamePlaneAndColour}, {"normals", &kSimilarNormals}},
-              "Criterion for neighbouring pixels of one plane: both lie on it (plane), and also have one colour, "
-              "which needs a picture with each depth image (plane_colour), or have similar normals, as in the thesis "
-              "(normals).")
+              "Criterion for neighbouring pixels of one plane. plane: both lie on it. plane_colour: both lie on it and "
+              "have one colour, which needs a picture with each depth image. normals: their normals and offsets are "
+              "similar, as in the thesis.")
           .number("max_colour_distance", &Options::max_colour_distance, {0, 442},
                   "With comparator = plane_colour, largest Euclidean RGB distance (channels 0 to 255) between pixels "
                   "at most 2 pixels apart that count as one colour.");

@@ -19,7 +19,7 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
           .number("scale_sigma", &PlaneOptions::scale_sigma, {0, 1}, kScaleHelp)
           .integer("min_pixels", &PlaneOptions::min_pixels, {1, 1e9}, "Planes with fewer pixels are left out.")
           .integer("min_hole_pixels", &PlaneOptions::min_hole_pixels, {1, 1e9},
-                   "Holes in a plane with fewer pixels are not outlined.");
+                   "Holes of fewer pixels in a plane are not outlined.");
   return table;
 }
 

@@ -36,7 +36,7 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
                   "standard deviations.")
           .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Ground regions with fewer pixels are left out.")
           .integer("min_hole_pixels", &RoadOptions::min_hole_pixels, {1, 1e9},
-                   "Holes in the ground with fewer pixels are not outlined.");
+                   "Holes of fewer pixels in the ground are not outlined.");
   return table;
 }
 

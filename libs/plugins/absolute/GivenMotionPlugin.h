@@ -51,7 +51,9 @@ class GivenMotionPluginFactory : public mapper::PosePluginFactory {
   DEFINE_MRPT_OBJECT(GivenMotionPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "GivenMotionPlugin"; }
-  std::string summary() const override { return "The motion between poses from outside (CObservationRobotPose)."; }
+  std::string summary() const override {
+    return "The motion between poses that are given in the log (CObservationRobotPose), for example by motion capture.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return GivenMotionOptions::table().specs(); }
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
                                            const mapper::PluginContext& context) const override;

@@ -55,7 +55,9 @@ class RobotPosePluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "RobotPosePlugin"; }
-  std::string summary() const override { return "Absolute poses from outside (CObservationRobotPose)."; }
+  std::string summary() const override {
+    return "Absolute poses that are given in the log (CObservationRobotPose), for example by motion capture.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return RobotPoseOptions::table().specs(); }
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
                                                   const mapper::PluginContext& context) const override;

@@ -38,7 +38,7 @@ const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table
                    "as errors.")
           .number("min_move_m", &Options::min_move, Range::notNegative(), "Smallest displacement that counts as moved.")
           .number("visit_gap_s", &Options::visit_gap, Range::positive(),
-                  "Longest time for which a landmark may be out of sight without possibly having been moved.")
+                  "A landmark that was out of sight for longer than this may have been moved in the meantime.")
           .number("confidence", &Options::confidence, Range{0.5, 0.999999999},
                   "Probability with which measurements at one place are recognized as such.");
   return table;

@@ -19,9 +19,9 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .integer("candidates", &Options::candidates, base::Range{1, 1000},
                    "Largest number of places tried for a loop closure per key frame.")
           .number("submap_length_m", &Options::context, base::Range::positive(),
-                  "The scans of this last distance travelled are matched together. The local map that they are matched "
-                  "with has the scans of twice this distance before a place and after it. Both grow with the "
-                  "uncertainty of the estimate.")
+                  "Length of the last part of the trajectory whose scans are matched together. They are matched with a "
+                  "local map of an earlier place, which has the scans of twice this distance before and after it. Both "
+                  "lengths grow with the uncertainty of the estimate.")
           .number("max_window_m", &Options::max_window, base::Range::positive(),
                   "Largest distance from the estimated position at which a loop closure is searched for, however "
                   "uncertain the estimate is.")
@@ -30,8 +30,8 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
                   "uncertain the estimate is.")
           .number("lost_travel_m", &Options::lost_travel, base::Range::notNegative(),
                   "Distance travelled without a closure after which the whole earlier map is searched, if the scans do "
-                  "not fit the map at the estimated pose. For an unaligned session the saved map is searched, at once "
-                  "if its start is less certain than max_window_m.")
+                  "not fit the map at the estimated pose. A session that is not aligned searches the saved map after "
+                  "this distance, or at once if the pose of its start is more uncertain than max_window_m.")
           .number("join_travel_m", &Options::join_travel, base::Range::notNegative(),
                   "Distance travelled over which all scans must fit the place found by a global search, where much "
                   "of the map looks alike.")
@@ -59,7 +59,8 @@ const base::OptionTable<LoopClosureOptions>& LoopClosureOptions::table() {
           .number("angle_sigma_floor_deg", &Options::angle_sigma_floor, base::Range::positive(),
                   "Smallest standard deviation of the heading of a loop closure.")
           .number("loss_scale", &Options::loss_scale, base::Range::positive(),
-                  "Scale of the Cauchy loss on loop closures, in standard deviations.");
+                  "Number of standard deviations beyond which a loop closure that disagrees loses influence (scale of "
+                  "the Cauchy loss).");
   return table;
 }
 

@@ -38,9 +38,11 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
                   "Largest plausible speed of a camera that a hand or a robot moves; a map with faster motions is "
                   "reported as suspicious.")
           .number("position_noise_m", &Options::position_noise, base::Range::positive(),
-                  "Standard deviation of each coordinate of the motion from one image to the next, at rest.")
+                  "Standard deviation of each coordinate of the measured motion from one image to the next while the "
+                  "camera rests.")
           .number("angle_noise_deg", &Options::angle_noise, base::Range::positive(),
-                  "Standard deviation of each angle of the motion from one image to the next, at rest.")
+                  "Standard deviation of each angle of the measured motion from one image to the next while the camera "
+                  "rests.")
           .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
                   "Additional standard deviation of each coordinate after 1 m of distance travelled [m].")
           .number("position_noise_per_root_turn", &Options::position_noise_per_root_turn, zero_or_more,

@@ -42,14 +42,16 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
                    "A key frame is linked to the second, third, and so on, up to this many key frames before it. "
                    "Odometry links it to the first.")
           .integer("old_views", &Options::old_views, base::Range{0, 20},
-                   "Largest number of older views, expected to be visible again, to which a key frame is linked.")
+                   "Largest number of older key frames to which a key frame is linked, because the camera sees again "
+                   "what they show.")
           .integer("stored_views", &Options::stored_views, base::Range{1, 100000},
-                   "Largest number of older views that are stored before the oldest is dropped; a thousand take 250 "
-                   "MB at most.")
+                   "Largest number of older key frames whose images are stored before the oldest is dropped; a "
+                   "thousand take 250 MB at most.")
           .number("overlap", &Options::overlap, base::Range{0.1, 1},
-                  "Smallest share of an older view that the camera must still see to be linked to it.")
+                  "Smallest share of an older key frame's image that the camera must see again for a link.")
           .number("loss_scale", &Options::loss_scale, base::Range::positive(),
-                  "Scale of the Cauchy loss on links between views, in standard deviations.");
+                  "Number of standard deviations beyond which a link that disagrees loses influence (scale of the "
+                  "Cauchy loss).");
   return table;
 }
 

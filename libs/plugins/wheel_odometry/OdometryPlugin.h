@@ -36,7 +36,7 @@ class OdometryPluginFactory : public mapper::PosePluginFactory {
  public:
   std::string name() const override { return "OdometryPlugin"; }
   std::string summary() const override {
-    return "Links key frames by wheel odometry, cumulative poses or MRPT's actions.";
+    return "Links key frames by wheel odometry, which the log holds as cumulative poses or as MRPT's actions.";
   }
   const std::vector<base::OptionSpec>& options() const override { return OdometryOptions::table().specs(); }
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,

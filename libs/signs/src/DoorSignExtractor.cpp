@@ -59,11 +59,11 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
           .number("min_confidence", &Options::min_confidence, {0, 1},
                   "Lines of text with a lower confidence are left out.")
           .number("min_height_px", &Options::min_height, {4, 1000},
-                  "Lines of text that are lower in the image are left out.")
+                  "Lines of text whose letters are less high than this in the image are left out.")
           .number("least_change", &Options::least_change, {0, 255},
-                  "Images are reduced to 64 columns and compared with the camera's last examined image. If no pixel "
-                  "differs by this many grey levels (of 255) from the mean change, omnimapper-perceive reuses the "
-                  "signs of that image. 0 examines every image.");
+                  "Images are reduced to 64 columns and compared with the camera's last examined image. If the grey "
+                  "value of every pixel has changed by less than this (of 255), apart from the mean change of the "
+                  "whole image, omnimapper-perceive reuses the signs of that image. 0 examines every image.");
   return table;
 }
 

@@ -22,13 +22,14 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
                   "determines the steps.")
           .choice("action_span", &SourceOptions::action_span,
                   {{"automatic", ActionSpan::automatic}, {"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
-                  "Time span of a rawlog's action, which is a motion without a span: from the sensor frame before it "
-                  "to the one after it (frames), or from the stamp of the previous action to its own (own). automatic "
-                  "is own if actions have stamps.")
+                  "Time span of a rawlog's action, which is a motion without a span: from the observations before it "
+                  "to those after it (frames), or from the stamp of the previous action to its own (own). automatic "
+                  "means own if the actions have stamps, else frames.")
           .text("action_label", &SourceOptions::action_label,
                 "Sensor label given to the motions that actions are converted to.")
           .text("images_folder", &SourceOptions::images_folder,
-                "Folder of external images; empty for <rawlog>_Images beside the rawlog.");
+                "Folder of external images; empty for the folder beside the rawlog that has its name with _Images "
+                "appended, as MRPT uses it.");
   return table;
 }
 

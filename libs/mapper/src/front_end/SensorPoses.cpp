@@ -62,18 +62,20 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the observations that this section applies to.")
-          .number("pose_x_m", &Options::x, {}, "Position of the sensor in the base frame: x, forward.")
-          .number("pose_y_m", &Options::y, {}, "Position of the sensor in the base frame: y, to the left.")
-          .number("pose_z_m", &Options::z, {}, "Position of the sensor in the base frame: z, up.")
+          .number("pose_x_m", &Options::x, {},
+                  "Position of the sensor in the frame of the base, whose motion odometry measures: x, forward.")
+          .number("pose_y_m", &Options::y, {}, "Position of the sensor in the frame of the base, whose motion odometry measures: y, to the left.")
+          .number("pose_z_m", &Options::z, {}, "Position of the sensor in the frame of the base, whose motion odometry measures: z, up.")
           .number("pose_yaw_deg", &Options::yaw, {}, "Orientation of the sensor in the base frame: yaw, about z.")
           .number("pose_pitch_deg", &Options::pitch, {}, "Orientation of the sensor in the base frame: pitch, about y.")
           .number("pose_roll_deg", &Options::roll, {},
                   "Orientation of the sensor in the base frame: roll, about x; 180 for a sensor mounted upside down.")
           .number("aperture_deg", &Options::aperture, {0, 360},
-                  "Angle of the sensor's 2D scans from the first beam to the last; 0 keeps the aperture that the "
+                  "Angle between the first and the last beam of the sensor's 2D scans; 0 keeps the aperture that the "
                   "scans report.")
           .text("pose_file", &Options::file,
-                "TUM file of base_from_sensor poses over time, for a sensor that moves on the base.");
+                "File with the sensor's poses on the base over time, for a sensor that moves on the base. Each line "
+                "has stamp [s], x y z [m] and quaternion qx qy qz qw (TUM format).");
   return table;
 }
 

@@ -25,8 +25,8 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                   "Largest age up to which observations that come later than window_s are still placed in the "
                   "trajectory; older ones are rejected.")
           .integer("queue_limit", &Options::queue_limit, base::Range{1, 1e9},
-                   "Largest number of stamps that wait in the queue, whatever window_s is, so that a sensor whose "
-                   "stamps do not advance cannot fill the memory.")
+                   "Largest number of stamps that wait in the queue. If more wait, the oldest is processed before "
+                   "window_s is over, so that a sensor whose stamps hardly advance cannot fill the memory.")
           .integer("job_delay", &Options::job_delay, base::Range{0, 1e6},
                    "Number of key frames after which the result of a job, such as a loop closure search, is "
                    "applied, counted from the key frame that started it.")
@@ -60,9 +60,9 @@ const base::OptionTable<HypothesisOptions>& HypothesisOptions::table() {
           .number("confidence", &Options::confidence, base::Range{0.5, 0.999999999},
                   "Probability with which a true hypothesis passes a gate.")
           .number("min_likelihood_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
-                  "Smallest ratio of the likelihood of a measurement if its hypothesis is true to that if it is false, "
-                  "where the measurement may lie anywhere in the map. Below it a hypothesis waits until another "
-                  "confirms it; with 1 it never waits.")
+                  "A hypothesis is accepted by itself only if its measurement is at least this many times likelier "
+                  "than if the hypothesis were false and its measurement lay anywhere in the map. Otherwise it waits "
+                  "until another hypothesis confirms it; with 1 it never waits.")
           .number("inflation", &Options::inflation, base::Range{1, 100},
                   "Factor on the standard deviations that the map predicts, in the consistency test alone, because "
                   "odometry and laser odometry are overconfident.");
@@ -96,11 +96,11 @@ const base::OptionTable<SolverOptions>& SolverOptions::table() {
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1e6},
                    "Largest number of iterations of a solve while the map grows.")
           .number("tolerance", &Options::tolerance, base::Range{0, 1},
-                  "Relative decrease of the cost by a step below which a solve ends while the map grows.")
+                  "While the map grows, a solve ends after a step that lowers the cost by less than this share of it.")
           .integer("final_max_iterations", &Options::final_max_iterations, base::Range{1, 1e6},
                    "Largest number of iterations of the last solve.")
           .number("final_tolerance", &Options::final_tolerance, base::Range{0, 1},
-                  "Relative decrease of the cost by a step below which the last solve ends.");
+                  "The last solve ends after a step that lowers the cost by less than this share of it.");
   return table;
 }
 

@@ -404,8 +404,8 @@ const FixedSections& fixedSections() {
                                       {"hypotheses", HypothesisOptions::table().specs()},
                                       {"source", source::SourceOptions::table().specs()},
                                       {"live", live::LiveOptions::table().specs()},
-                                      {"<name of a sensor of [live]>", live::SensorOptions::table().specs()},
-                                      {"<name of a sensor>", SensorPoseOptions::table().specs()},
+                                      {"NAME OF A LIVE SENSOR", live::SensorOptions::table().specs()},
+                                      {"NAME OF A SENSOR", SensorPoseOptions::table().specs()},
                                       {"calibration", perception::CameraCalibrationOptions::table().specs()}};
   return sections;
 }

@@ -8,18 +8,19 @@ using geometry::Se3;
 
 const base::OptionTable<CloudTrackerOptions>& CloudTrackerOptions::table() {
   using Options = CloudTrackerOptions;
-  static const auto table = base::OptionTable<Options>()
-                                .number("key_angle_deg", &Options::key_angle, base::Range::positive(),
-                                        "An image becomes the reference that later ones are matched with once the "
-                                        "camera has rotated by more than this from the last reference.")
-                                .number("key_distance_m", &Options::key_distance, base::Range::positive(),
-                                        "An image becomes the reference that later ones are matched with once the "
-                                        "camera is farther than this from the last reference.")
-                                .number("key_overlap", &Options::key_overlap, base::Range{0, 1},
-                                        "An image becomes the reference that later ones are matched with if less than "
-                                        "this share of its points is near points of the last reference.")
-                                .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
-                                        "Tracking starts anew if the camera has been lost for longer than this.");
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("key_angle_deg", &Options::key_angle, base::Range::positive(),
+                  "Later images are matched with a reference image. Once the camera has rotated by more than this from "
+                  "the reference image, the newest image becomes the reference.")
+          .number("key_distance_m", &Options::key_distance, base::Range::positive(),
+                  "Later images are matched with a reference image. Once the camera is farther than this from where "
+                  "the reference image was taken, the newest image becomes the reference.")
+          .number("key_overlap", &Options::key_overlap, base::Range{0, 1},
+                  "An image becomes the reference that later ones are matched with if less than "
+                  "this share of its points is near points of the last reference.")
+          .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
+                  "Tracking starts anew if the camera has been lost for longer than this.");
   return table;
 }
 

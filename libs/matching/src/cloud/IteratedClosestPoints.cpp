@@ -39,8 +39,8 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
           .integer("max_points", &Options::max_points, base::Range{10, 1000000},
                    "Number of points that are matched on the finest level.")
           .number("normal_noise_deg", &Options::normal_noise, base::Range::notNegative(),
-                  "Standard deviation of surface normals. If only the noise of the normals seems to constrain a "
-                  "direction of motion, that direction counts as unconstrained.")
+                  "Standard deviation of surface normals. A direction of motion counts as unconstrained if normals "
+                  "with this noise would constrain it as much although the surfaces do not.")
           .number("alike", &Options::alike, base::Range{1, 10000},
                   "Number of points whose errors are alike, so that they count as one.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},

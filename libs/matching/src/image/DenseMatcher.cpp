@@ -276,16 +276,16 @@ const base::OptionTable<DenseMatcherOptions>& DenseMatcherOptions::table() {
                    "Finest pyramid level of a match, as the number of times that images are halved; 0 is the "
                    "full resolution.")
           .integer("max_points", &Options::max_points, base::Range{50, 400000},
-                   "Largest number of points of a key frame on each pyramid level.")
+                   "Largest number of points of a reference image on each pyramid level.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000},
                    "Largest number of iterations of a match on each pyramid level.")
           .number("brightness_noise", &Options::grey_noise, base::Range::positive(),
                   "Smallest standard deviation of brightness that is assumed, on a scale from 0 to 255.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Smallest share of a key frame's points that an image must show for a match to be accepted.")
+                  "Smallest share of the reference image's points that an image must show for a match to be accepted.")
           .number("max_outlier_share", &Options::max_outlier_share, base::Range{0, 1},
-                  "Largest share of a key frame's visible points that may be outliers in depth for a match to be "
-                  "accepted.");
+                  "Largest share of the reference image's visible points that may be outliers in depth for a match to "
+                  "be accepted.");
   return table;
 }
 

@@ -199,8 +199,8 @@ const base::OptionTable<FeatureMatcherOptions>& FeatureMatcherOptions::table() {
           .integer("min_feature_inliers", &Options::min_inliers, base::Range{6, 10000},
                    "Smallest number of corner correspondences that must agree on a motion for it to be accepted.")
           .number("max_feature_ratio", &Options::max_ratio, base::Range{0.1, 1},
-                  "Largest ratio of a descriptor's distances to its nearest and second nearest neighbour in a "
-                  "correspondence.");
+                  "Two corners of images correspond only if the distance of their descriptors is at most this share of "
+                  "the distance to the second most similar corner.");
   return table;
 }
 

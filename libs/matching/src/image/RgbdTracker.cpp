@@ -31,14 +31,18 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .number("key_angle_deg", &Options::key_angle, base::Range{0.5, 90},
-                  "A new key frame is made once the camera has rotated by more than this from the last one.")
-          .number("key_distance_share", &Options::key_distance, base::Range{0.005, 1},
-                  "A new key frame is made once the camera has moved farther than this from the last one, "
-                  "relative to that key frame's median depth.")
+                  "Images are matched with a reference image. Once the camera has rotated by more than this from the "
+                  "newest reference image, the next image becomes a reference, too.")
+          .number(
+              "key_distance_share", &Options::key_distance, base::Range{0.005, 1},
+              "Images are matched with a reference image. Once the camera has moved from the newest reference image by "
+              "more than this share of that image's median depth, the next image becomes a reference, too.")
           .number("key_overlap", &Options::key_overlap, base::Range{0.3, 1},
-                  "A new key frame is made once less than this share of the last one is still visible.")
+                  "Images are matched with a reference image. Once less than this share of the newest reference image "
+                  "is still visible, the next image becomes a reference, too.")
           .integer("key_frames", &Options::key_frames, base::Range{1, 10000},
-                   "Largest number of key frames that are kept for returning to known places.")
+                   "Largest number of reference images that are kept, to be matched again when the camera comes back "
+                   "to them.")
           .number("acceleration_m_per_s2", &Options::acceleration, base::Range::positive(),
                   "Standard deviation of the camera's linear acceleration, from which the uncertainty of a "
                   "motion prediction is computed.")
