@@ -11,15 +11,16 @@ struct Arguments {
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
   std::string alignment = "none", unit = "frames";
   double delta = 1;
-  std::string log;          // log of the verb views
-  std::size_t views = 200;  // largest number of views
+  std::string log;          // log that the verb "views" reads
+  std::size_t views = 200;  // largest number of depth images that the verb "views" uses
 };
 
-/// Prints and writes the result of the verb; returns the exit code.
+/// Runs the verb (ate, rpe, relations, map or views), prints and writes its result, and returns the exit code.
 int run(const std::string& verb, const Arguments& arguments);
 
-/// The verbs map and views: compare the surfaces of a map with the true ones, and with the depth images of a log.
+/// The verb map: compares the surfaces of a map with the true ones.
 int judgeMap(const Arguments& arguments);
+/// The verb views: compares the surfaces of a map with the depth images of a log.
 int judgeByViews(const Arguments& arguments);
 
 }  // namespace omnimapper::evaluation

@@ -9,13 +9,14 @@
 
 #include <string>
 
-/// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is left or replaces another.
+/// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is written, and none replaces an older
+/// file.
 void refuseNothing(const std::string& input, const omnimapper::source::SourceReport& report);
 
 /// Shows the progress of an import on a terminal.
 class ImportProgress {
  public:
-  /// From now on report() handles Ctrl-C.
+  /// From now on the first Ctrl-C does not end the program; the next report() throws instead.
   explicit ImportProgress(const std::string& input);
   /// `share` is in [0, 1]. Throws Error(interrupted) after Ctrl-C, so that no incomplete log is left.
   void report(double share);
@@ -25,21 +26,21 @@ class ImportProgress {
   omnimapper::base::TerminalProgress terminal_;
 };
 
-/// Writes a folder of files, one observation each, to a rawlog with colour images as JPEG, and prints a summary on
-/// standard output.
+/// Writes a rawlog from a folder in which each file is one observation; colour images are stored as JPEG. Prints a
+/// summary on standard output.
 void importFolder(omnimapper::source::FolderSource& files, const std::string& folder, const std::string& output);
 
-/// Prints on standard output what to do next with the rawlog; `has_photographs` is set if it contains only photographs.
+/// Prints on standard output what to do next with the rawlog. `has_photographs`: the rawlog contains only photographs.
 void sayNext(const std::string& output, bool has_photographs);
 
-/// The kinds of logs that omnimapper-import reads: each function writes a rawlog and prints a summary.
+/// One function for each kind of log that omnimapper-import reads. Each writes a rawlog and prints a summary.
 
 omnimapper::base::ExitCode importCarmen(const std::string& input, const std::string& output,
                                         omnimapper::source::CarmenOdometry odometry);
 
-/// Writes the ground truth, if the folder has one, beside the rawlog as <output>.truth.tum, and with `external_images`
-/// the images into <output>_Images. With `poses` the rawlog also has the true pose of each image as
-/// CObservationRobotPose.
+/// For an `output` X.rawlog, the ground truth is written to X.truth.tum if the folder has one, and with
+/// `external_images` the images are written into the folder X_Images. With `poses` the rawlog also has the true poses
+/// of the images as CObservationRobotPose.
 omnimapper::base::ExitCode importRgbd(const std::string& folder, const std::string& output,
                                       const omnimapper::source::RgbdFolderOptions& options, bool external_images,
                                       bool poses);

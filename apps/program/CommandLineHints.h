@@ -4,11 +4,11 @@
 
 namespace omnimapper::program {
 
-/// Prints on standard error, for each argument that `app` does not know, what was probably meant by it.
+/// Prints on standard error, for arguments that `app` does not know, what the user probably meant.
 void sayUnknown(const CLI::App& app);
 
-/// If `app` has several tasks and the command line gives none of them, prints on standard error which there are and
-/// which was probably meant. Returns whether that was the case.
+/// For an `app` with several tasks: if the command line names none of them, prints on standard error the names of the
+/// tasks and which one was probably meant, and returns true. Otherwise returns false.
 bool saidTasks(const CLI::App& app);
 
 }  // namespace omnimapper::program

@@ -8,23 +8,26 @@
 
 namespace omnimapper::program {
 
-/// Parses the command line into `app`, which has the name of the program, and runs `body`; also handles --version.
-/// Returns the exit code of `body`, or of the error that stopped it, which is then printed on standard error
-/// (doc/exit_codes.md).
+/// Parses the command line into `app`, whose name is that of the program, and runs `body`; also handles --version.
+/// Returns the exit code of `body`. An error that stops the program is printed on standard error, and its exit code is
+/// returned (doc/exit_codes.md).
 int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
-/// Throws Error(command_line) naming the required arguments that were not given.
+/// Takes the name of each required argument and whether it was given. Throws Error(command_line) naming those that were
+/// not given.
 void require(const std::vector<std::pair<std::string, bool>>& arguments);
 
-/// Validators for finite numbers: CLI11's own ones accept "nan".
+/// Validators for finite numbers. (CLI11's own validators accept "nan".)
 CLI::Validator notNegative();
 CLI::Validator positive();
 
-/// After this call the first Ctrl-C or SIGTERM only makes isInterrupted() true, the second ends the program at once,
-/// and reaching the limit of file size fails like a full disk, so that a run can finish its files properly.
+/// After this call the first Ctrl-C or SIGTERM only makes isInterrupted() true, so that a run can finish its files, and
+/// the second one ends the program at once. A write beyond the limit of file size (ulimit -f) then fails as on a full
+/// disk, instead of ending the program.
 void listenForInterrupts();
 bool isInterrupted();
-/// After this call everything is written, and an interrupt is not announced as one that stops work.
+/// To be called when all outputs are written. After this call the first Ctrl-C no longer prints that work is
+/// interrupted.
 void nothingIsLeftToDo();
 
 }  // namespace omnimapper::program

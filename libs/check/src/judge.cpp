@@ -99,7 +99,8 @@ class Judge {
     }
     if (stamps.rests > 0) {
       add(Weight::note,
-          who + counted(stamps.rests, "gap") + " in which the robot moved by less than 1.5 m according to odometry");
+          who + counted(stamps.rests, "gap") +
+              " in which the robot moved by less than 1.5 m and turned by less than 1 rad according to odometry");
     }
   }
 

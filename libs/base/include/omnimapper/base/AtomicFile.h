@@ -7,24 +7,25 @@
 
 namespace omnimapper::base {
 
-/// Creates the folder and its parents. Throws Error(unwritable_output) if that fails or nothing can be written in it.
+/// Creates the folder and its parents if they are missing. Throws Error(unwritable_output) if a folder cannot be
+/// created, or if nothing can be written into it.
 void makeWritableFolder(const std::string& folder);
 
-/// Writes a file so that at any time `path` holds either its old content or the whole new one: `save` writes to the
-/// temporary name that it is given (same folder, same extension), which is then synced and renamed. Temporary files of
-/// killed processes that were writing `path` are removed first. Throws Error(unwritable_output) if the folder is
-/// missing or not writable, and Error(disk_full) with the system's reason if writing fails; the temporary file is then
-/// removed.
+/// Writes a file so that at any time `path` holds either its old content or the whole new one. `save` is given the path
+/// of a temporary file (same folder, same extension) and writes this file, which is then synced and renamed to `path`.
+/// Temporary files of killed processes that were writing `path` are removed first. Throws Error(unwritable_output) if
+/// the folder is missing or not writable. If writing fails, the temporary file is removed and Error(disk_full) is
+/// thrown with the system's reason.
 void replaceFile(const std::string& path, const std::function<void(const std::string& temporary_path)>& save);
 
-/// The same as replaceFile() with a stream; a failed stream counts as a failed write.
+/// As replaceFile(), but `write` is given a stream instead of a path. A failed stream counts as a failed write.
 void writeFile(const std::string& path, const std::function<void(std::ostream&)>& write);
 
-/// Throws Error(command_line) if `output` is one of the input files, under any name, link or path.
+/// Throws Error(command_line) if `output` is one of the input files, even if another path or a link leads to it.
 void refuseToReplaceInput(const std::string& output, const std::vector<std::string>& inputs);
 
 /// While an object of this class exists, replaceFile(), writeFile() and refuseToReplaceKeptInput() refuse to replace
-/// these files, as refuseToReplaceInput() does.
+/// the files `inputs`: they throw Error(command_line).
 class InputsKept {
  public:
   explicit InputsKept(const std::vector<std::string>& inputs);
@@ -36,9 +37,9 @@ class InputsKept {
   std::vector<std::string> before_;
 };
 
-/// Whether an InputsKept protects that file.
+/// Whether an InputsKept protects the file `path`.
 bool isKeptInput(const std::string& path);
-/// Throws Error(command_line) if an InputsKept protects that file.
+/// Throws Error(command_line) if an InputsKept protects the file `output`.
 void refuseToReplaceKeptInput(const std::string& output);
 
 }  // namespace omnimapper::base

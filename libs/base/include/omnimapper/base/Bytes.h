@@ -11,17 +11,18 @@
 
 namespace omnimapper::base {
 
-/// The lowest `count` bytes of a number, at most 8, little-endian on any machine.
+/// Writes the lowest `count` bytes of a number (at most 8) to `bytes`, little-endian on any machine.
 inline void toBytes(std::uint64_t value, int count, char* bytes) {
   for (int i = 0; i < count; ++i) bytes[i] = static_cast<char>((value >> (8 * i)) & 0xff);
 }
+/// Reads a number that toBytes() wrote.
 inline std::uint64_t fromBytes(const char* bytes, int count) {
   std::uint64_t value = 0;
   for (int i = 0; i < count; ++i) value |= std::uint64_t{static_cast<unsigned char>(bytes[i])} << (8 * i);
   return value;
 }
 
-/// The bits of a number, and the number of given bits.
+/// The bits of a double, and the double that has given bits.
 inline std::uint64_t bitsOf(double value) {
   std::uint64_t bits;
   std::memcpy(&bits, &value, sizeof bits);
@@ -43,7 +44,7 @@ class ByteWriter {
   }
   void real(double value) { uint(bitsOf(value), 8); }
   void raw(std::string_view bytes) { bytes_.append(bytes); }
-  /// Length in 8 bytes, then the bytes.
+  /// Appends the length in 8 bytes, then the bytes.
   void block(std::string_view bytes) {
     uint(bytes.size(), 8);
     raw(bytes);
@@ -56,7 +57,7 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Reads the bytes of a ByteWriter. Throws Error(unreadable_input), naming `what`, if they end early.
+/// Reads what a ByteWriter wrote. Throws Error(unreadable_input), naming `what`, if the bytes end early.
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, std::string what) : bytes_(bytes), what_(std::move(what)) {}
@@ -76,7 +77,7 @@ class ByteReader {
   }
   std::string_view block() { return raw(uint(8)); }
   bool atEnd() const { return position_ == bytes_.size(); }
-  /// Sets the name of the place for later messages.
+  /// Sets the name that later messages give to what is read.
   void setWhat(std::string what) { what_ = std::move(what); }
 
  private:

@@ -14,14 +14,15 @@ namespace omnimapper::base {
 
 class Config;
 
-/// One section of an INI file, read into option structs. Every key must belong to one of the tables read from it.
+/// One section of an INI file, read into structs of options.
 class ConfigSection {
  public:
   const std::string& name() const { return name_; }
 
-  /// The struct with its defaults overwritten by this section. `also_known` are keys that other code reads from it.
-  /// Throws Error unknown_key, wrong_type or out_of_range, naming file and line or --set, section, key, value, bounds
-  /// and nearest key.
+  /// The struct with its defaults overwritten by this section. Every key of the section must be in the table of the
+  /// struct or in `also_known`, the keys that other code reads. Throws Error unknown_key, wrong_type or out_of_range;
+  /// the message names the place (file and line, or --set), the section and the key, and the bounds of the value or the
+  /// most similar key.
   template <class Struct>
   Struct read(const std::vector<std::string>& also_known = {}) const {
     const auto& table = Struct::table();
@@ -51,39 +52,43 @@ class ConfigSection {
 /// Beginning of an INI that a program of this project generated from a log.
 inline const std::string kWrittenFromALog = "; Written from a log";
 
-/// An INI file, overridden by settings of the command line. Sections are read by name. A section that was never read is
-/// an error at the end, because a misspelt name would otherwise be ignored silently.
+/// An INI file, some of whose keys may be overridden by settings of the command line. Sections are read by name. A
+/// section that was never read is an error (refuseUnreadSections()), because a misspelt name would otherwise be ignored
+/// silently.
 class Config {
  public:
   /// Throws Error(unreadable_input) if the file cannot be read, and Error(unknown_key) if a key or section occurs
   /// twice.
   static Config fromFile(const std::string& path);
-  /// Reads several files, of which each overrides those before it. Without any, the result is empty. Throws as
-  /// fromFile().
+  /// Reads several files, of which each overrides those before it. If there are no files, the result is empty. Throws
+  /// as fromFile() does.
   static Config fromFiles(const std::vector<std::string>& paths);
   static Config fromText(const std::string& text, const std::string& name_for_messages);
 
-  /// Sets "section.key=value", as given with --set. Throws Error(command_line) if it does not have that form.
+  /// Sets a key, given as "section.key=value" as with --set. Throws Error(command_line) if `assignment` does not have
+  /// that form.
   void set(const std::string& assignment);
 
   bool has(const std::string& section) const;
-  /// The section; if the file does not have it, it is empty and all its options keep their defaults.
+  /// The section with that name. If the file does not have it, the section is empty and all its options keep their
+  /// defaults.
   ConfigSection section(const std::string& name) const;
-  /// Throws Error(unknown_key) if the file has a section that section() was never called for. Allowed are sections of
-  /// rawlog-grabber's form (with a "driver" key), which are for another program, and switchedOffPlugins().
+  /// Throws Error(unknown_key) if the file has a section for which section() was never called. Allowed are only
+  /// switchedOffPlugins() and sections with a key "driver", which may be for MRPT's rawlog-grabber.
   void refuseUnreadSections() const;
-  /// Sections of plugins (with a "class" key) that section() was never called for.
+  /// Sections of plugins (those with a key "class") for which section() was never called.
   std::vector<std::string> switchedOffPlugins() const;
 
   const std::string& file() const { return file_; }
-  /// The place where a key, or without a key the section, was set: "office.ini:12" or "--set planes.max_depth_m"; else
-  /// file().
+  /// The place where a key was set, such as "office.ini:12" or "--set planes.max_depth_m"; with an empty `key`, the
+  /// place of the section. If it was not set: file().
   std::string placeOf(const std::string& section, const std::string& key = "") const;
   /// Path of the first file; empty if there is none.
   const std::string& firstFile() const { return first_file_; }
   bool isFromCommandLine(const std::string& section, const std::string& key) const;
-  /// Whether the user set this key deliberately: in the first file or on the command line. Later files may come from
-  /// anywhere, and so may a first file that begins with kWrittenFromALog. True for a key that is not set at all.
+  /// Whether the user set this key deliberately, that is, in the first file or on the command line. Later files may
+  /// come from anywhere, and so may a first file that begins with kWrittenFromALog. Also true for a key that is not set
+  /// at all.
   bool isTrusted(const std::string& section, const std::string& key) const;
   /// The INI text as it is used, including the settings of the command line.
   std::string text() const { return ini_.getContent(); }

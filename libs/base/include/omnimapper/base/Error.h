@@ -18,12 +18,12 @@ enum class ExitCode : int {
   unreadable_input = 8,  ///< an input that is missing or of the wrong kind
   damaged_input = 9,     ///< truncated or corrupt log: the map of what was readable is written
   unregistered_class =
-      10,                  ///< a log contains a class that is not registered: the map of what came before it is written
+      10,  ///< a log contains an object of a class that is not registered: the map of what came before is written
   missing_images = 11,     ///< external files of a log are missing: their observations are left out
   unwritable_output = 12,  ///< the output folder cannot be made or written
   disk_full = 13,          ///< an output could not be written completely
   nothing_to_map = 14,     ///< no observation that any plugin wants
-  doubtful_input = 15,     ///< --check: a log that is likely mapped wrong without the remedies it names
+  doubtful_input = 15,     ///< --check: the map of the log is likely wrong without the remedies that --check names
   not_located = 16,        ///< --localize: the log could not be located in the map
   suspicious_map = 17,     ///< --strict: the map is written but contradicts itself
   mostly_left_out = 18,    ///< the map is written, but from less than half of the observations

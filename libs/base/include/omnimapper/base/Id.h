@@ -9,7 +9,7 @@
 namespace omnimapper::base {
 
 /// Identifies an object in a map by the session that created it and its index within that session. Ids of different
-/// kinds of objects are different types. They are ordered by session, then index, which is the order of creation.
+/// kinds of objects are different types. Ids are ordered by session, then by index, which is the order of creation.
 template <class Tag>
 struct Id {
   std::uint16_t session = 0;

@@ -14,15 +14,16 @@
 namespace omnimapper::base {
 
 /// A table of values by id. Look-up, insertion and removal take constant time; iteration is in the order of ids. An
-/// index is never used twice, and chunks without values are freed. A copy shares its content with the original until
-/// one of them changes it, chunk by chunk: copying costs one pointer for every 64 values. A copy may be read in another
-/// thread while the original changes, as long as the thread that changes the original also destroys the copy.
+/// index is never used twice. The values are kept in chunks of 64 indices, and a chunk without values is freed. A copy
+/// shares each chunk with the original until one of the two tables changes it, so copying costs one pointer for every
+/// 64 values. A copy may be read in another thread while the original changes, as long as the copy is destroyed by the
+/// thread that changes the original.
 template <class IdType, class Value>
 class IdTable {
   static constexpr std::uint32_t kChunkSize = 64;
   using Chunk = std::array<std::optional<Value>, kChunkSize>;
   struct Session {
-    std::vector<std::shared_ptr<Chunk>> chunks;  // null where all 64 are holes
+    std::vector<std::shared_ptr<Chunk>> chunks;  // null if none of the 64 indices has a value
     std::uint32_t next = 0;
     // Null if there is no value.
     const Value* at(std::uint32_t index) const {
@@ -35,7 +36,7 @@ class IdTable {
   using Sessions = std::map<std::uint16_t, Session>;
 
  public:
-  /// Iterates over the existing values; *it is {id, value}.
+  /// Iterates over the existing values. Dereferencing gives the pair {id, value}.
   class Iterator {
    public:
     std::pair<IdType, const Value&> operator*() const {
@@ -101,13 +102,14 @@ class IdTable {
     if (session == sessions_.end() || id.index >= session->second.next) return nullptr;
     return session->second.at(id.index);
   }
-  /// The value for editing; the pointer is valid until the table is copied. Null if there is no such id.
+  /// The value for editing; null if there is no such id. The pointer is valid until the table is copied or the value
+  /// erased.
   Value* edit(IdType id) {
     if (!find(id)) return nullptr;
     return &*ownChunk(sessions_[id.session], id.index)[id.index % kChunkSize];
   }
 
-  /// The index that add() will use next, for every session that ever had one.
+  /// For every session that ever had an index: the index that add() will use next.
   std::map<std::uint16_t, std::uint32_t> nextIndices() const {
     std::map<std::uint16_t, std::uint32_t> next;
     for (const auto& [number, session] : sessions_) next[number] = session.next;

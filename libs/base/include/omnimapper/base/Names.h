@@ -5,27 +5,29 @@
 
 namespace omnimapper::base {
 
-/// Functions for names that come from a log or a map (labels of sensors, classes, files). Their content is not trusted.
+/// Functions for names that come from a log or a map (labels of sensors, classes, files). The content of such a name is
+/// not trusted.
 
-/// The text in a form that is safe to show on a terminal. Characters that would move the cursor, change colours, break
-/// the line or change the writing direction (control characters, U+2028, U+2029, U+200E, U+200F, U+202A to U+202E,
-/// U+2066 to U+2069) and bytes that are not UTF-8 are written as "\x1b", one escape for each byte. Applying the
-/// function twice changes nothing more.
+/// The text in a form that is safe to show on a terminal. Two kinds of bytes are written as escapes such as "\x1b", one
+/// for each byte: bytes that are not UTF-8, and those of characters that would move the cursor, change colours, break
+/// the line, change the writing direction or be invisible (control characters, U+200E, U+200F, U+2028 to U+202E, U+2066
+/// to U+2069, U+FEFF). Applying the function to its own result changes nothing.
 std::string printable(std::string_view text);
 
-/// The label of a sensor in printable form. If it has more than 200 bytes, it is shortened to its beginning, its length
-/// and a hash that distinguishes labels with the same beginning.
+/// The label of a sensor in printable form. A text of more than 200 bytes is shortened to its beginning, the length of
+/// the label, and a hash that distinguishes labels with the same beginning.
 std::string sensorName(std::string_view label);
 
 /// As printable(), for text of several lines: line breaks and tabs are kept.
 std::string printableLines(std::string_view text);
 
-/// Whether `key = text` in an INI is read back as `text`, and also, if it has no blank, as an item of a list. Not so
-/// for text that ends or continues the line ("\"), begins a comment, separates items, is trimmed or is expanded ("$").
+/// Whether `key = text` in an INI is read back as `text`. If `text` has no blanks, it is then also read back as one
+/// item of a list. False for text that would end or continue the line ("\"), begin a comment, separate items, be
+/// trimmed or be expanded ("$").
 bool fitsIni(std::string_view text);
 
-/// A file name made from the text, without folders: letters, digits, '-', '_' and '.' are kept, other characters become
-/// '_'; it is neither empty nor hidden.
+/// A file name made from the text, without folders. Letters, digits, '-', '_' and '.' are kept; other characters become
+/// '_'. The name is neither empty nor hidden.
 std::string asFileName(std::string_view text);
 
 }  // namespace omnimapper::base

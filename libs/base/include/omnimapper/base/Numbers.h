@@ -7,7 +7,7 @@
 
 namespace omnimapper::base {
 
-/// The number with that many decimals, whatever the locale; zero has no sign.
+/// The number with `decimals` decimals, whatever the locale; zero has no minus sign.
 inline std::string fixed(double value, int decimals) {
   char text[512];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
@@ -15,7 +15,8 @@ inline std::string fixed(double value, int decimals) {
   return {zero && text[0] == '-' ? text + 1 : text, end};
 }
 
-/// The number with that many significant digits, as short as possible.
+/// The number rounded to `digits` significant digits, without trailing zeros; very large and very small numbers get an
+/// exponent.
 inline std::string brief(double value, int digits = 4) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;

@@ -10,13 +10,13 @@
 
 namespace omnimapper::base {
 
-/// One option of one section of an INI file, as a user meets it. Everything is text in the unit of the key.
+/// One option of a section of an INI file, as a user reads and writes it: all values are text, in the unit of the key.
 struct OptionSpec {
-  std::string key;            ///< ends in its unit: _m, _deg, _s, _hz, ...
+  std::string key;            ///< ends in the unit of the value, if it has one: _m, _deg, _s, _hz, ...
   std::string type;           ///< "number", "integer", "flag", "text", "list" or "choice"
   std::string default_value;  ///< as it would be written in an INI file
   std::string range;          ///< "[0, 1]", "a | b | c", or empty
-  std::string help;           ///< one sentence
+  std::string help;           ///< meaning of the option, one or more sentences
 };
 
 /// Bounds of a number, inclusive, in the unit of the key.
@@ -28,14 +28,15 @@ struct Range {
   static Range notNegative() { return {0.0, std::numeric_limits<double>::infinity()}; }
 };
 
-/// Why a value was refused; ConfigSection adds file, section and key.
+/// Why a value was refused. ConfigSection adds file, section and key to the message.
 struct BadValue {
   enum class Kind { type, range } kind;
   std::string expected;
 };
 
-/// Declares the options of a struct once: key, member, bounds, help. The default is what the struct is born with.
-/// A number whose key ends in "_deg" is degrees in the file and radians in the member; all else is SI in both.
+/// Declares the options of a struct once: key, member, bounds, help. The default is the initial value of the member.
+/// A number whose key ends in "_deg" is in degrees in the file and in radians in the member. All other numbers are the
+/// same in both.
 ///
 /// struct TriggerOptions {
 ///   double distance = 0.5;  // [m]
@@ -43,20 +44,20 @@ struct BadValue {
 /// };
 /// const OptionTable<TriggerOptions>& TriggerOptions::table() {
 ///   static const auto table = OptionTable<TriggerOptions>()
-///       .number("distance_m", &TriggerOptions::distance, Range::positive(), "Way between two key frames.");
+///       .number("distance_m", &TriggerOptions::distance, Range::positive(), "Distance between key frames.");
 ///   return table;
 /// }
 template <class Struct>
 class OptionTable {
  public:
   OptionTable& number(const std::string& key, double Struct::*member, Range range, const std::string& help);
-  /// A number that has no default: the member stays empty where the file does not name the key.
+  /// A number that has no default: the member stays empty if the file does not have the key.
   OptionTable& number(const std::string& key, std::optional<double> Struct::*member, Range range,
                       const std::string& help);
   OptionTable& integer(const std::string& key, int Struct::*member, Range range, const std::string& help);
   OptionTable& flag(const std::string& key, bool Struct::*member, const std::string& help);
   OptionTable& text(const std::string& key, std::string Struct::*member, const std::string& help);
-  /// Names separated by commas or blanks.
+  /// A list of names, which are separated by commas or blanks in the file.
   OptionTable& list(const std::string& key, std::vector<std::string> Struct::*member, const std::string& help);
   template <class Enum>
   OptionTable& choice(const std::string& key, Enum Struct::*member,
@@ -64,7 +65,7 @@ class OptionTable {
 
   const std::vector<OptionSpec>& specs() const { return specs_; }
 
-  /// Sets the option `index` of `target` from text. Returns the reason if the text does not fit.
+  /// Sets option number `index` of `target` from text. Returns null, or the reason if the text does not fit.
   std::unique_ptr<BadValue> set(Struct& target, std::size_t index, const std::string& text) const {
     return setters_[index](target, text);
   }
@@ -87,7 +88,7 @@ bool isAngleInDegrees(const std::string& key);
 std::string format(double value);
 std::string format(const std::vector<std::string>& names);
 std::string format(const Range& range);
-/// Each parser returns the reason if `text` does not fit, and leaves `value` alone then.
+/// Each function parse() returns null, or the reason if `text` does not fit; `value` is then left unchanged.
 std::unique_ptr<BadValue> parse(const std::string& text, const Range& range, double& value);
 std::unique_ptr<BadValue> parse(const std::string& text, const Range& range, int& value);
 std::unique_ptr<BadValue> parse(const std::string& text, bool& value);

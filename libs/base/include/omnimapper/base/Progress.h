@@ -6,7 +6,7 @@
 
 namespace omnimapper::base {
 
-/// Receives the progress of long work. The default ignores it.
+/// Receives the progress of long work. This base class ignores what it receives.
 class Progress {
  public:
   virtual ~Progress() = default;
@@ -22,8 +22,8 @@ class Progress {
 /// get separate lines, which are also written to a pipe or file.
 class TerminalProgress : public Progress {
  public:
-  /// `terminal` is false for a pipe or file: no progress line is drawn then. With `quiet` events are not written
-  /// either.
+  /// `terminal` is false if `out` is a pipe or a file: then no progress line is drawn. With `quiet`, neither the
+  /// progress line nor events are written.
   TerminalProgress(std::ostream& out, bool terminal, bool quiet = false)
       : out_(out), terminal_(terminal && !quiet), quiet_(quiet) {}
   ~TerminalProgress() override;

@@ -11,9 +11,9 @@
 
 namespace omnimapper::base {
 
-/// Threads that run tasks in the order they were submitted. Results are fetched by futures, so they do not depend on
-/// the number of threads. The threads start with the first task: until then the process can be forked without the risk
-/// that one of them holds a lock.
+/// Threads that run tasks in the order in which the tasks were submitted. Results are fetched by futures, so they do
+/// not depend on the number of threads. The threads start with the first task. Before that, the process can be forked
+/// without the risk that one of the threads holds a lock.
 class WorkerPool {
  public:
   /// `threads` must be at least 1.

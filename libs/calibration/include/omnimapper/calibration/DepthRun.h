@@ -11,19 +11,20 @@ namespace omnimapper::calibration {
 
 struct DepthRequest {
   std::vector<std::string> logs;
-  std::string label;          ///< of the camera; empty: the first with depths
-  std::string output;         ///< folder
+  std::string label;          ///< label of the camera; empty: the first camera with depths
+  std::string output;         ///< output folder
   std::string ini;            ///< INI whose [calibration] is applied to the images first; empty: none
-  double start = 0, end = 0;  ///< [s] after the start of the log; end 0: to its end
-  int images = 90;            ///< largest number of images, of which every third is held back
-  int degree = 4;             ///< of the polynomial of perception::DepthDistortion
+  double start = 0, end = 0;  ///< [s] after the start of the log; end 0: to the end of the log
+  int images = 90;            ///< largest number of images; every third one only serves to test the result
+  int degree = 4;             ///< degree of the polynomial in perception::DepthDistortion
 };
 
 /// Estimates the systematic distortion of a depth camera (perception::DepthDistortion) from planes in a log's depth
-/// images, which may be any planes at any pose, and writes calibration.ini, report.txt, summary.json and distortion.svg
-/// to a folder. Throws Error(nothing_to_map), with the remedy, if the log does not determine it: it has no depth
-/// images, too few different ones, too few planes, or planes that leave much of the image uncovered; or if the planes
-/// of held-back images get no flatter. Nothing is written then, nor if it is stopped.
+/// images, and writes calibration.ini, report.txt, summary.json and distortion.svg to a folder. The planes may be any
+/// planes at any pose. Throws Error(nothing_to_map), with the remedy, if the log does not determine the distortion,
+/// because it has no depth images, too few different ones, too few planes, or planes that leave much of the image
+/// uncovered. Throws it also if the planes do not get flatter in the images that only serve to test the result. In
+/// these cases nothing is written, nor if `stop` returns true.
 CalibrationResult runDepthCalibration(const DepthRequest& request, base::Progress& progress,
                                       const std::function<bool()>& stop);
 

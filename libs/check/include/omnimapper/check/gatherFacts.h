@@ -9,8 +9,9 @@
 
 namespace omnimapper::check {
 
-/// Reads the stream to its end, or until `stop` returns true, and collects statistics on it. `sensor_poses` are those
-/// that the INI sets. Memory grows by some bytes for each observation; only some hundred pairs of scans are kept.
+/// Reads the stream to its end, or until `stop` returns true, and collects statistics on the observations.
+/// `sensor_poses`: the sensor poses that the INI sets. Memory grows by some bytes for each observation; only some
+/// hundred pairs of scans are kept.
 LogFacts gatherFacts(
     source::ObservationSource& log, const mapper::SensorPoses& sensor_poses = {},
     const std::function<bool()>& stop = [] { return false; }, base::Progress* progress = nullptr);

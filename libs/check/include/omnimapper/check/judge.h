@@ -19,17 +19,20 @@ struct Finding {
   std::string text;
 };
 
-/// The findings on a log that its user should know before it is mapped, problems first.
+/// The findings that the user should know before the log is mapped, problems first.
 std::vector<Finding> judge(const LogFacts& facts);
 
-/// Lasers whose scans can be matched, because they have valid beams in a plane parallel to the floor. The one with the
-/// largest valid field of view comes first.
+/// Lasers whose scans can be matched, because they have valid beams in a plane parallel to the floor. The laser with
+/// the largest valid field of view comes first.
 std::vector<std::string> usableLasers(const LogFacts& facts);
-/// The odometry to use, of several the one that agrees best with the scans; none if the scans contradict all.
+/// The odometry to use: of several, the one that agrees best with the scans. None if the log has no odometry, or if
+/// none agrees with the scans.
 std::optional<std::string> usableOdometry(const LogFacts& facts);
-/// The aperture [rad] of a laser's scans according to the motions of the log; none if the declared one is right.
+/// The aperture [rad] of a laser's scans according to the motions of the log; none if the declared aperture is right or
+/// nothing shows that it is wrong.
 std::optional<double> betterAperture(const LogFacts& facts, const std::string& laser);
-/// base_from_sensor according to the motions of the log; none if the one in the log is right or nothing determines it.
+/// base_from_sensor according to the motions of the log; none if the sensor pose in the log is right or nothing
+/// determines a better one.
 std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, const std::string& laser);
 
 }  // namespace omnimapper::check

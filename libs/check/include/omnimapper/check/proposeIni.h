@@ -13,7 +13,7 @@ struct Setting {
   std::string section, key, value, reason;
 };
 
-/// Whether an INI that names these plugins has a measurement plugin that this log has data for.
+/// Whether the log has data for at least one of the measurement plugins in `plugins`, which an INI names.
 bool canMeasure(const LogFacts& facts, const PluginLists& plugins);
 
 /// Settings to change for this log in an INI that names these plugins, such as the first of fittingInis().

@@ -18,8 +18,8 @@ struct Pen {
   double opacity = 1;  ///< 0 to 1
 };
 
-/// Draws a path with smooth edges; what lies outside the picture is cut off. A path is inked once where it crosses
-/// itself.
+/// Draws a path with smooth edges; what lies outside the picture is cut off. Where a path crosses itself, ink is
+/// applied only once.
 void drawPath(Image& image, const std::vector<PixelPoint>& path, const Pen& pen);
 /// Fills the pixels whose middle lies in an odd number of closed contours; the pen's width is not used.
 void fillAreas(Image& image, const std::vector<std::vector<PixelPoint>>& contours, const Pen& pen);

@@ -38,7 +38,7 @@ struct Grey16Image {
 /// The bytes of a PNG file (ISO/IEC 15948). The same picture gives the same bytes.
 std::string encodePng(const Image& image);
 std::string encodePng(const PaletteImage& image);
-/// Throws Error(internal) if there are not width * height pixels, or none.
+/// Throws Error(internal) if the number of pixels is 0 or is not width * height.
 std::string encodePng(const Grey16Image& image);
 
 }  // namespace omnimapper::draw

@@ -7,8 +7,8 @@
 
 namespace omnimapper::draw {
 
-/// An SVG drawing in pixels, x to the right and y down. It is written while it is drawn; the destructor closes the
-/// element.
+/// An SVG drawing in pixels, x to the right and y down. Each function writes its element at once; the destructor writes
+/// the end of the drawing.
 class Svg {
  public:
   Svg(std::ostream& out, double width, double height);
@@ -17,7 +17,7 @@ class Svg {
   Svg& operator=(const Svg&) = delete;
 
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const std::string& colour, double width);
-  /// Points nearer than a third of a pixel to the one before are left out.
+  /// A point less than a third of a pixel from the last drawn one is left out, unless it is the last point.
   void polyline(const std::vector<Eigen::Vector2d>& points, const std::string& colour, double width);
   void box(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const std::string& fill);
   void dot(const Eigen::Vector2d& centre, double radius, const std::string& fill);
@@ -28,16 +28,17 @@ class Svg {
   std::ostream& out_;
 };
 
-/// "#rrggbb" of a share in [0, 1]: from dark blue over green to yellow, and red at the end.
+/// The colour of a share in [0, 1], as "#rrggbb": dark blue at 0, then green and yellow, and red at 1.
 std::string heatColour(double share);
 
 /// The rectangle of a drawing in which values are shown, with its axes.
 class Axes {
  public:
-  /// `corner` and `size` in pixels; values from `low` (left, bottom) to `high` (right, top).
+  /// `corner` (upper left) and `size` are in pixels. The rectangle shows values from `low` (left, bottom) to `high`
+  /// (right, top).
   Axes(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Eigen::Vector2d& low,
        const Eigen::Vector2d& high);
-  /// The same with one scale for both axes and the values in the middle.
+  /// Axes with the same scale in both directions; the range from `low` to `high` is in the middle of the rectangle.
   static Axes withEqualScale(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Eigen::Vector2d& low,
                              const Eigen::Vector2d& high);
 
@@ -52,7 +53,7 @@ class Axes {
 };
 
 /// Round values (1, 2 or 5 times a power of ten apart) in [low, high], about `count` of them, for the ticks of an axis.
-/// For a range without extent, only that value.
+/// If the range has no extent, only `low`.
 std::vector<double> roundValues(double low, double high, int count);
 
 }  // namespace omnimapper::draw

@@ -11,10 +11,10 @@ class LaserClock;
 
 /// MRPT's driver of Hokuyo lasers, over a connection that checks the data. An INI with `driver = CHokuyoURG` gets this
 /// driver; all keys are MRPT's. It differs from MRPT's in these points:
-/// - Messages with a wrong checksum, and pieces of messages, are rejected and counted.
-/// - A laser that closes the connection ends neither the program nor this thread; the next doProcess() throws.
+/// - Messages that are incomplete or have a wrong checksum are rejected and counted.
+/// - If the laser closes the connection, neither the program nor the thread is ended; the next doProcess() throws.
 /// - The aperture of a scan is the angle between its first and last beam. MRPT's is one step wider.
-/// - Stamps stay right when the laser's clock wraps after 4.7 hours, and if it is fast or slow.
+/// - Stamps stay right when the laser's clock wraps after 4.7 hours, and if that clock is fast or slow.
 class CCheckedHokuyo : public mrpt::hwdrivers::CHokuyoURG, public CheckedSensor {
   DEFINE_GENERIC_SENSOR(CCheckedHokuyo)
  public:

@@ -26,21 +26,21 @@ struct OdometryLinesOptions {
 
 /// Counts of the lines, and of the clients that sent them, since initialize() was first called.
 struct OdometryLineCounts {
-  std::uint64_t taken = 0;          ///< became observations
+  std::uint64_t taken = 0;          ///< lines that became observations
   std::uint64_t malformed = 0;      ///< LineFault::malformed
   std::uint64_t not_finite = 0;     ///< LineFault::not_finite
   std::uint64_t too_large = 0;      ///< LineFault::too_large
-  std::uint64_t too_long = 0;       ///< longer than 256 bytes
-  std::uint64_t too_many = 0;       ///< beyond max_rate_hz
-  std::uint64_t wrong_clock = 0;    ///< with a stamp further than max_clock_offset_s from this machine's clock
-  std::uint64_t not_newer = 0;      ///< with a stamp not later than that of the client's line before
-  std::uint64_t cut_off = 0;        ///< the client closed the connection, or was replaced, before their end
+  std::uint64_t too_long = 0;       ///< lines longer than 256 bytes
+  std::uint64_t too_many = 0;       ///< lines beyond max_rate_hz
+  std::uint64_t wrong_clock = 0;    ///< lines whose stamp is more than max_clock_offset_s from this machine's clock
+  std::uint64_t not_newer = 0;      ///< lines whose stamp is not later than that of the client's last accepted line
+  std::uint64_t cut_off = 0;        ///< lines before whose end the client closed the connection or was replaced
   std::uint64_t other_sender = 0;   ///< UDP datagrams of a second sender while the first one is not silent
-  std::uint64_t never_fetched = 0;  ///< taken, but discarded because 10,000 waited for getObservations()
-  /// Lines without stamps that arrived together with a later one; they do not count as rejected.
+  std::uint64_t never_fetched = 0;  ///< observations that were discarded because 10,000 waited for getObservations()
+  /// Lines without a stamp that arrived together with a later such line. They do not count as rejected.
   std::uint64_t superseded = 0;
-  std::uint64_t clients = 0;  ///< that connected (TCP) or began to send (UDP)
-  std::string first_invalid;  ///< the first line that is malformed, not finite or too large, printable
+  std::uint64_t clients = 0;  ///< clients that connected (TCP) or began to send (UDP)
+  std::string first_invalid;  ///< the first line that is malformed, not finite or too large, in printable form
 
   /// All lines and datagrams that were rejected.
   std::uint64_t leftOut() const;
@@ -48,30 +48,30 @@ struct OdometryLineCounts {
   std::string leftOutByReason() const;
 };
 
-/// Receives odometry from a robot's own program as lines of text over TCP or UDP; parseOdometryLine() describes their
-/// format, and doc/live.md has an example. Each line becomes a CObservationOdometry with the label of the sensor. An
-/// invalid line is rejected and counted; at most 256 bytes of a line are buffered.
+/// Receives odometry from a robot's own program as lines of text over TCP or UDP. parseOdometryLine() describes the
+/// format of the lines, and doc/live.md has an example. Each line becomes a CObservationOdometry with the label of the
+/// sensor. An invalid line is rejected and counted; at most 256 bytes of a line are buffered.
 ///
-/// A line without a stamp ("-") is stamped with the time of its arrival. If several of them are read at once, because
-/// the sender or this machine was held up, the times of their measurement are unknown, and with stamps some
-/// microseconds apart the robot would seem to leap. So only the last one becomes an observation; odometry is
-/// cumulative, so it contains the motion of the others.
+/// A line without a stamp ("-") is stamped with the time of its arrival. If several such lines are read at once,
+/// because the sender or this machine was held up, the times of their measurement are unknown; if they were stamped
+/// some microseconds apart, the robot would seem to leap. So only the last of them becomes an observation. Odometry is
+/// cumulative, so this observation contains the motion of the others.
 ///
-/// Lines are taken from one client at a time. With TCP it is the one that connected last; the connection before is
-/// closed, because a robot may reconnect before its old connection is known to be lost. With UDP it is the first
-/// sender, until it is silent for a second. A datagram holds one or more whole lines; the last line feed may be
-/// missing.
+/// Lines are taken from one client at a time. With TCP this is the client that connected last; the connection of the
+/// client before is closed, because a robot may reconnect before its old connection is known to be lost. With UDP it is
+/// the first sender, until that sender is silent for a second. A datagram holds one or more whole lines; the last line
+/// feed may be missing.
 ///
-/// It starts no thread: doProcess() takes what has arrived, at most 256 KiB, and never waits. counts() and port() may
-/// be called from any thread.
+/// This driver starts no thread. doProcess() takes what has arrived, at most some hundred KiB, and never waits.
+/// counts() and port() may be called from any thread.
 class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSensor {
   DEFINE_GENERIC_SENSOR(COdometryLines)
  public:
   COdometryLines();
   ~COdometryLines() override;
 
-  /// Begins to listen; if it listened already, it begins again. Throws Error(unreadable_input) if the port is in use,
-  /// and Error(out_of_range) if `bind` is no address.
+  /// Begins to listen; a driver that listened already begins again. Throws Error(unreadable_input) if the port is in
+  /// use, and Error(out_of_range) if `bind` is not an address.
   void initialize() override;
   /// Does nothing before initialize().
   void doProcess() override;
@@ -80,7 +80,7 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSen
   std::uint64_t leftOut() const override { return counts().leftOut(); }
   std::string leftOutByReason() const override { return counts().leftOutByReason(); }
   bool waitsForOthers() const override { return true; }
-  /// The port on which it listens, also if the system chose it (`port = 0`); 0 before initialize().
+  /// The port on which this driver listens, also if the system chose the port (`port = 0`); 0 before initialize().
   std::uint16_t port() const;
 
  protected:
@@ -95,7 +95,7 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSen
   mutable std::mutex mutex_;
   std::unique_ptr<Receiver> receiver_;
   OdometryLineCounts counts_;
-  std::size_t unfetched_ = 0;  // upper bound of the number that wait for getObservations()
+  std::size_t unfetched_ = 0;  // upper bound of the number of observations that wait for getObservations()
 };
 
 }  // namespace omnimapper::drivers

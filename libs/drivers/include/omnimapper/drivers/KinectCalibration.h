@@ -6,10 +6,10 @@
 namespace omnimapper::drivers {
 
 /// Calibration of the two cameras of a Kinect of the first generation (Xbox 360), and of its raw depths. The default
-/// focal lengths, centres, lenses and raw depths are those of one device, which N. Burrus published ("Kinect
-/// calibration", nicolas.burrus.name, 2010; also openkinect.org, "Imaging Information"); another device differs by some
+/// focal lengths, centres, lenses and raw depths are those of one device, as N. Burrus published them ("Kinect
+/// calibration", nicolas.burrus.name, 2010; also openkinect.org, "Imaging Information"). Another device differs by some
 /// percent of the depth and some pixels. By default the colour camera is 2.5 cm to the right of the depth camera,
-/// without rotation, as in the frames of ROS's openni_launch. omnimapper-calibrate estimates all of these.
+/// without rotation, as in the frames of ROS's openni_launch. omnimapper-calibrate estimates all these numbers.
 struct KinectCalibration {
   /// 1 / depth [1/m] = inverse_depth_at_zero + inverse_depth_step * raw, for raw from 0 to 2046.
   double inverse_depth_at_zero = 3.3309495161, inverse_depth_step = -0.0030711016;
@@ -26,16 +26,17 @@ struct KinectCalibration {
   double picture_k1 = 0.26451622333009589, picture_k2 = -0.83990749424620825, picture_p1 = -0.0019922302173693159,
          picture_p2 = 0.0014371995932897616, picture_k3 = 0.91192465078713847;
 
-  /// depth_from_picture as in MRPT's relativePoseIntensityWRTDepth: the depth camera's frame is x forward, y left, z
-  /// up, the picture's is optical (x right, y down, z forward). [m]; [rad] about z, then y, then x.
+  /// depth_from_picture, as in MRPT's relativePoseIntensityWRTDepth: position [m], then rotations [rad] about z, y and
+  /// x. The depth camera's frame has x forward, y left and z up; the picture's frame is optical (x right, y down, z
+  /// forward).
   double picture_x = 0, picture_y = -0.025, picture_z = 0;
   double picture_yaw = -1.5707963267948966, picture_pitch = 0, picture_roll = -1.5707963267948966;
 
-  /// Depth along the optical axis [m] of a raw value of 11 bits; 0 if the raw value means no depth: 2047, and values
-  /// that the calibration maps to infinity or behind the camera.
+  /// Depth along the optical axis [m] that a raw value of 11 bits stands for. 0 if the raw value means no depth: 2047,
+  /// and values that the calibration maps to infinity or behind the camera.
   double depthOf(int raw) const;
-  /// The raw value whose inverse depth is nearest to that of a depth [m]; 2047 if none from 0 to 2046 corresponds to
-  /// it.
+  /// The raw value whose inverse depth is nearest to 1 / `depth` (`depth` in [m]); 2047 if no value from 0 to 2046
+  /// corresponds to this depth.
   int rawOf(double depth) const;
 
   /// Both cameras have 640 x 480 pixels.

@@ -15,18 +15,18 @@ class KinectConversion {
  public:
   explicit KinectConversion(const KinectOptions& options);
 
-  /// `depths`: row by row, raw values or, with Registration::device, millimetres and 0 for none. `picture`: red, green
-  /// and blue, three bytes a pixel, row by row; null: there is none. The observation has depths along the optical axis
-  /// in rangeUnits of 0.2 mm, 0 for none; the caller sets stamp and label.
+  /// `depths`: row by row, raw values; with Registration::device, millimetres, where 0 means no depth. `picture`: row
+  /// by row, three bytes a pixel: red, green and blue; null if there is no picture. The observation has depths along
+  /// the optical axis in rangeUnits of 0.2 mm, where 0 means no depth. The caller sets stamp and label.
   mrpt::obs::CObservation3DRangeScan::Ptr observation(const std::uint16_t* depths, const std::uint8_t* picture) const;
 
-  /// The pixel in which the colour camera sees what the depth camera sees in one of its pixels.
+  /// The pixel of the colour camera that shows what a certain pixel of the depth camera shows.
   struct Place {
     int column, row;
     double depth;  ///< [m] along the colour camera's optical axis
   };
-  /// None if the colour camera does not see it, or the depth camera's lens images nothing in that pixel. `depth` is in
-  /// [m].
+  /// Takes a pixel of the depth camera and the depth [m] in it. None if the colour camera does not see this point, or
+  /// if the depth camera, by the model of its lens, sees nothing in that pixel.
   std::optional<Place> placeInPicture(int column, int row, double depth) const;
 
  private:
@@ -41,12 +41,13 @@ class KinectConversion {
 
   KinectOptions options_;
   mrpt::img::TCamera depth_camera_, picture_camera_;
-  std::vector<double> metres_;        // by value of the device; 0: no depth
-  std::vector<std::uint16_t> units_;  // the same in rangeUnits
-  /// picture_from_depth, of optical frames.
+  std::vector<double> metres_;        // [m] depth by value of the device; 0: no depth
+  std::vector<std::uint16_t> units_;  // depth in rangeUnits by value of the device
+  /// picture_from_depth, between the optical frames.
   std::array<std::array<double, 3>, 3> rotation_;
   std::array<double, 3> translation_;  // [m]
-  std::vector<Ray> rays_;  // of the depth camera's pixels in the colour camera's frame, if depths are registered here
+  // Rays of the depth camera's pixels in the colour camera's frame; empty unless this class registers the depths.
+  std::vector<Ray> rays_;
 };
 
 }  // namespace omnimapper::drivers

@@ -8,13 +8,14 @@
 
 namespace omnimapper::eval {
 
-/// SVG, seen from above: the whole reference in grey, the estimate (already aligned) coloured by its distance to the
-/// reference [m], axes in metres of equal scale, colour bar and legend.
+/// An SVG of the trajectories, seen from above: the whole reference in grey, and the estimate (already aligned)
+/// coloured by its distance to the reference [m]. The axes are in metres with the same scale. Has a colour bar and a
+/// legend.
 void plotTrajectory(std::ostream& out, const AbsoluteTrajectoryError& error, const Trajectory& reference,
                     const std::string& title);
 
-/// SVG of two curves over time since the first stamp [s], one below the other: translation [m] and rotation errors,
-/// drawn in degrees, each with its mean.
+/// An SVG with two curves over the time since the first stamp [s], one below the other: the translation errors [m], and
+/// the rotation errors [rad], which are drawn in degrees. Each curve has a line at its mean.
 void plotErrors(std::ostream& out, const std::vector<base::Stamp>& stamps,
                 const std::vector<double>& translation_errors, const std::vector<double>& rotation_errors,
                 const std::string& title);

@@ -15,14 +15,14 @@ struct Relation {
   geometry::Se3 from_from_to;
 };
 
-/// Reads the relations of Kuemmerle et al.: t1 t2 [s] x y z [m] roll pitch yaw [rad], one a line, '#' comments.
-/// Throws Error(unreadable_input) that names file:line.
+/// Reads relations in the format of Kuemmerle et al.: t1 t2 [s] x y z [m] roll pitch yaw [rad], one relation a line;
+/// '#' begins a comment. Throws Error(unreadable_input) that names file:line.
 std::vector<Relation> readRelations(const std::string& path);
 
 struct RelationOptions {
-  base::Duration tolerance{0};     ///< largest difference of stamps of a relation and of the pose that is used for it
-  geometry::Se3 base_from_sensor;  ///< applied to the estimate if that is of the base
-  double translation_threshold = 0.5;                    ///< [m] for share_within
+  base::Duration tolerance{0};         ///< largest difference between a stamp of a relation and that of its pose
+  geometry::Se3 base_from_sensor;      ///< pose of the relations' sensor on the base, if the estimate is of the base
+  double translation_threshold = 0.5;  ///< [m] for share_within
   double rotation_threshold = 10 * geometry::kPi / 180;  ///< [rad] for share_within
 };
 
@@ -34,14 +34,15 @@ struct RelationError {
   double share_within = 0;                 ///< share of all judged relations within both thresholds
   std::size_t missed = 0;                  ///< relations for whose stamps the estimate has no pose
   std::vector<base::Stamp> stamps;         ///< `to` of each judged relation, rising
-  std::vector<double> translation_errors;  ///< of each [m]
-  std::vector<double> rotation_errors;     ///< of each [rad], in [0, pi]
+  std::vector<double> translation_errors;  ///< of each judged relation [m]
+  std::vector<double> rotation_errors;     ///< of each judged relation [rad], in [0, pi]
 };
 
-/// The relation metric: E = from_from_to^-1 (est_from^-1 est_to), its length and its angle, over all relations.
-/// It needs no common frame and is not affected by distortion of the map between places that no relation connects.
-/// Source: Kuemmerle et al., On Measuring the Accuracy of SLAM Algorithms, Autonomous Robots 27(4), 2009.
-/// Throws Error(unreadable_input) if the estimate has both poses for none of the relations.
+/// For each relation, E = from_from_to^-1 * estimated, where `estimated` is the same relative pose according to the
+/// estimate. The errors are the length of E's translation and the angle of E's rotation. This metric needs no common
+/// frame and is not affected by distortion of the map between places that no relation connects. Source: Kuemmerle et
+/// al., On Measuring the Accuracy of SLAM Algorithms, Autonomous Robots 27(4), 2009. Throws Error(unreadable_input) if
+/// there is no relation for which the estimate has both poses.
 RelationError relationError(const Trajectory& estimate, const std::vector<Relation>& relations,
                             const RelationOptions& options = {});
 

@@ -4,19 +4,19 @@
 
 namespace omnimapper::eval {
 
-/// Statistics of one kind of error, in its unit. All zero if there are no values.
+/// Statistics of one kind of error, in the unit of the error. All are zero if there are no values.
 struct Statistics {
   std::size_t count = 0;
   double mean = 0;
   double rmse = 0;    ///< root of the mean square
   double std = 0;     ///< root of the mean squared distance to the mean (divided by count, not count - 1)
-  double median = 0;  ///< mean of the middle two of an even count
+  double median = 0;  ///< for an even count, the mean of the middle two values
   double max = 0;
 };
 
 Statistics statisticsOf(const std::vector<double>& values);
 
-/// Share of values in [0, threshold]; 0 if there are none.
+/// Share of the values that are in [0, threshold]; 0 if there are no values.
 double shareWithin(const std::vector<double>& values, double threshold);
 
 }  // namespace omnimapper::eval

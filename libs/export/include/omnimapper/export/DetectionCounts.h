@@ -9,13 +9,14 @@
 
 namespace omnimapper::exports {
 
-/// Counts the planes, lines, objects, signs, markers and points that perception found, by label.
+/// Counts the planes, lines, objects, signs, markers and points that perception found, by the label of the observations
+/// that hold them.
 class DetectionCounts {
  public:
   void add(const std::vector<mrpt::obs::CObservation::Ptr>& derived);
 
-  /// A line for each label: "  kinect.planes: 113 planes in 16 observations". For other classes only the number of
-  /// observations is given.
+  /// A line for each label: "  kinect.planes: 113 planes in 16 observations". For observations of other classes only
+  /// their number is given.
   std::string text() const;
 
  private:

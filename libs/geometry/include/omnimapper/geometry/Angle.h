@@ -6,7 +6,7 @@ namespace omnimapper::geometry {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// The same angle [rad] in (-pi, pi].
+/// The angle [rad] in (-pi, pi] that differs from `angle` by a multiple of 2 pi.
 inline double wrapToPi(double angle) {
   if (angle > -kPi && angle <= kPi) return angle;
   const double wrapped = std::remainder(angle, 2 * kPi);

@@ -6,13 +6,13 @@
 
 namespace omnimapper::geometry {
 
-/// The cubes of a grid that contain a point, to keep one point of each.
+/// The set of those cubes of a grid that contain a point; it serves to keep one point for each cube.
 class CubeSet {
  public:
-  /// `side` [m]; 0: every point has a cube of its own.
+  /// `side`: length of a cube's edges [m]; 0: every point has a cube of its own.
   explicit CubeSet(double side) : side_(side) {}
 
-  /// Adds a point [m] within 2^20 sides of the origin. True if its cube contained none before.
+  /// Adds a point [m] within 2^20 sides of the origin. Returns true if no point was in its cube before.
   bool insert(double x, double y, double z) {
     if (!(side_ > 0)) return true;
     return cubes_.insert(cell(x) << 42 | cell(y) << 21 | cell(z)).second;

@@ -4,8 +4,8 @@
 
 namespace omnimapper::geometry {
 
-/// A plane in Hessian form: the points p with normal . p + distance = 0. The normal is unit and points to the side of
-/// free space, where the sensor is; seen from a sensor's own origin, distance >= 0 [m].
+/// A plane in Hessian form: the points p with normal . p + distance = 0. The normal is a unit vector and points to the
+/// side of free space, where the sensor is. So in the frame of the sensor that sees the plane, distance >= 0 [m].
 struct Plane3 {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double distance = 0;  ///< [m]
@@ -21,7 +21,8 @@ inline double signedDistance(const Plane3& plane, const Eigen::Vector3d& point) 
   return plane.normal.dot(point) + plane.distance;
 }
 
-/// The same plane in frame a: for a point p of frame b, signedDistance is that of a_from_b * p.
+/// The same plane in frame a: for a point p of frame b, the result has at a_from_b * p the signed distance that
+/// `plane_in_b` has at p.
 inline Plane3 operator*(const Se3& a_from_b, const Plane3& plane_in_b) {
   const Eigen::Vector3d normal = a_from_b.rotation * plane_in_b.normal;
   return {normal, plane_in_b.distance - normal.dot(a_from_b.translation)};

@@ -12,7 +12,7 @@ inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   return m;
 }
 
-/// Rotation about the axis of `w` by its length [rad].
+/// The rotation about the axis `w` by the length of `w` [rad].
 inline Eigen::Quaterniond expSo3(const Eigen::Vector3d& w) {
   const double squared = w.squaredNorm();
   double real, factor;  // factor = sin(angle / 2) / angle
@@ -27,7 +27,7 @@ inline Eigen::Quaterniond expSo3(const Eigen::Vector3d& w) {
   return {real, factor * w.x(), factor * w.y(), factor * w.z()};
 }
 
-/// Inverse of expSo3() for a unit quaternion of either sign: rotation vector of length in [0, pi].
+/// Inverse of expSo3() for a unit quaternion of either sign: the rotation vector, whose length is in [0, pi].
 inline Eigen::Vector3d logSo3(const Eigen::Quaterniond& q) {
   const double sign = q.w() < 0 ? -1 : 1;
   const double sine = q.vec().norm();
@@ -38,7 +38,7 @@ inline Eigen::Vector3d logSo3(const Eigen::Quaterniond& q) {
   return sign * factor * q.vec();
 }
 
-/// Jr(w): expSo3(w + d) = expSo3(w) expSo3(Jr(w) d) for small d.
+/// The right Jacobian Jr(w): expSo3(w + d) = expSo3(w) expSo3(Jr(w) d) for small d.
 inline Eigen::Matrix3d rightJacobianSo3(const Eigen::Vector3d& w) {
   const double squared = w.squaredNorm();
   double a, b;  // a = (1 - cos t) / t^2, b = (t - sin t) / t^3
@@ -54,7 +54,7 @@ inline Eigen::Matrix3d rightJacobianSo3(const Eigen::Vector3d& w) {
   return Eigen::Matrix3d::Identity() - a * s + b * s * s;
 }
 
-/// Jr(w)^-1: logSo3(expSo3(w) expSo3(d)) = w + Jr(w)^-1 d for small d. For |w| < 2 pi.
+/// The inverse of Jr(w): logSo3(expSo3(w) expSo3(d)) = w + Jr(w)^-1 d for small d. For |w| < 2 pi.
 inline Eigen::Matrix3d inverseRightJacobianSo3(const Eigen::Vector3d& w) {
   const double squared = w.squaredNorm();
   double c;  // 1 / t^2 - cot(t / 2) / (2 t)

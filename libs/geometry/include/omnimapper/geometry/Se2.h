@@ -7,12 +7,12 @@
 
 namespace omnimapper::geometry {
 
-/// A motion of the plane: a_from_b takes points of frame b to frame a.
-/// Tangent: right perturbation, (x, y) [m] in the moved frame, then yaw [rad].
+/// A motion of the plane: a_from_b takes points of frame b to frame a. Tangent: a small change is applied on the right
+/// side. Its order is (x, y) [m] in the axes of the frame that moves, then yaw [rad].
 struct Se2 {
   double x = 0;    ///< [m]
   double y = 0;    ///< [m]
-  double yaw = 0;  ///< [rad], in (-pi, pi] in everything the functions here return
+  double yaw = 0;  ///< [rad], in (-pi, pi] in all results of the functions in this file
 
   Eigen::Vector2d translation() const { return {x, y}; }
   Eigen::Matrix2d rotation() const { return Eigen::Rotation2Dd(yaw).toRotationMatrix(); }
@@ -35,18 +35,18 @@ inline Se2 inverse(const Se2& a) {
   return {-c * a.x - s * a.y, s * a.x - c * a.y, wrapToPi(-a.yaw)};
 }
 
-/// a plus (t, w) = (p + R t, yaw + w).
+/// For a pose a with position p and rotation R: a plus (t, w) = (p + R t, yaw + w).
 inline Se2 plus(const Se2& a, const Eigen::Vector3d& delta) {
   return a * Se2{delta[0], delta[1], delta[2]};
 }
 
-/// delta such that plus(a, delta) = b.
+/// The change `delta` for which plus(a, delta) = b.
 inline Eigen::Vector3d minus(const Se2& b, const Se2& a) {
   const double c = std::cos(a.yaw), s = std::sin(a.yaw), x = b.x - a.x, y = b.y - a.y;
   return {c * x + s * y, c * y - s * x, wrapToPi(b.yaw - a.yaw)};
 }
 
-/// Ad(a): a * plus(I, d) = plus(I, Ad d) * a to first order in d.
+/// The adjoint matrix Ad of a: a * plus(I, d) = plus(I, Ad d) * a to first order in d, where I is the identity.
 inline Eigen::Matrix3d adjoint(const Se2& a) {
   Eigen::Matrix3d ad = Eigen::Matrix3d::Identity();
   ad.topLeftCorner<2, 2>() = a.rotation();

@@ -8,11 +8,11 @@ namespace omnimapper::geometry {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// A motion of space: a_from_b takes points of frame b to frame a.
-/// Tangent: right perturbation, order x y z [m] in the moved frame, then rotation vector [rad]; translation and
-/// rotation change separately (not by the SE(3) exponential), which to first order is the same.
+/// A motion of space: a_from_b takes points of frame b to frame a. Tangent: a small change is applied on the right
+/// side. Its order is x y z [m] in the axes of the frame that moves, then the rotation vector [rad]. Translation and
+/// rotation change separately. (This is not the exponential of SE(3), but the same to first order.)
 struct Se3 {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< unit quaternion
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< [m]
 };
 
@@ -31,12 +31,12 @@ inline Se3 inverse(const Se3& a) {
   return {back, -(back * a.translation)};
 }
 
-/// a plus (t, w) = (p + R t, R Exp(w)).
+/// For a pose a with position p and rotation R: a plus (t, w) = (p + R t, R Exp(w)), where Exp is expSo3().
 inline Se3 plus(const Se3& a, const Vector6d& delta) {
   return {(a.rotation * expSo3(delta.tail<3>())).normalized(), a.translation + a.rotation * delta.head<3>()};
 }
 
-/// delta such that plus(a, delta) = b; its rotation vector is at most pi long.
+/// The change `delta` for which plus(a, delta) = b; its rotation vector is at most pi long.
 inline Vector6d minus(const Se3& b, const Se3& a) {
   const Eigen::Quaterniond back = a.rotation.conjugate();
   Vector6d delta;
@@ -44,7 +44,7 @@ inline Vector6d minus(const Se3& b, const Se3& a) {
   return delta;
 }
 
-/// Ad(a): a * plus(I, d) = plus(I, Ad d) * a to first order in d.
+/// The adjoint matrix Ad of a: a * plus(I, d) = plus(I, Ad d) * a to first order in d, where I is the identity.
 inline Matrix6d adjoint(const Se3& a) {
   const Eigen::Matrix3d r = a.rotation.toRotationMatrix();
   Matrix6d ad;
@@ -57,7 +57,8 @@ inline Se3 lift(const Se2& a) {
   return {Eigen::Quaterniond(std::cos(0.5 * a.yaw), 0, 0, std::sin(0.5 * a.yaw)), {a.x, a.y, 0}};
 }
 
-/// The planar part: x, y, and the yaw of the yaw-pitch-roll angles; z, pitch and roll are dropped. lift()'s inverse.
+/// The planar part: x, y, and the yaw of the yaw-pitch-roll angles; z, pitch and roll are dropped. The inverse of
+/// lift().
 inline Se2 project(const Se3& a) {
   const Eigen::Quaterniond& q = a.rotation;
   const double yaw = std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()));

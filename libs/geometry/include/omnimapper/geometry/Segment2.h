@@ -15,7 +15,7 @@ inline double length(const Segment2& segment) {
   return (segment.to - segment.from).norm();
 }
 
-/// Unit vector from `from` to `to`; zero where both are the same point.
+/// Unit vector from `from` to `to`; zero if both are the same point.
 inline Eigen::Vector2d direction(const Segment2& segment) {
   const double norm = length(segment);
   return norm > 0 ? Eigen::Vector2d((segment.to - segment.from) / norm) : Eigen::Vector2d::Zero();

@@ -7,8 +7,8 @@
 
 namespace omnimapper::geometry {
 
-/// A line of a trajectory in the TUM RGB-D format, "stamp x y z qx qy qz qw" and a line feed: Unix time [s] to the tick
-/// of 100 ns, lengths [m] and a unit quaternion with qw >= 0, nine decimals each.
+/// A line of a trajectory in the TUM RGB-D format, "stamp x y z qx qy qz qw" and a line feed. The stamp is Unix time
+/// [s], exact to the tick of 100 ns. Lengths [m] and a unit quaternion with qw >= 0 have nine decimals each.
 std::string tumLine(base::Stamp stamp, const Se3& world_from_body);
 
 }  // namespace omnimapper::geometry

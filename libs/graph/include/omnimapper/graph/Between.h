@@ -7,10 +7,10 @@
 
 namespace omnimapper::graph {
 
-/// Measured motion from pose a to pose b. Variables: map_from_a, map_from_b.
-/// Residual: minus(inverse(map_from_a) * map_from_b, a_from_b measured), that is, translation [m] and
-/// then yaw or rotation vector [rad], in the measured frame b. Noise: covariance of a_from_b in its own tangent.
-/// Derivation: doc/derivations/between.md.
+/// A measured motion from pose a to pose b. Variables: map_from_a, map_from_b. Residual: minus(inverse(map_from_a) *
+/// map_from_b, a_from_b measured), that is, translation [m] and then yaw or rotation vector [rad], in the axes of the
+/// measured frame b. Noise: covariance of a_from_b in the tangent of Se2 or Se3. Derivation:
+/// doc/derivations/between.md.
 class BetweenSe2 : public SizedFactor<3, Se2Kind, Se2Kind> {
  public:
   explicit BetweenSe2(const geometry::Se2& a_from_b);
@@ -22,7 +22,7 @@ class BetweenSe2 : public SizedFactor<3, Se2Kind, Se2Kind> {
 
  private:
   geometry::Se2 a_from_b_;
-  double cosine_, sine_;  // of the measured yaw
+  double cosine_, sine_;  // cosine and sine of the measured yaw
 };
 
 class BetweenSe3 : public SizedFactor<6, Se3Kind, Se3Kind> {

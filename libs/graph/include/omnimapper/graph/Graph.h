@@ -16,8 +16,8 @@ namespace omnimapper::graph {
 struct VariableRecord {
   std::shared_ptr<const Variable> kind;
   Eigen::VectorXd value;                ///< [ambientSize]
-  bool fixed = false;                   ///< no solver changes its value
-  std::vector<base::FactorId> factors;  ///< the factors that bind it, in the order of ids
+  bool fixed = false;                   ///< if true, no solver changes the value
+  std::vector<base::FactorId> factors;  ///< the factors that bind this variable, in the order of ids
 };
 
 /// Variables and the factors between them. The time of an edit does not grow with the graph. Copies are independent and
@@ -39,7 +39,7 @@ class Graph {
   /// if the noise is not of the residual's size, or if the weight is negative or not finite.
   base::FactorId addFactor(FactorRecord record);
   void removeFactor(base::FactorId id);
-  /// Binds a factor to other variables; its id, noise, weight and tags stay. Throws as addFactor().
+  /// Binds a factor to other variables; the factor's id, noise, loss, weight and tags stay. Throws as addFactor() does.
   void rebind(base::FactorId id, const std::vector<base::VariableId>& variables);
 
   bool contains(base::VariableId id) const { return variables_.find(id) != nullptr; }
@@ -61,11 +61,11 @@ class Graph {
   /// Sets the landmark in the factor's tags.
   void setLandmark(base::FactorId id, base::LandmarkId landmark);
 
-  /// noise * residual at the current values; weight and loss are not applied.
+  /// noise * residual of the factor at the current values; weight and loss are not applied.
   Eigen::VectorXd whitenedResidual(base::FactorId id) const;
-  /// Sum of weight |whitened residual|^2; losses are not applied.
+  /// Sum of weight |whitened residual|^2 over all factors; losses are not applied.
   double chi2() const;
-  /// Sum of 1/2 weight loss(|whitened residual|^2): what solve() minimizes.
+  /// Sum of 1/2 weight loss(|whitened residual|^2) over all factors: what solve() minimizes.
   double cost() const;
 
  private:

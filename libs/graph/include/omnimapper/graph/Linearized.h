@@ -10,9 +10,9 @@ namespace omnimapper::graph {
 /// A factor, linearized at the graph's values.
 struct Linearized {
   Eigen::VectorXd residual;                ///< whitened
-  std::vector<Eigen::MatrixXd> jacobians;  ///< whitened, by the tangent of each of its variables
+  std::vector<Eigen::MatrixXd> jacobians;  ///< whitened derivatives by the tangent of each variable
 
-  /// Linearizes a factor that need not be in the graph. Its variables must be, else Error(internal) is thrown.
+  /// Linearizes a factor that need not be in the graph. Throws Error(internal) if its variables are not in the graph.
   Linearized(const Graph& graph, const FactorRecord& record);
   Linearized(const Graph& graph, base::FactorId factor) : Linearized(graph, graph.factor(factor)) {}
 };

@@ -4,8 +4,9 @@
 
 namespace omnimapper::graph {
 
-/// A robust loss, which limits the cost of an outlier. rho is a function of s, the squared norm of the whitened
-/// residual; the scale c is in sigmas. Near 0 every rho is s (rho(0) = 0, rho'(0) = 1): inliers keep their chi-square.
+/// A robust loss, which limits the cost of an outlier. It is a function rho of s, the squared norm of the whitened
+/// residual; its scale c is a number of standard deviations. Near 0 every rho is s (rho(0) = 0, rho'(0) = 1), so
+/// inliers keep their chi-square.
 ///
 /// | kind          | rho(s)                                             | rho'(s)              |
 /// |---------------|----------------------------------------------------|----------------------|

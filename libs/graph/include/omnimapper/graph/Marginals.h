@@ -7,10 +7,11 @@
 
 namespace omnimapper::graph {
 
-/// Marginal covariances of the variables of a graph at its present values: blocks of the inverse of the information
-/// matrix, in the variables' tangents, with weights and losses as the solver applies them. The constructor factors the
-/// matrix; after that, the object is independent of the graph. A block needs one path through the factored matrix, not
-/// the whole inverse, and recent blocks are cached. Blocks of fixed variables are zero.
+/// Marginal covariances of the variables of a graph at its present values. They are blocks of the inverse of the
+/// information matrix, in the variables' tangents, with weights and losses as the solver applies them. The constructor
+/// decomposes the matrix; after that, the object is independent of the graph. For a block, a part of the decomposed
+/// matrix is used instead of computing the whole inverse, and recent blocks are cached. Blocks of fixed variables are
+/// zero.
 class Marginals {
  public:
   /// Throws Error(internal) if a connected part of the graph is not held anywhere (see solve()), or if no factor
@@ -24,8 +25,8 @@ class Marginals {
   bool contains(base::VariableId id) const;
   /// [tangentSize x tangentSize]. Throws Error(internal) if no factor of positive weight binds the variable.
   Eigen::MatrixXd covariance(base::VariableId id) const;
-  /// Joint covariance of several variables, blocks in the order of `ids`, which may contain an id twice. Throws as
-  /// covariance(). Several threads may call it at once.
+  /// Joint covariance of several variables; the blocks are in the order of `ids`, which may contain an id twice. Throws
+  /// as covariance() does. Several threads may call this function at once.
   Eigen::MatrixXd jointCovariance(const std::vector<base::VariableId>& ids) const;
   /// Covariance of each of `others` with `id`: block i is [tangentSize of others[i] x tangentSize of id].
   std::vector<Eigen::MatrixXd> crossCovariances(base::VariableId id, const std::vector<base::VariableId>& others) const;

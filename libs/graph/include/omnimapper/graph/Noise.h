@@ -5,7 +5,7 @@
 namespace omnimapper::graph {
 
 /// How much a residual is trusted: a square matrix W with W^T W = information = covariance^-1. W * residual is the
-/// whitened residual, whose unit is one sigma. W is always valid; its size is that of the residual.
+/// whitened residual, whose unit is one standard deviation. W is always valid, and has the size of the residual.
 class SquareRootInformation {
  public:
   /// Each throws Error(internal) if the matrix is not square, not symmetric, not positive definite or not finite.
@@ -13,9 +13,9 @@ class SquareRootInformation {
   static SquareRootInformation fromInformation(const Eigen::MatrixXd& information);
   /// Standard deviations, in the unit of each row.
   static SquareRootInformation fromSigmas(const Eigen::VectorXd& sigmas);
-  /// Takes W itself, as matrix() returns it. Throws Error(internal) if it is not square, not finite or singular.
+  /// Takes W itself, as matrix() returns it. Throws Error(internal) if W is not square, not finite or singular.
   static SquareRootInformation fromMatrix(const Eigen::MatrixXd& matrix);
-  /// Every row has sigma 1.
+  /// The standard deviation of every row is 1.
   static SquareRootInformation identity(int size);
 
   int size() const { return static_cast<int>(matrix_.rows()); }

@@ -41,7 +41,8 @@ class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
 class SamePointFactor : public SizedFactor<3, Point3Kind, Point3Kind> {
  public:
   static constexpr std::string_view kKind = "same_point3";
-  /// `odds`: prior odds that both are the same point; the consistency test multiplies its likelihood ratio by them.
+  /// `odds`: prior odds that both points are the same; the consistency test multiplies its likelihood ratio by these
+  /// odds.
   explicit SamePointFactor(double odds = 1) : odds_(odds) {}
   double odds() const { return odds_; }
 

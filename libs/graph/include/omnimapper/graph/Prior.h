@@ -7,10 +7,9 @@
 
 namespace omnimapper::graph {
 
-/// A pose that is known beforehand. Variable: map_from_a.
-/// Residual: minus(map_from_a, map_from_a measured): translation [m] in the measured frame, then yaw or rotation vector
-/// [rad]. Its noise is the covariance of the measured pose in its own tangent.
-/// Derivation: doc/derivations/prior.md.
+/// A pose that is known beforehand. Variable: map_from_a. Residual: minus(map_from_a, map_from_a measured), that is,
+/// translation [m] in the axes of the measured frame a, then yaw or rotation vector [rad]. Noise: covariance of the
+/// measured pose in the tangent of Se2 or Se3. Derivation: doc/derivations/prior.md.
 class PriorSe2 : public SizedFactor<3, Se2Kind> {
  public:
   explicit PriorSe2(const geometry::Se2& map_from_a) : map_from_a_(map_from_a) {}

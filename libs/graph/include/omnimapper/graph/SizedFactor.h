@@ -10,8 +10,8 @@
 
 namespace omnimapper::graph {
 
-/// A factor whose rows and kinds of variables are known at compile time. A kind is a type with `kName`, which is
-/// Variable::kind(), and `kTangentSize`.
+/// A factor whose number of rows and kinds of variables are known at compile time. Each of `Kinds` is a type with the
+/// members `kName`, which is Variable::kind(), and `kTangentSize`.
 template <int Rows, class... Kinds>
 class SizedFactor : public Factor {
  public:
@@ -22,8 +22,8 @@ class SizedFactor : public Factor {
   }
 
  protected:
-  /// The derivative by variable `Index`, [Rows x tangentSize of its kind], to which evaluate() assigns. It converts to
-  /// false if the caller does not ask for it.
+  /// The derivative by variable number `Index` [Rows x tangentSize of its kind], to which evaluate() assigns. The
+  /// returned object converts to false if the caller does not ask for this derivative.
   template <std::size_t Index>
   static auto jacobian(double* const* jacobians) {
     using Kind = std::tuple_element_t<Index, std::tuple<Kinds...>>;

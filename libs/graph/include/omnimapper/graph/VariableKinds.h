@@ -9,17 +9,17 @@
 
 namespace omnimapper::graph {
 
-/// The kinds of variables that the library brings. Lengths in m, angles in rad.
+/// The kinds of variables that this library has. Lengths are in m, angles in rad.
 
-/// "se2": x y yaw; tangent of geometry::Se2.
+/// "se2": x y yaw; the tangent is that of geometry::Se2.
 const std::shared_ptr<const Variable>& se2();
-/// "se3": x y z qx qy qz qw, unit quaternion; tangent of geometry::Se3.
+/// "se3": x y z qx qy qz qw, a unit quaternion; the tangent is that of geometry::Se3.
 const std::shared_ptr<const Variable>& se3();
 /// "point2": x y.
 const std::shared_ptr<const Variable>& point2();
 /// "point3": x y z.
 const std::shared_ptr<const Variable>& point3();
-/// "pan_tilt": two angles, to the left and then down; it has no position in the map.
+/// "pan_tilt": two angles, first to the left, then down. It is not a place in the map.
 const std::shared_ptr<const Variable>& panTilt();
 
 /// The same kinds as types, for SizedFactor.
@@ -44,7 +44,7 @@ struct PanTiltKind {
   static constexpr int kTangentSize = 2;
 };
 
-/// Converts poses to values as the graph stores them, and back. The pointers are to a whole ambient value.
+/// Converts poses to values as the graph stores them, and back. `value` points to all numbers of a value.
 Eigen::Vector3d toValue(const geometry::Se2& pose);
 Eigen::Matrix<double, 7, 1> toValue(const geometry::Se3& pose);
 inline geometry::Se2 se2FromValue(const double* value) {

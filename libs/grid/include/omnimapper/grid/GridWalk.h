@@ -7,8 +7,8 @@
 
 namespace omnimapper::grid {
 
-/// Calls visit(x, y) for the cells on the line between two points, whose coordinates are in cells, in order, until it
-/// returns false (Amanatides and Woo 1987). The last cell is left out.
+/// Calls visit(x, y) for each cell on the line from `from` to `to`, in order, until visit() returns false (Amanatides
+/// and Woo 1987). The coordinates of both points are in cells. The last cell is left out.
 template <class Visit>
 void walk(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& visit) {
   int x = static_cast<int>(std::floor(from.x())), y = static_cast<int>(std::floor(from.y()));
@@ -30,8 +30,9 @@ void walk(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& v
   }
 }
 
-/// Walks only the part of the line that lies in a grid of width x height cells. Its ends may be arbitrarily far
-/// away; walk() alone would overflow an int. Visits nothing if the line misses the grid or an end is not finite.
+/// Walks only the part of the line that lies in a grid of width x height cells. The ends of the line may be arbitrarily
+/// far away, where walk() alone would overflow an int. Visits nothing if the line misses the grid or an end is not
+/// finite.
 template <class Visit>
 void walkInside(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int width, int height, const Visit& visit) {
   const Eigen::Vector2d delta = to - from, size(width, height);

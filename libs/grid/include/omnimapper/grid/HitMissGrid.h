@@ -13,16 +13,16 @@ namespace omnimapper::grid {
 
 struct BeamModel {
   double cell = 0.05;                ///< [m]
-  double tolerance = 0.3;            ///< [m] before a beam's end in which walls do not count as crossed
-  double near_wall = 0.06;           ///< [m] standard deviation of a beam's end from its wall
+  double tolerance = 0.3;            ///< [m] length of a beam's last part, in which walls do not count as crossed
+  double near_wall = 0.06;           ///< [m] standard deviation of the distance of a beam's end from its wall
   double clutter = 0.02;             ///< likelihood of a beam's end where the map has free space
   double unknown = 0.3;              ///< likelihood of a beam's end where the map is unknown
   double anything = 0.01;            ///< smallest likelihood of a beam
-  std::size_t max_cells = 64000000;  ///< a larger map is refused; 5 bytes each
+  std::size_t max_cells = 64000000;  ///< a map with more cells is refused; a cell takes 5 bytes
 };
 
-/// Counts, for each cell of a map, the beams that ended in it and those that passed: walls and free space. Gives the
-/// likelihood of a scan at a pose, free space included. Immutable, so threads may share it.
+/// Counts, for each cell of a map, the beams that ended in the cell (at a wall) and the beams that passed through it
+/// (free space). From these counts it computes the likelihood of a scan at a pose. Immutable, so threads may share it.
 class HitMissGrid {
  public:
   struct Placed {
@@ -33,10 +33,11 @@ class HitMissGrid {
   /// Points must be finite. Throws Error(out_of_range) for scans spread over more than max_cells.
   HitMissGrid(const std::vector<Placed>& scans, const BeamModel& model = {});
 
-  /// Logarithm of each beam's likelihood, in [anything, 1], first the hits, then the misses. For a hit it is the
-  /// likelihood that no wall is on its path and one is at its end; for a miss, only that no wall is on its path.
+  /// Logarithms of the beams' likelihoods, first of the hits, then of the misses. A likelihood is between
+  /// BeamModel::anything and 1. That of a hit is the likelihood that no wall is on the beam's path and a wall is at its
+  /// end; that of a miss, only that no wall is on the beam's path.
   std::vector<double> logLikelihoods(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
-  /// Mean of logLikelihoods(); 0 without beams.
+  /// Mean of logLikelihoods(); 0 if there are no beams.
   double logLikelihood(const BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor) const;
 
  private:

@@ -13,11 +13,12 @@ struct LikelihoodOptions {
   double cell = 0.05;                ///< [m] side of a cell
   double sigma = 0.08;               ///< [m] standard deviation of the bell around each point of the map
   int levels = 10;                   ///< number of levels, at most kLevels; with 1 only at() and score() can be used
-  std::size_t max_cells = 64000000;  ///< a larger map is refused; about 4 bytes each with all levels
+  std::size_t max_cells = 64000000;  ///< a map with more cells is refused; a cell takes about 4 bytes
 };
 
-/// The likelihood of a point of a scan at a place of a map: 255 in the cell of a map's point, falling off around it
-/// like a Gaussian bell; and upper bounds of it over squares of 2^level cells. Immutable, so threads may share it.
+/// For each cell of a map, the likelihood that a point of a scan lies there: 255 in the cells of the map's points, and
+/// falling off around them like a Gaussian bell. Each further level has upper bounds of this likelihood over squares
+/// with sides of 2^level cells. Immutable, so threads may share it.
 class LikelihoodPyramid {
  public:
   static constexpr int kLevels = 10;
@@ -52,12 +53,13 @@ class LikelihoodPyramid {
     return column < grid.width && row < grid.height ? grid.values[row * grid.width + column] : 0;
   }
 
-  /// Mean likelihood of a scan's finite points, [0, 1]; 0 without any.
+  /// Mean likelihood of a scan's finite points, in [0, 1]; 0 if there are none.
   double score(const std::vector<Eigen::Vector2f>& points, const mrpt::math::TPose2D& map_from_scan) const;
 
  private:
-  // Values for every 2^shift-th cell, the first one at -padding. Each covers 2^level + 2^shift - 1 cells: all that a
-  // square can reach which begins anywhere in its stride.
+  // Values for every 2^shift-th cell in x and y, the first for cell -padding. A square with sides of 2^level cells may
+  // begin at that cell or at any cell before the next value's, so each value is the bound over 2^level + 2^shift - 1
+  // cells in x and in y.
   struct Level {
     int shift = 0, padding = 0;
     unsigned width = 0, height = 0;

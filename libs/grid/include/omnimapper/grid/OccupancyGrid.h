@@ -10,8 +10,8 @@
 
 namespace omnimapper::grid {
 
-/// Log-odds of occupancy, cell by cell, as sums of the votes of scans. Votes are whole numbers, so that votes can be
-/// removed again exactly, in any order. Cells are kept in tiles, only where there are votes.
+/// Log-odds of occupancy: for each cell, the sum of the votes of scans. Votes are whole numbers, so that they can be
+/// removed again exactly, in any order. The cells are stored in tiles, and only where scans have voted.
 class OccupancyGrid {
  public:
   static constexpr int kTileSide = VoteWindow::kTileSide;
@@ -27,9 +27,9 @@ class OccupancyGrid {
     friend class OccupancyGrid;
     void countChange();
 
-    std::array<std::int16_t, kTileSide * kTileSide> low_{};  // row by row; the sums, less what is in high_
-    std::vector<std::int32_t> high_;                         // empty until sums outgrow 16 bits
-    int changes_ = 0;                                        // number of changes of low_ since then
+    std::array<std::int16_t, kTileSide * kTileSide> low_{};  // row by row; the sums, minus those in high_
+    std::vector<std::int32_t> high_;                         // empty until sums could outgrow 16 bits
+    int changes_ = 0;                                        // number of changes since low_ was last moved to high_
   };
   struct TileIndex {
     std::int64_t x = 0, y = 0;

@@ -25,7 +25,8 @@ class BeamEnds {
     const double sign = scan.rightToLeft ? 1 : -1;
     const double first = size() > 1 ? -0.5 * sign * scan.aperture : 0;
     const double step = size() > 1 ? sign * scan.aperture / static_cast<double>(size() - 1) : 0;
-    // Each direction is the one before, rotated: cosines and sines of all would take longer than the rest of a grid.
+    // Each direction is the previous one, rotated. Computing the cosine and sine of every direction would take longer
+    // than all other work for a grid.
     double c = std::cos(first), s = std::sin(first);
     const double turn_c = std::cos(step), turn_s = std::sin(step);
     for (auto& direction : directions_) {

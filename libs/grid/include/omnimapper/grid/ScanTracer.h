@@ -16,12 +16,12 @@ constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
 
 /// Computes the votes of a scan for the cells of the map's z = 0 plane.
 ///
-/// A beam passes the cells between the sensor and its end, and hits the one where it ends. A beam that ends at the
-/// range limit of the sensor or of the option only passes; an invalid one does not vote. A scan votes once for a cell,
-/// however many beams meet it, and a hit takes precedence. No beam clears a cell on the line between the ends of two
-/// neighbours that meet the same surface, because beams that graze a wall would clear it between their hits. Where the
-/// two face the surface and their ends are near each other, the cells between them belong to the wall, too, so that it
-/// is not a row of dots.
+/// A beam passes the cells between the sensor and its end, and hits the cell where it ends. A beam that reaches the
+/// range limit of the sensor or `max_range` only passes cells; an invalid beam does not vote. A scan votes once for a
+/// cell, however many beams meet the cell, and a hit takes precedence. If two neighbouring beams meet the same surface,
+/// no beam clears a cell on the line between their ends, because beams that graze a wall would clear it between their
+/// hits. If both also face the surface and their ends are near each other, the cells between the ends count as wall,
+/// too, so that a wall is not a row of dots.
 class ScanTracer {
  public:
   /// Beams are cut at `max_range` [m].

@@ -18,15 +18,15 @@ class VoteWindow {
  public:
   static constexpr int kTileSide = 64;  ///< [cells]
 
-  /// Moves the window so that it contains that box. It must be empty: new, or every vote taken.
+  /// Moves the window so that it contains `box`. The window must be empty: new, or emptied by takeRows().
   void moveTo(const CellBox& box);
   /// Index of the cell in the window's lower left corner.
   std::int64_t minX() const { return tile_x_ * kTileSide; }
   std::int64_t minY() const { return tile_y_ * kTileSide; }
 
-  /// Sets the vote of the cells on a line between two places in the window [cells, from the window's corner]; it
-  /// replaces earlier votes. These are the cells of both ends and, in each column, the cell in which the line crosses
-  /// the middle of the column (in each row, if the line is steep).
+  /// Sets the vote of the cells on the line between two places in the window [cells, from the window's corner], and so
+  /// replaces earlier votes for these cells. The line consists of the cells of both ends and, in each column, of the
+  /// cell in which the line crosses the middle of the column. For a steep line, rows take the place of columns.
   void voteLine(double x0, double y0, double x1, double y1, int vote);
   void voteCell(double x, double y, int vote) {
     const auto column = static_cast<std::ptrdiff_t>(x), row = static_cast<std::ptrdiff_t>(y);
@@ -61,7 +61,7 @@ class VoteWindow {
     return any == 0;
   }
 
-  std::int64_t tile_x_ = 0, tile_y_ = 0;  // of the tile in the corner
+  std::int64_t tile_x_ = 0, tile_y_ = 0;  // of the tile in the lower left corner
   int columns_ = 0, rows_ = 0;            // in tiles
   std::vector<std::int8_t> votes_;        // row by row
   std::vector<std::uint8_t> touched_;     // a flag for each tile: it may have votes

@@ -6,8 +6,8 @@
 
 namespace omnimapper::landmarks {
 
-/// Two axes on a plane. If the plane is tilted from level by more than 26 degrees, the first is level and the second
-/// points up; else the first points along the x axis of the map.
+/// Two axes on a plane. If the plane is tilted from level by more than 26 degrees, the first axis is level and the
+/// second axis points up; else the first axis points along the x axis of the map.
 struct PlaneAxes {
   explicit PlaneAxes(const geometry::Plane3& plane);
 

@@ -9,8 +9,9 @@
 
 namespace omnimapper::landmarks {
 
-/// Kind "plane": unit normal x y z, then distance [m], of the points p of the map with normal . p + distance = 0.
-/// Tangent: geometry/PlaneTangent.h, three degrees of freedom. Derivation: doc/derivations/plane.md.
+/// Kind "plane": a plane of the map, which is the set of points p with normal . p + distance = 0. The value is the unit
+/// normal x y z, then the distance [m]. Tangent: geometry/PlaneTangent.h, three degrees of freedom. Derivation:
+/// doc/derivations/plane.md.
 const std::shared_ptr<const graph::Variable>& planeVariable();
 /// The kind as a type, for graph::SizedFactor.
 struct PlaneKind {
@@ -19,7 +20,7 @@ struct PlaneKind {
 };
 
 Eigen::Vector4d toValue(const geometry::Plane3& plane);
-/// `value` is a whole ambient value.
+/// `value`: the four numbers of the variable's value.
 inline geometry::Plane3 planeFromValue(const double* value) {
   return {{value[0], value[1], value[2]}, value[3]};
 }

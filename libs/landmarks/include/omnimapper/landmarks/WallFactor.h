@@ -10,8 +10,8 @@
 namespace omnimapper::landmarks {
 
 /// A line of a level laser on a wall of a planar map (thesis 4.3.2.4). Variables: map_from_base (se2), wall.
-/// Residual: direction measured - predicted [rad], in (-pi, pi]; then the distance of the line's middle from the wall
-/// [m], positive on the free side. Derivation: doc/derivations/wall.md.
+/// Residual: measured minus predicted direction [rad], in (-pi, pi]; then the distance of the line's middle from the
+/// wall [m], positive on the free side. Derivation: doc/derivations/wall.md.
 class WallFactor : public graph::SizedFactor<2, graph::Se2Kind, WallKind> {
  public:
   /// `direction_in_base` is unit, with the free side on its left.

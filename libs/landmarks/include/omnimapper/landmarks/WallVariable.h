@@ -10,9 +10,9 @@
 namespace omnimapper::landmarks {
 
 /// Kind "wall": a wall of a planar map in M-space form (thesis 4.3.2.4; Folkesson, Jensfelt and Christensen 2007). The
-/// value is two points on it, x y x y [m], with the free side on the left of the direction from the first to the
-/// second. The tangent is the error that a line can have: a rotation about the middle of the two [rad], then a shift to
-/// the free side [m]. The points themselves never slide along the wall. Derivation: doc/derivations/wall.md.
+/// value is two points on the wall, x y x y [m]; the free side is on the left of the direction from the first point to
+/// the second. The tangent is the error that a line can have: a rotation about the middle of the two points [rad], then
+/// a shift to the free side [m]. The points never slide along the wall. Derivation: doc/derivations/wall.md.
 const std::shared_ptr<const graph::Variable>& wallVariable();
 /// The kind as a type, for graph::SizedFactor.
 struct WallKind {
@@ -21,7 +21,7 @@ struct WallKind {
 };
 
 Eigen::Vector4d toValue(const geometry::Segment2& wall);
-/// `value` is a whole ambient value.
+/// `value`: the four numbers of the variable's value.
 inline geometry::Segment2 wallFromValue(const double* value) {
   return {{value[0], value[1]}, {value[2], value[3]}};
 }
@@ -29,7 +29,7 @@ inline geometry::Segment2 wallFromValue(const double* value) {
 /// The change from one wall to the other: rotation [rad], shift [m].
 Eigen::Vector2d wallChange(const geometry::Segment2& from, const geometry::Segment2& to);
 
-/// Unit normal, to the free side.
+/// Unit normal; points to the free side.
 inline Eigen::Vector2d normalOf(const geometry::Segment2& wall) {
   const Eigen::Vector2d along = direction(wall);
   return {-along.y(), along.x()};

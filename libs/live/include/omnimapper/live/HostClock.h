@@ -4,8 +4,8 @@
 
 namespace omnimapper::live {
 
-/// The time of this machine, UTC. Only here do the libraries read its clock: an observation that a sensor gives no
-/// stamp gets the time of its arrival, and everything after the sensors uses stamps.
+/// The current time by this machine's clock, UTC. The libraries read this clock nowhere else. An observation that comes
+/// without a stamp gets the time of its arrival; everything after the sensors uses only stamps.
 base::Stamp hostNow();
 
 }  // namespace omnimapper::live

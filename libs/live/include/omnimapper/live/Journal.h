@@ -8,21 +8,23 @@
 
 namespace omnimapper::live {
 
-/// One action of a live run on its recording. A replay that does the same actions in the same order makes the same map.
+/// One action of a live run on an observation of its recording, or on a bundle or job. A replay that does the same
+/// actions in the same order makes the same map.
 struct JournalEvent {
   enum class Kind {
     add,     ///< an observation was given to the mapper
-    drop,    ///< an observation was left out because of a newer one of its camera
+    drop,    ///< an observation was left out: a newer one of its camera came, or [source] labels excludes it
     bundle,  ///< the mapper began to work on the oldest bundle whose perception was done
     job      ///< the mapper took the oldest job
   };
   Kind kind = Kind::add;
-  std::uint64_t number = 0;  ///< of the observation, among the usable ones of the recording, from 0 on
+  std::uint64_t number = 0;  ///< for add and drop: index of the observation among the usable ones of the recording
 
   bool operator==(const JournalEvent& other) const { return kind == other.kind && number == other.number; }
 };
 
-/// Writes a journal, NAME.journal beside the rawlogs NAME.rawlog, NAME_001.rawlog and so on. Not thread-safe.
+/// Writes a journal. The journal of the rawlogs NAME.rawlog, NAME_001.rawlog and so on is NAME.journal in the same
+/// folder. Not thread-safe.
 class JournalWriter {
  public:
   /// Throws Error(unwritable_output) if the file cannot be made.
@@ -39,22 +41,25 @@ class JournalWriter {
 /// A journal and the rawlogs of its recording.
 struct Journal {
   std::vector<JournalEvent> events;
-  std::vector<std::string> rawlogs;  ///< paths, in their order
+  std::vector<std::string> rawlogs;  ///< paths, in the order of recording
 
-  /// Reads a journal up to its last whole line; its writer may have been killed. Throws Error(unreadable_input), naming
-  /// file and line, for a file that is no journal, or whose first rawlog is not beside it.
+  /// Reads a journal up to its last complete line, because its writer may have been killed. Throws
+  /// Error(unreadable_input), naming the file, if it is not a journal, has a damaged line (which is named), or if its
+  /// first rawlog is not in the same folder.
   static Journal read(const std::string& path);
 };
 
-/// The journal that a path names: that file, or the only journal in that folder or in its folder `recording`. Throws
-/// Error(unreadable_input) for a folder with none, or with several, which it names.
+/// The path of a journal. If `path` is a file, it is returned; if it is a folder, the only journal in this folder and
+/// its subfolder `recording`. Throws Error(unreadable_input) if there is no journal there, or several, of which the
+/// message names the first.
 std::string findJournal(const std::string& path);
 
-/// The path of the INI of the live run that wrote this journal, TIME.ini beside TIME.journal.
+/// The path of the INI of the live run that wrote this journal: TIME.ini in the folder of TIME.journal.
 std::string iniOf(const std::string& journal);
 
-/// That INI, if it exists. Throws Error(unreadable_input) if it does not begin with base::kWrittenFromALog: it would be
-/// trusted with plugin libraries, and a recording may come from anybody.
+/// The path of the INI of the live run, if the file exists. Throws Error(unreadable_input) if the INI does not begin
+/// with base::kWrittenFromALog: without this beginning, the plugin libraries that the INI names would be loaded, and a
+/// recording may come from anybody.
 std::optional<std::string> findIni(const std::string& journal);
 
 }  // namespace omnimapper::live

@@ -20,10 +20,10 @@ namespace omnimapper::live {
 /// An observation that is given to the mapper.
 struct LiveObservation {
   mrpt::obs::CObservation::Ptr observation;
-  std::uint64_t number = 0;  ///< among the usable ones of the recording, from 0 on
+  std::uint64_t number = 0;  ///< index among the usable observations of the recording
 };
 
-/// Counts of observations by what became of them; each of `arrived` is in exactly one of the others.
+/// Counts of observations by what became of them. Each observation of `arrived` is in exactly one of the other counts.
 struct LiveCounts {
   std::uint64_t arrived = 0;   ///< from the drivers
   std::uint64_t given = 0;     ///< to the mapper
@@ -41,12 +41,12 @@ struct SensorMetrics {
   State state = State::opening;
   std::uint64_t observations = 0;
   double rate = 0;          ///< [Hz] over the last seconds
-  double clock_offset = 0;  ///< [s] that is added to its stamps
+  double clock_offset = 0;  ///< [s] offset that is added to the driver's stamps
   std::size_t clock_jumps = 0;
   std::size_t losses = 0;      ///< how often it fell silent or was lost
   std::size_t reopened = 0;    ///< how often it sent data again after that
   std::uint64_t left_out = 0;  ///< messages or lines that its driver rejected as invalid, if it checks them
-  std::string problem;         ///< why it was lost the last time, as the driver reported it; empty if it never was
+  std::string problem;         ///< why it was lost the last time, as its driver reported; empty if it was never lost
 };
 
 std::string toString(SensorMetrics::State state);
@@ -56,24 +56,25 @@ class LiveSource {
  public:
   /// Opens nothing yet. If `recorder` is null, nothing is recorded.
   LiveSource(std::vector<SensorSection> sensors, const LiveOptions& options, std::unique_ptr<Recorder> recorder);
-  /// As close().
+  /// Calls close().
   ~LiveSource();
   LiveSource(const LiveSource&) = delete;
   LiveSource& operator=(const LiveSource&) = delete;
 
-  /// Opens the sensors in their order. Throws Error(unreadable_input), naming section and reason, if one cannot be
-  /// opened within 30 s, and Error(interrupted) if `stop` returns true; then all are closed, and an empty recording is
-  /// removed.
+  /// Opens the sensors in their order. Throws Error(unreadable_input), naming section and reason, if a sensor cannot be
+  /// opened within 30 s, and Error(interrupted) if `stop` returns true. Before it throws, it closes all sensors and
+  /// removes an empty recording.
   void open(const std::function<bool()>& stop);
   /// Stops the sensors in reverse order, and ends the recording. A driver that does not return within two seconds is
-  /// left running; the process must then end without waiting for it.
+  /// left running; the process must then end without waiting for that driver.
   void close();
   /// Whether close() had to leave a driver running.
   bool hasLeftBehind() const;
 
   /// The next observation for the mapper; none if there is none within `patience`.
   std::optional<LiveObservation> next(std::chrono::milliseconds patience);
-  /// Discards the observations that wait for the mapper, for runs that do not map; they count as given.
+  /// Discards the observations that wait for the mapper, for runs that do not map. Discarded observations count as
+  /// given.
   void discardWaiting();
   /// Numbers of observations that were dropped since the last call.
   std::vector<std::uint64_t> takeDropped();

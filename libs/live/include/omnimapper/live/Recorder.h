@@ -19,13 +19,13 @@ namespace omnimapper::live {
 using Encoded = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 Encoded encode(const mrpt::obs::CObservation& observation);
-/// The observation that a reader of the rawlog gets. Throws std::exception if the bytes are none.
+/// The observation that a reader of the rawlog gets. Throws std::exception if the bytes are not an observation.
 mrpt::obs::CObservation::Ptr decode(const Encoded& encoded);
 
 struct RecorderOptions {
-  int compression = 1;                  ///< of zlib, 0 to 9
+  int compression = 1;                  ///< level of zlib, 0 to 9
   std::uint64_t split_bytes = 0;        ///< size on the disk at which the next file is begun; 0: never
-  std::size_t queue_bytes = 256 << 20;  ///< largest size of the data that wait to be written
+  std::size_t queue_bytes = 256 << 20;  ///< size of the waiting data above which hasRoomFor() is false
 };
 
 RecorderOptions recorderOptions(const LiveOptions& options);
@@ -33,31 +33,32 @@ RecorderOptions recorderOptions(const LiveOptions& options);
 /// A name for the files of a recording that begins now, such as 2026-11-27_07-15-37.
 std::string nameByTime();
 
-/// Writes observations to rawlogs as they come, in a separate thread. A block of about a second is a whole member of
-/// gzip, so that all but the last second of a file can be read if its writer was killed.
+/// Writes observations to rawlogs as they come, in a separate thread. Each block of about a second is a complete gzip
+/// member, so that all but the last second of a file can be read if its writer was killed.
 class Recorder {
  public:
   /// Files are named NAME.rawlog, NAME_001.rawlog and so on, in `folder`, which is made if it is missing. Throws
-  /// Error(unwritable_output) if the first cannot be made or exists already.
+  /// Error(unwritable_output) if the first file cannot be made or exists already.
   Recorder(const std::string& folder, const std::string& name, const RecorderOptions& options);
-  /// As close().
+  /// Calls close().
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
   /// Whether the queue of data to be written has room for so many bytes.
   bool hasRoomFor(std::size_t bytes) const;
-  /// Adds an observation to the queue; from any thread. They are written in the order of the calls. After a failure it
-  /// does nothing.
+  /// Adds an observation to the queue; may be called from any thread. Observations are written in the order of the
+  /// calls. After a failure of the recording, add() does nothing.
   void add(const Encoded& observation);
-  /// Writes the queue and ends.
+  /// Writes the queued observations and ends the recording.
   void close();
-  /// Ends and removes its files, and the folder if the recorder made it and it is empty.
+  /// Ends the recording and removes its files. Also removes the folder if the recorder made it and nothing else is in
+  /// it.
   void discard();
 
   struct Statistics {
     std::uint64_t observations = 0;
-    std::uint64_t bytes = 0;  ///< written, before compression
+    std::uint64_t bytes = 0;  ///< size of the written observations before compression
     std::uint64_t bytes_on_disk = 0;
     double seconds = 0;  ///< working time of the thread
   };
@@ -77,7 +78,7 @@ class Recorder {
   bool has_made_folder_ = false;
   const RecorderOptions options_;
   int file_ = -1;
-  std::uint64_t file_bytes_ = 0;  // size of the whole blocks in it
+  std::uint64_t file_bytes_ = 0;  // size of the complete blocks in the current file
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;

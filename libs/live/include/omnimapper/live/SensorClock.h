@@ -8,15 +8,16 @@
 
 namespace omnimapper::live {
 
-/// Converts the stamps of one driver to host time. If the driver uses another clock, its offset is estimated on the
-/// assumption that the shortest latency of its observations is zero; the error of the offset is this latency, which
-/// clock_offset_s can correct.
+/// Converts the stamps of one driver to host time. If the driver uses another clock than the host, the offset between
+/// the two clocks is estimated on the assumption that the shortest latency of an observation is zero. If the true
+/// shortest latency is known, the key clock_offset_s can correct the estimate for it.
 class SensorClock {
  public:
-  /// A stamp that differs from its arrival by more than `max_off` [s] is taken to be by another clock.
+  /// An observation whose stamp differs from its arrival by more than `max_off` [s] is assumed to be stamped by another
+  /// clock.
   SensorClock(const SensorOptions& options, double max_off) : options_(options), max_off_(max_off) {}
 
-  /// The host time of an observation that arrived at `arrival`. Without a valid stamp it is that of the arrival.
+  /// The host time of an observation that arrived at `arrival`. Without a valid stamp, this is the time of arrival.
   base::Stamp corrected(base::Stamp stamp, base::Stamp arrival);
   /// [s] that is added to the driver's stamps now, clock_offset_s included.
   double offset() const { return options_.clock_offset + offset_; }
@@ -33,8 +34,8 @@ class SensorClock {
     base::Stamp arrival;
     double off;  // [s] arrival minus stamp
   };
-  std::deque<Arrival> newest_;  // the last ten, or those of the last seconds
-  bool is_new_ = true;          // until there were ten
+  std::deque<Arrival> newest_;  // the last ten, or all of the last 5 s if these are more
+  bool is_new_ = true;          // true until ten observations have come
   base::Stamp last_arrival_{}, last_given_{};
   std::size_t jumps_ = 0;
 };

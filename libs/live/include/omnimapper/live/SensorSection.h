@@ -13,8 +13,8 @@ namespace omnimapper::live {
 
 /// The keys of a sensor's section that --live itself reads, in addition to those of its driver.
 struct SensorOptions {
-  /// Source of the stamps. automatic: the driver; if its clock is far from the host's, corrected by the estimated
-  /// offset.
+  /// Source of the stamps. automatic: the driver; if the driver's clock is far from the host's, the estimated offset is
+  /// added to its stamps.
   enum class Clock { automatic, driver, arrival };
 
   Clock clock = Clock::automatic;
@@ -33,15 +33,18 @@ struct SensorSection {
   std::shared_ptr<const mrpt::config::CConfigFileMemory> ini;  ///< the INI that holds the section
 };
 
-/// The sensors that [live] names, in the order in which they are to be opened: those of its list, then those of its
-/// grabber INI, in the order of that file. Loads its libraries first, and makes each driver once to check its keys.
-/// Throws Error as makeDriver(); command_line if there is none, unknown_key for a section that is not there or has no
-/// driver, out_of_range for a label that two sensors have, unreadable_input for a grabber INI that cannot be read,
-/// plugin_library for a library that cannot be loaded.
+/// The sensors that [live] names, in the order in which they are to be opened: first those of the key `sensors`, then
+/// those of the INI that the key `grabber` names, in the order of that file. First loads the libraries of the key
+/// `libraries`; at the end makes each driver once, to check its keys. Throws the errors of makeDriver(), and
+/// Error(command_line) if there is no sensor, Error(unknown_key) for a section that does not exist or has no driver,
+/// Error(wrong_type) for a pose that is no number, Error(out_of_range) for a label that two sensors have,
+/// Error(unreadable_input) for a grabber INI that cannot be read, and Error(plugin_library) for a library that cannot
+/// be loaded.
 std::vector<SensorSection> readSensors(const LiveOptions& options, const base::Config& config);
 
 /// The sensors of an INI of MRPT's rawlog-grabber: every section but [global] that is not marked
-/// `rawlog-grabber-ignore = true`. Throws Error(unreadable_input, unknown_key) as readSensors().
+/// `rawlog-grabber-ignore = true`. Throws Error(unreadable_input), Error(unknown_key) and Error(wrong_type) as
+/// readSensors() does.
 std::vector<SensorSection> readGrabberIni(const std::string& path);
 
 }  // namespace omnimapper::live

@@ -23,8 +23,8 @@ class Descriptor {
   int file_;
 };
 
-/// Where a socket is bound: a numeric IPv4 address of this machine ("127.0.0.1", or "0.0.0.0" for all of them), and a
-/// port, of which 0 lets the system choose.
+/// Where a socket is bound: a numeric IPv4 address of this machine ("127.0.0.1", or "0.0.0.0" for all its addresses)
+/// and a port; for port 0 the system chooses a free port.
 struct SocketAddress {
   std::string ip = "127.0.0.1";
   std::uint16_t port = 0;
@@ -32,9 +32,10 @@ struct SocketAddress {
 /// "127.0.0.1:7000".
 std::string toString(const SocketAddress& address);
 
-/// A socket that takes TCP connections, or UDP datagrams. Neither ever blocks, and child processes do not inherit them.
-/// Both throw Error(out_of_range) for an address that is not numeric, and Error(unreadable_input) if it cannot be
-/// bound, for example because the port is in use; the message names address, reason and remedy.
+/// listenTcp() returns a socket that accepts TCP connections, bindUdp() a socket that receives UDP datagrams. These
+/// sockets never block, and child processes do not inherit them. Both functions throw Error(out_of_range) for an
+/// address that is not numeric, and Error(unreadable_input) if the socket cannot be bound to the address, for example
+/// because the port is in use; the message names address, reason and remedy.
 Descriptor listenTcp(const SocketAddress& address);
 Descriptor bindUdp(const SocketAddress& address);
 

@@ -17,14 +17,15 @@ struct Recorded {
   std::vector<SensorMetrics> sensors;
   LiveCounts counts;
   Recorder::Statistics statistics;
-  double seconds = 0;   ///< for which the sensors were open
-  std::string failure;  ///< why it ended early; empty if it did not
+  double seconds = 0;   ///< time for which the sensors were open
+  std::string failure;  ///< why the recording ended early; empty if it did not
 
   base::ExitCode code() const;
 };
 
-/// Records the sensors of an INI into `folder`, made if missing, until `stop` returns true, the recording fails, or
-/// `seconds` have passed (0: no limit). Throws Error as readSensors(), LiveSource::open() and Recorder.
+/// Records the sensors of an INI into `folder`, which is made if it is missing, until `stop` returns true, the
+/// recording fails, or `seconds` have passed (0: no limit). Throws Error as readSensors(), LiveSource::open() and
+/// Recorder.
 Recorded record(const LiveOptions& options, const base::Config& config, const std::string& folder, double seconds,
                 base::Progress& progress, const std::function<bool()>& stop);
 

@@ -13,12 +13,14 @@ struct StampedPose {
   std::uint16_t session = 0;
 };
 
-/// One pose for each observation of the reference sensor, a key frame or a dependent frame, in the order of key frames.
-/// Between two key frames the disagreement of the continuous source with the optimized poses is spread evenly in time,
-/// so that the path has no steps.
+/// One pose for each observation of the reference sensor, whether at a key frame or at a dependent frame, in the order
+/// of key frames. From one key frame to the next, the motion that the pose source measured differs from the motion
+/// between the optimized poses. This difference is spread evenly in time over the dependent frames, so that the path
+/// has no steps.
 std::vector<StampedPose> denseTrajectory(const Map& map);
 
-/// The last pose of the base: that of the newest key frame or its last dependent frame. The map must have a key frame.
+/// The last pose of the base: that of the newest key frame's last dependent frame or, if it has none, that of the
+/// newest key frame. The map must have a key frame.
 mrpt::poses::CPose3D newestPose(const Map& map);
 
 }  // namespace omnimapper::map

@@ -9,8 +9,8 @@
 
 namespace omnimapper::map {
 
-/// The key frames of a map in the order they were driven: by session, then stamp. Ids are given in the order of commit,
-/// so a key frame that came late has a larger id than its successor. Copies share the key frames that neither changed.
+/// The key frames of a map, sorted by session, then by stamp. Ids are given in the order of insertion, so a key frame
+/// that came late has a larger id than its successor. Copies share the key frames that neither copy changed.
 class KeyFrames {
  public:
   class Iterator {
@@ -38,7 +38,7 @@ class KeyFrames {
 
   std::size_t size() const { return order_.size(); }
   bool empty() const { return order_.empty(); }
-  /// The key frame at a position in the order above.
+  /// The key frame at this position in the sorted order.
   const KeyFrame& operator[](std::size_t position) const { return *frames_.find(order_[position]); }
   const KeyFrame& front() const { return (*this)[0]; }
   const KeyFrame& back() const { return (*this)[size() - 1]; }
@@ -55,9 +55,11 @@ class KeyFrames {
 
   /// The id for the next key frame of a session.
   base::KeyFrameId nextId(std::uint16_t session) const { return frames_.nextId(session); }
-  /// Inserts it in order and returns its position. Throws Error(internal) if its session has used the id or stamp.
+  /// Inserts a key frame in order and returns its position. Throws Error(internal) if the frame's id was used before,
+  /// or if its session has a key frame with the same stamp.
   std::size_t insert(KeyFrame frame);
-  /// For changes of anything but id and stamp. The reference is valid until the key frames are copied or insert() runs.
+  /// The key frame, for changes of anything but its id and stamp. The reference is valid until the key frames are
+  /// copied or insert() runs.
   KeyFrame& edit(base::KeyFrameId id);
 
  private:

@@ -34,15 +34,15 @@ struct Photograph {
 struct LandmarkShape {
   std::string label;                         ///< what a user calls it: "wall", "table", "sign"
   std::string caption;                       ///< what is written beside it in drawings: a sign's text; may be empty
-  std::string reason;                        ///< why it is called so; may be empty
+  std::string reason;                        ///< why it has this label; may be empty
   bool is_candidate = false;                 ///< not drawn: seen too rarely or too rough
   std::vector<geometry::Polygon3> surfaces;  ///< flat, each may be concave
   std::vector<geometry::Polygon3> holes;     ///< each is cut out of one of `surfaces` (holesIn())
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
   std::vector<Eigen::Vector3d> points;
-  std::vector<base::Stamp> point_stamps;         ///< when it was at each of `points`; empty means at all times
+  std::vector<base::Stamp> point_stamps;         ///< when the landmark was at each of `points`; empty: at all times
   std::optional<Eigen::Vector3d> normal;         ///< unit, points to the free side
-  std::shared_ptr<const Photograph> photograph;  ///< image of it by a camera; null for none
+  std::shared_ptr<const Photograph> photograph;  ///< a camera's image of the landmark; null if there is none
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
   /// The property that seenByKey() names counts how often a sensor measured the landmark.
 };
@@ -51,23 +51,27 @@ struct LandmarkShape {
 /// a hole and have holes itself.
 std::vector<geometry::Polygon3> holesIn(const LandmarkShape& shape, std::size_t surface);
 
-/// The part of a landmark that is not optimized: a plane's extent, a sign's text, an object's model. It is immutable;
-/// a plugin that learns more makes a new one. Its points are in the base frame of the key frame that saw them.
+/// The part of a landmark that is not optimized: a plane's extent, a sign's text, an object's model. A payload is
+/// immutable; a plugin that learns more makes a new payload. Points in a payload are in the base frame of the key frame
+/// that saw them.
 class LandmarkPayload {
  public:
   virtual ~LandmarkPayload() = default;
-  /// Name in files, unique among payloads: its reader is registered under it.
+  /// Name of this kind of payload in files, unique among kinds. The reader of the kind is registered under this name.
   virtual std::string_view kind() const = 0;
   virtual void write(std::ostream& out) const = 0;
-  /// Whether a landmark with this payload may have variables of these kinds, in this order.
+  /// Whether a landmark with this payload may have variables of these kinds, in this order. A map with a landmark for
+  /// which this is false is damaged.
   virtual bool fits(const std::vector<std::string_view>& /*kinds*/) const { return true; }
-  /// The key frames that it refers to. A map that lacks one of them, or whose variables do not fit, is damaged.
+  /// The key frames that the payload refers to. A map that lacks one of these key frames is damaged.
   virtual std::vector<base::KeyFrameId> keyFrames() const { return {}; }
-  /// The payload as these key frames alone saw the landmark; null if it would be the same or if nothing would be left.
+  /// The payload as these key frames alone saw the landmark. Null if that would be the same payload, or if nothing
+  /// would be left of it.
   virtual std::shared_ptr<const LandmarkPayload> seenFrom(const std::set<base::KeyFrameId>& /*frames*/) const {
     return nullptr;
   }
-  /// `values` are those of the landmark's variables, in their order; empty if there are none or if one was removed.
+  /// `values`: the values of the landmark's variables, in the order of the variables. Empty if the landmark has no
+  /// variables, or if one of them was removed.
   virtual LandmarkShape shape(const std::vector<Eigen::VectorXd>& /*values*/, const KeyFrames& /*key_frames*/) const {
     return {};
   }
@@ -84,7 +88,7 @@ struct Landmark {
   std::string kind;   ///< "wall", "door sign", ...: what a user calls it
   std::string owner;  ///< INI section of the plugin that made it
   std::vector<base::VariableId> variables;
-  std::shared_ptr<const LandmarkPayload> payload;  ///< null if there is nothing beside the variables
+  std::shared_ptr<const LandmarkPayload> payload;  ///< null if there are no data beside the variables
   std::uint32_t evidence = 0;                      ///< number of times it was measured
   base::Stamp first_seen, last_seen;
   State state = State::active;

@@ -16,8 +16,9 @@ struct Level {
     imu = 3,      ///< an accelerometer measured gravity
   };
   Source source = Source::unknown;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit, in the map; the map's z if it is unknown
-  /// Covariance of the rotation vector in the map that turns the true up into `up` [rad^2]; zero about `up` itself.
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit, in the map; the map's z if `source` is unknown
+  /// Covariance [rad^2] of the error of `up`, as a rotation vector in the map that turns the true up direction into
+  /// `up`; zero about `up` itself.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::string reason;  ///< half a sentence: "gravity in 41 spans of 'imu', 9.81 m/s^2"
 

@@ -11,13 +11,13 @@
 
 namespace omnimapper::map {
 
-/// One run that added to the map. The ids of all that it added contain its number.
+/// One run that added to the map. The ids of everything that this run added contain the number of its session.
 struct Session {
   std::uint16_t number = 0;
   std::string title;        ///< name of its log
   base::VariableId anchor;  ///< map_from_session: where the session began, as estimated now
-  bool joined = true;       ///< a measurement ties it to the first session; the first one needs none
-  std::optional<base::KeyFrameId> joined_at = std::nullopt;  ///< the key frame whose measurement tied it, if one did
+  bool joined = true;       ///< a measurement ties it to the first session; true for the first session itself
+  std::optional<base::KeyFrameId> joined_at = std::nullopt;  ///< the key frame whose measurement tied it, if any
 };
 
 /// The map as plain data. Lengths are in [m] and angles in [rad]. Copies are cheap (base::IdTable).
@@ -25,7 +25,7 @@ struct Map {
   KeyFrames key_frames;
   base::IdTable<base::LandmarkId, Landmark> landmarks;
   std::vector<Session> sessions;  ///< in order of number
-  /// Which way is up. None until the run ends, and in old maps that do not store it: z counts as up then.
+  /// Which way is up. None until the run ends, and in old maps that do not store it; z then counts as up.
   std::optional<Level> level;
 
   /// The key frame of that id. Throws Error(internal) if there is none.

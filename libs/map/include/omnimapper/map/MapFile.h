@@ -10,7 +10,7 @@
 
 namespace omnimapper::map {
 
-/// One named part of a map file. Its owner defines what the bytes mean at each version.
+/// One named part of a map file. The owner of the section defines what the bytes mean at each version.
 struct MapSection {
   std::string name;
   std::uint32_t version = 1;
@@ -22,15 +22,15 @@ class MapFile {
  public:
   /// Throws Error(unreadable_input) if it is not a map file, has a later format, or fails a checksum.
   static MapFile read(const std::string& path);
-  /// Reads only the sections of these names, as far as the file has them. It seeks over the others, so their size costs
-  /// no time and their checksums are not verified. Throws as read().
+  /// Reads only the sections of these names, as far as the file has them. All other sections are skipped, so their size
+  /// costs no time, and their checksums are not verified. Throws as read().
   static MapFile readOnly(const std::string& path, const std::vector<std::string>& names);
   /// Writes atomically: at any time `path` holds a complete map. Throws Error(disk_full).
   void write(const std::string& path) const;
 
   /// Replaces the section of that name or appends it.
   void set(MapSection section);
-  /// Null if the file has none of that name.
+  /// Null if the file has no section of that name.
   const MapSection* find(const std::string& name) const;
   const std::vector<MapSection>& sections() const { return sections_; }
 
@@ -45,7 +45,7 @@ std::uint64_t uncompressedSize(const MapSection& frames);
 /// A map that has only these key frames. Throws Error(unreadable_input) if the bytes are not frames of a known version.
 Map framesFromSection(const MapSection& section);
 
-/// The "landmarks" section. A payload of an unregistered kind is written with the bytes it was read from.
+/// The "landmarks" section. A payload of an unregistered kind is written as the bytes from which it was read.
 MapSection landmarksToSection(const Map& map);
 /// Throws Error(unreadable_input) as framesFromSection(), and whatever the readers of payloads throw.
 base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection& section,
@@ -55,8 +55,8 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
 MapSection sessionsToSection(const Map& map);
 /// Throws Error(unreadable_input) as framesFromSection().
 std::vector<Session> sessionsFromSection(const MapSection& section);
-/// The sessions of an old map that lacks this section: one for each session number of the key frames. Each is joined,
-/// and its anchor is the pose of its first key frame.
+/// The sessions of an old map that lacks this section: one session for each session number of the key frames. Each
+/// session is joined, and its anchor is the pose of its first key frame.
 std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
 
 /// The name of the section that holds the answers to queries. Every run that writes a map writes this section anew, so

@@ -17,7 +17,7 @@ namespace omnimapper::map {
 struct Extent {
   std::vector<Eigen::Vector2d> points;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> lines;  ///< from, to
-  std::vector<std::vector<Eigen::Vector2d>> outlines;              ///< closed; of an upright surface: zero area
+  std::vector<std::vector<Eigen::Vector2d>> outlines;              ///< closed; that of an upright surface has no area
   std::vector<std::vector<Eigen::Vector2d>> holes;                 ///< closed, cut out of the outlines
   double bottom = 0, top = 0;                                      ///< z of its lowest and highest point
 };
@@ -28,18 +28,18 @@ struct Place {
   std::string kind;                                             ///< what it is counted as: "sign", "marker"
   std::string label;                                            ///< what a user calls it: "sign", "marker 12"
   std::string caption;                                          ///< the text on it; may be empty
-  bool moved = false;                                           ///< no longer there; the rest describes it as it was
+  bool moved = false;                                           ///< gone; the other members describe it as it was
   std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();           ///< [m] middle of its extent, or where it was last
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();           ///< [m] middle of its extent, or its last position
   Extent extent;
-  std::optional<Eigen::Vector3d> normal;     ///< unit, to the free side
+  std::optional<Eigen::Vector3d> normal;     ///< unit, points to the free side
   std::optional<Eigen::Vector3d> seen_from;  ///< unit, from it towards the viewpoints; none if seen from all around
   std::uint32_t measurements = 0;
   std::map<std::string, std::uint64_t> seen_by;  ///< measurements by sensor label, as far as they are known
   base::Stamp first_seen, last_seen;
   /// Standard deviation of its position in the least certain direction [m]; none if it is unknown.
   std::optional<double> sigma;
-  bool sigma_is_along_normal = false;  ///< for a plane or wall: only its distance along the normal is known
+  bool sigma_is_along_normal = false;  ///< true for a plane or wall: `sigma` is that of its distance along the normal
 };
 
 /// Where the base was when the map was written. Frame of the map [m] [rad].

@@ -67,7 +67,7 @@ struct SolverOptions {
   double final_tolerance = 1e-9;
 
   static const base::OptionTable<SolverOptions>& table();
-  /// Options of the solves while the map grows (running) and of the one at its end (final).
+  /// Options of the solves while the map grows (running) and of the last solve (final).
   graph::SolveOptions running() const { return {method, max_iterations, tolerance, {}}; }
   graph::SolveOptions final() const { return {method, final_max_iterations, final_tolerance, {}}; }
 };

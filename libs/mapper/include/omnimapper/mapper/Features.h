@@ -6,8 +6,8 @@
 
 namespace omnimapper::mapper {
 
-/// The folder of the features' libraries: `omnimapper` beside the loaded library of the engine. It does not depend on
-/// the current folder or on environment variables.
+/// The folder of the features' libraries: `omnimapper` beside the loaded library of the engine. The path does not
+/// depend on the current folder or on environment variables.
 std::string featureFolder();
 
 /// Registers the observation classes and loads from featureFolder() the library of every feature of this build; a
@@ -15,7 +15,8 @@ std::string featureFolder();
 /// reports it. Further calls do nothing.
 void loadFeatures();
 
-/// The feature of the project that a plugin class belongs to, whether it is available or not; empty if there is none.
+/// The feature of the project that a plugin class belongs to, whether it is available or not; empty if the class
+/// belongs to none.
 std::string_view featureOf(std::string_view plugin_class);
 
 /// Every plugin class of the project's features, available or not.

@@ -23,15 +23,15 @@ namespace omnimapper::mapper {
 struct RunResult {
   base::ExitCode code = base::ExitCode::ok;
   std::vector<std::string> warnings;
-  Verdict verdict;  ///< on the whole map; it has no evidence in a run that localizes
+  Verdict verdict;  ///< on the whole map; without evidence in a run that localizes
   source::SourceReport source;
   std::string output_folder;                ///< where the outputs are: the requested folder or one inside it
   bool took_place = false;                  ///< the outputs replaced those of an earlier run
   std::vector<std::string> foreign_files;   ///< other files in the requested folder, which no run wrote
   std::size_t key_frames = 0, factors = 0;  ///< of the whole map
   std::size_t new_key_frames = 0, closures = 0, refused_closures = 0;
-  std::size_t localized = 0, located = 0;        ///< in a run that localizes: key frames, and those with a known pose
-  bool awaits_confirmation = false;              ///< one match locates it in the map; no second one confirms it
+  std::size_t localized = 0, located = 0;  ///< in a run that localizes: key frames, and those located in the map
+  bool awaits_confirmation = false;        ///< one match locates the run in the map, but no second match confirms this
   std::map<std::string, std::size_t> landmarks;  ///< of the whole map, by label
   std::vector<map::Session> sessions;            ///< of the whole map; the last one is this run
   std::optional<map::Level> level;               ///< of the whole map; none if the run only localizes
@@ -47,7 +47,7 @@ struct RunRequest {
   bool live = false;              ///< reads the sensors of [live] until `stop`, instead of logs
   std::string replay;             ///< journal of a live run to repeat, instead of logs
   std::string output_folder;
-  std::vector<std::string> more_outputs;  ///< output sections in addition to the INI's, as the live window
+  std::vector<std::string> more_outputs;  ///< output sections beside those of the INI, such as the live window's
   std::string continue_map;               ///< map file to which the logs add a session; empty: a new map
   std::string localize_map;               ///< map file in which the logs are only localized; it is not changed
   /// Number of worker threads for perception and jobs; the map does not depend on it.
@@ -61,12 +61,12 @@ struct RunRequest {
 
 /// Makes a map of logs: opens them, makes the plugins, feeds the engine and writes the outputs. After damaged input or
 /// `stop`, it still writes the map of what was read and returns the exit code of the cause; it writes nothing if that
-/// map has no key frame. The outputs replace all outputs of an older run in the folder, or none of them. If the run was
-/// stopped, broke off or could not write every output, it does not replace an older run: its outputs then go to the
-/// subfolder "interrupted". Throws base::Error for everything that prevents a map from being written. `stop` is called
-/// while the logs are opened, between observations and while waiting for one; a stop while the logs are opened throws,
-/// too. A live run that is stopped counts as complete. In the output folder, a live run records into the folder
-/// "recording" and regularly replaces checkpoint.omnimap.
+/// map has no key frame. The outputs replace all outputs of an older run in the folder, or none of them: if the run was
+/// stopped, broke off or could not write every output, the older outputs stay, and the new outputs go to the subfolder
+/// "interrupted". Throws base::Error for everything that prevents a map from being written. `stop` is called while the
+/// logs are opened, between observations and while waiting for one; a stop while the logs are opened throws, too. A
+/// live run that is stopped counts as complete. In the output folder, a live run records into the folder "recording"
+/// and regularly replaces checkpoint.omnimap.
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop);
 

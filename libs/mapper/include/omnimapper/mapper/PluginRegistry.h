@@ -14,7 +14,8 @@ std::vector<std::shared_ptr<const PluginFactory>> registeredFactories();
 /// The kinds that the plugins of all registered factories put into maps, in addition to those of `graph` itself.
 Kinds registeredKinds();
 
-/// The factory for `class = name` of an INI. Throws Error(unknown_plugin), naming the most similar known class.
+/// The factory for `class = name` in an INI. Throws Error(unknown_plugin), naming the most similar known class, or why
+/// the class is not available. `place`: where the INI names the class, for the message.
 std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place);
 
 /// Loads a shared library that registers factories (mrpt::system::loadPluginModule). Throws Error(plugin_library).

@@ -15,8 +15,8 @@ namespace omnimapper::mapper {
 struct SavedMap {
   map::Map map;
   graph::Graph graph;
-  /// All other sections in their order, both of plugins and unknown ones. "places" is left out, because it is computed
-  /// from the rest.
+  /// All other sections in their order: those of plugins and unknown ones. The section "places" is left out, because it
+  /// is computed from the other data.
   std::vector<map::MapSection> sections;
 
   /// Planar if the poses of the map lie in the plane, else spatial.
@@ -24,7 +24,7 @@ struct SavedMap {
 };
 
 /// Reads a map file of this or any earlier version; `path` may be the folder that holds map.omnimap. The result has at
-/// least one key frame and is consistent in itself. Throws Error(unreadable_input), naming the file, if it is missing
+/// least one key frame, and its parts fit together. Throws Error(unreadable_input), naming the file, if it is missing
 /// or damaged, has a later version, or needs plugins that are not loaded.
 SavedMap readMap(const std::string& path, const Kinds& kinds);
 

@@ -10,21 +10,21 @@
 
 namespace omnimapper::mapper {
 
-/// Marks for each session of `map` whether acting factors connect it to the first session, directly or through other
-/// sessions, and which key frame was connected first. A factor of one of the plugins `absolute` connects a session to
-/// the map itself. A factor between landmarks alone, without a pose, does not connect sessions.
+/// Marks for each session of `map` whether factors of positive weight connect it to the first session, directly or
+/// through other sessions, and which key frame such a factor connected first. A factor of one of the plugins `absolute`
+/// connects a session to the map itself. A factor between landmarks alone, without a pose, does not connect sessions.
 void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
-/// Does the same for the last session of a map whose older sessions are held: marks whether a factor connects it to a
-/// joined session or, by a plugin of `absolute`, to the map itself.
+/// Does the same for only the last session of a map whose older sessions are held: marks whether a factor connects the
+/// last session to a joined session or, if the factor is of a plugin of `absolute`, to the map itself.
 void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
-/// Counts of the hypotheses (measurements and closures) that connect a session to others: those that the consistency
-/// test accepted, and those that it refused or that still wait.
+/// Counts of the hypotheses (measurements and closures) that connect a session to others. `accepted`: those that the
+/// consistency test accepted. `refused`: those that the test refused, and those that still wait for it.
 struct TestedTies {
   std::size_t accepted = 0, refused = 0;
 
-  /// Whether so many contradict the map that the session may be aligned to a wrong place that looks similar.
+  /// Whether so many were refused that the session may be aligned to a wrong place that looks similar.
   bool areMostlyRefused() const { return refused >= 3 && 2 * refused > accepted; }
 };
 TestedTies testedTies(const graph::Graph& graph, std::uint16_t session);

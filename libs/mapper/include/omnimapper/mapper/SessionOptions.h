@@ -6,8 +6,9 @@
 
 namespace omnimapper::mapper {
 
-/// Section [session] of an INI: the assumed start of a session that continues a map. It places the session until
-/// measurements connect it to the map; if they contradict it by much, it has little effect.
+/// Section [session] of an INI: the assumed start of a session that continues a map. This start places the session
+/// until measurements connect the session to the map. If the measurements contradict the start by much, the start has
+/// little effect.
 struct SessionOptions {
   enum class Start {
     end,      ///< where the last session ended

@@ -16,7 +16,7 @@ struct TriggerOptions {
   bool every_observation = false;
   double distance = 0.4;                                       ///< [m]
   double angle = 20.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double period = 0;                                           ///< [s]; 0: time alone never triggers
+  double period = 0;                                           ///< [s]; 0: time alone never makes a key frame
   double period_without_odometry = 0.2;                        ///< [s]
 
   static const base::OptionTable<TriggerOptions>& table();
@@ -34,10 +34,11 @@ class Trigger {
 
   /// Whether the observation of that label and stamp gets a pose; the first of a label does. Call it in order of stamp.
   bool fires(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
-  /// The same for an observation that is older than the last of its label. It gets a pose if it is as far from the
-  /// triggered observations before and after it as triggered observations must be from each other.
+  /// As fires(), but for an observation that is older than the last one of its label. The observation gets a pose if it
+  /// is as far from the triggered observations before and after it as triggered observations must be from each other.
   bool firesLate(const std::string& label, base::Stamp stamp, const MotionBetween& motion);
-  /// Drops the state that only late observations before `stamp` need; firesLate() must not be called for them any more.
+  /// Drops the state that only late observations before `stamp` need; firesLate() must not be called for such
+  /// observations any more.
   void forgetBefore(base::Stamp stamp);
 
  private:

@@ -21,22 +21,22 @@ enum class CloudSource {
 struct CloudSourceOptions {
   CloudSource source = CloudSource::rgb_edges;
   double voxel = 0.02;           ///< [m] side of the cubes
-  double max_depth = 5;          ///< [m] points with a larger depth are too noisy
+  double max_depth = 5;          ///< [m] points with a larger depth are left out as too noisy
   double pixel_noise = 1;        ///< [px] standard deviation across the rays
   perception::DepthNoise noise;  ///< noise along the rays
   double slide = 0.03;           ///< [m] standard deviation of a point along its surface
-  double edge_slide = 3;         ///< the same along edges, as a factor on the spread of the edge pixels around
+  double edge_slide = 3;         ///< that of a point along its edge, as a factor on the spread of the edge pixels
   perception::EdgeOptions edges = easilyFound();  ///< `source` selects which kinds of edges are detected
 
-  /// Options for edges that are detected again in most images, at the price of some that are no edges.
+  /// Options for edges that are detected again in most images, at the price of some false edges.
   static perception::EdgeOptions easilyFound();
 
   static const base::OptionTable<CloudSourceOptions>& table();
 };
 
-/// Extracts the points of a depth image that `options` select, in its optical frame, with covariances. Points of
-/// surfaces also get normals, NaN where there is none. `colour`: the picture of the same view, or null. Throws
-/// Error(unreadable_input) if edges of a picture are requested and there is none.
+/// Extracts the points of a depth image that `options` select, in the camera's optical frame, with covariances. Points
+/// of surfaces also get normals, NaN where there is none. `colour`: the picture of the same view, or null. Throws
+/// Error(unreadable_input) if edges of a picture are requested and there is no picture.
 CloudPoints cloudOf(const perception::DepthImage& depth, const perception::ColourImage* colour,
                     const CloudSourceOptions& options);
 

@@ -19,10 +19,10 @@ struct CloudTrackerOptions {
   static const base::OptionTable<CloudTrackerOptions>& table();
 };
 
-/// Tracks a camera by the clouds of its images (thesis 5.3.3.1). Each cloud is registered with that of a key frame, so
-/// that drift grows with the distance travelled and not with the frame rate; if this fails, with that of the last
-/// image. In directions that the points leave open (match.open_directions > 0) the predicted motion is kept, without
-/// wheel odometry for at most `longest_loss`.
+/// Tracks a camera by the clouds of its images (thesis 5.3.3.1). Each cloud is registered with the cloud of a key frame
+/// (an earlier image), so that drift grows with the distance travelled and not with the frame rate; if this fails, with
+/// the cloud of the last image. In directions that the points leave open (match.open_directions > 0), the predicted
+/// motion is kept. If wheel odometry does not measure that motion, it is kept for at most `longest_loss`.
 class CloudTracker {
  public:
   CloudTracker(const CloudTrackerOptions& options, std::unique_ptr<const CloudMatcher> matcher);
@@ -31,15 +31,16 @@ class CloudTracker {
     enum class How {
       begun,    ///< the first image, or the first after a long loss: the motion to it is unknown
       tracked,  ///< registered
-      lost,     ///< neither key frame nor last image fits: the motion is unknown
+      lost,     ///< neither key frame nor last image fits, or too few points to begin: the motion is unknown
     };
     How how = How::begun;
     geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before
     base::Stamp last;                ///< stamp of that image
-    CloudMatch match;                ///< with the key frame, or the last image
+    CloudMatch match;                ///< match with the key frame or with the last image
   };
-  /// Tracks the next image; stamps must rise. Without a prediction, and for what it does not cover, the last velocity
-  /// is extrapolated. Directions that the image leaves open are taken from the prediction.
+  /// Tracks the next image; stamps must rise. Without a prediction, the last velocity is extrapolated. If the
+  /// prediction is only a turn, this extrapolation replaces its translation. Directions that the image leaves open are
+  /// taken from the prediction.
   Tracked track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
                 const std::optional<PredictedMotion>& prediction = {});
 
@@ -49,7 +50,8 @@ class CloudTracker {
     std::shared_ptr<const MatchCloud> cloud;
     geometry::Se3 key_from_camera;
     base::Stamp stamp;
-    base::Stamp constrained;  ///< stamp of the last image that left no direction open
+    /// Stamp of the last image that left no direction open, or whose motion wheel odometry measured.
+    base::Stamp constrained;
   };
   Tracked begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
   std::optional<geometry::Se3> motionTo(double seconds, const std::optional<PredictedMotion>& prediction) const;

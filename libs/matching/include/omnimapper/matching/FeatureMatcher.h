@@ -13,7 +13,7 @@ namespace omnimapper::matching {
 struct FeatureMatcherOptions {
   int max_features = 1000;       ///< largest number of corners of an image
   int min_inliers = 15;          ///< smallest number of corner pairs that must agree on one motion
-  double max_ratio = 0.8;        ///< largest ratio of a descriptor's distances to its nearest and second nearest
+  double max_ratio = 0.8;        ///< largest ratio of the distances to the nearest and second nearest descriptor
   double pixel_noise = 1;        ///< [px] standard deviation of a corner's position
   perception::DepthNoise noise;  ///< of the depth camera
 
@@ -33,11 +33,11 @@ struct FeatureMatch {
 /// Corners of an image with their depths and descriptors. Immutable.
 class FeatureSet;
 
-/// Registers two depth images with pictures by corners that look alike in both, however far apart they were taken: ORB
-/// features (Rublee et al.: ORB: an efficient alternative to SIFT or SURF, ICCV 2011), spread over the image; mutually
-/// nearest descriptors (with Lowe's ratio); RANSAC over three pairs of points (Fischler, Bolles, CACM 24(6), 1981);
-/// then least squares of the errors in column, row and inverse depth, with weights of Student's t. Const functions may
-/// be called from several threads. The same input gives the same bits.
+/// Registers two depth images with pictures by corners that look alike in both, however far apart the images were
+/// taken: ORB features (Rublee et al.: ORB: an efficient alternative to SIFT or SURF, ICCV 2011), spread over the
+/// image; mutually nearest descriptors (with Lowe's ratio); RANSAC over three pairs of points (Fischler, Bolles, CACM
+/// 24(6), 1981); then least squares of the errors in column, row and inverse depth, with weights of Student's t. Const
+/// functions may be called from several threads. The same input gives exactly the same result.
 class FeatureMatcher {
  public:
   /// Throws Error(out_of_range) for counts or noises that are not positive.

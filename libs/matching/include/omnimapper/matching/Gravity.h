@@ -14,9 +14,9 @@ namespace omnimapper::matching {
 
 /// The mean specific force over half a second in which the base hardly turned.
 struct SteadySpan {
-  base::Stamp stamp;      ///< its middle
+  base::Stamp stamp;      ///< middle of the span
   Eigen::Vector3d force;  ///< in the base's frame, in the unit of the sensor; at rest it points up
-  double scatter = 0;     ///< root mean square deviation of the readings from it, in that unit
+  double scatter = 0;     ///< root mean square deviation of the readings from `force`, in the same unit
 };
 
 /// Collects the spans of one inertial sensor (CObservationIMU with X_ACC, Y_ACC, Z_ACC in the sensor's frame) in which
@@ -50,15 +50,17 @@ struct RotatedSpan {
 /// The direction of up, measured by gravity.
 struct Gravity {
   std::optional<Eigen::Vector3d> up;  ///< unit, in the map; none where the accelerations do not determine it
-  /// Covariance of the rotation vector in the map that takes the true up to `up` [rad^2].
+  /// Covariance [rad^2] of the error of `up`, as a rotation vector in the map that turns the true up direction into
+  /// `up`.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double magnitude = 0;  ///< [m/s^2] median
   std::string reason;    ///< half a sentence, also if there is a result
 };
 
-/// Estimates gravity in the map and the sensor's constant bias by least squares with Cauchy's loss. Only a base that
-/// turns separates the two, so the bias has a prior of 0.1 m/s^2 standard deviation, 0.6 deg. Accelerations in g are
-/// recognized. `up` is none if there are fewer than four spans, or if the accelerations are not those of gravity.
+/// Estimates gravity in the map and the sensor's constant bias by least squares with Cauchy's loss. The two can be told
+/// apart only if the base turns, so the bias has a prior with a standard deviation of 0.1 m/s^2, which corresponds to
+/// 0.6 deg of tilt. Accelerations in g are recognized. `up` is none if there are fewer than four spans, or if the
+/// accelerations are not those of gravity.
 Gravity gravityOf(const std::vector<RotatedSpan>& spans);
 
 }  // namespace omnimapper::matching

@@ -13,9 +13,9 @@
 namespace omnimapper::matching {
 
 struct GyroscopeOptions {
-  std::string label;                                                     ///< empty: the first that comes
+  std::string label;                                                     ///< empty: the first gyroscope's label
   double noise_per_root_s = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(s)]
-  double bias_sigma = 1 * base::option_text::kRadiansPerDegree;          ///< [rad/s] of the bias before it is learnt
+  double bias_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad/s] standard deviation of the initial bias
 };
 
 /// A measured rotation with its uncertainty.
@@ -32,8 +32,8 @@ class Gyroscope {
   explicit Gyroscope(const GyroscopeOptions& options)
       : options_(options), bias_variance_(variance(options.bias_sigma)) {}
 
-  /// Takes an observation into the history if it has finite turn rates, comes from the one sensor that is used, and in
-  /// the order of stamps. True if it was taken.
+  /// Takes an observation into the history if it has finite turn rates, comes from the one sensor that is used, and is
+  /// newer than the last reading. True if it was taken.
   bool add(const mrpt::obs::CObservation& observation);
   /// Rotation of the base from `begin` to `end` (begin <= end); none where readings are missing for longer than 0.1 s.
   std::optional<Turn> between(base::Stamp begin, base::Stamp end) const;
@@ -43,7 +43,7 @@ class Gyroscope {
   void learn(base::Stamp begin, base::Stamp end, const Eigen::Quaterniond& begin_from_end, double sigma);
   /// The rate that the sensor shows at rest [rad/s], in the base's frame.
   const Eigen::Vector3d& bias() const { return bias_; }
-  /// Drops what is known before `stamp`: such spans will not be requested any more.
+  /// Drops the data before `stamp`: earlier spans will not be requested any more.
   void forgetBefore(base::Stamp stamp) { timeline_.forgetBefore(stamp); }
 
  private:
@@ -54,7 +54,7 @@ class Gyroscope {
   static double variance(double sigma) { return sigma * sigma; }
 
   GyroscopeOptions options_;
-  std::optional<std::string> label_;  // of the first that came
+  std::optional<std::string> label_;  // of the first gyroscope that sent data
   std::optional<Reading> last_;
   PoseTimeline timeline_;  // rotations with the bias included
   Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();

@@ -5,8 +5,8 @@
 
 namespace omnimapper::matching {
 
-/// MRPT's iterative closest point (mrpt::slam::CICP; Besl and McKay 1992), then PointToLineMatcher from where it ended.
-/// The guess is only where the search begins, whatever its information.
+/// MRPT's iterative closest point (mrpt::slam::CICP; Besl and McKay 1992), then PointToLineMatcher from the pose that
+/// ICP found. The guess is only where the search begins; its information is ignored.
 class IcpMatcher : public ScanMatcher {
  public:
   explicit IcpMatcher(const ScanMatcherOptions& options) : options_(options) {}

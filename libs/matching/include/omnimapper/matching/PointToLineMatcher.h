@@ -7,15 +7,16 @@
 namespace omnimapper::matching {
 
 /// Moves a scan until its points lie on the lines of a reference (Chen and Medioni 1991; Censi 2008), by Gauss-Newton
-/// with a redescending weight whose scale shrinks to the precision of the match. The lines do not move the scan in
-/// directions that they do not constrain (Zhang, Kaess and Singh 2016); these are reported as open.
+/// with weights that decrease with a point's distance from its line, on a scale that shrinks to the precision of the
+/// match. In directions that the lines do not constrain, the lines do not move the scan (Zhang, Kaess and Singh 2016);
+/// such directions are reported as open.
 class PointToLineMatcher : public ScanMatcher, public mrpt::slam::CMetricMapsAlignmentAlgorithm {
  public:
   explicit PointToLineMatcher(const ScanMatcherOptions& options) : options_(options) {}
 
   std::shared_ptr<const MatchReference> prepare(ScanWithNormals reference) const override;
   ScanMatch match(const MatchReference& reference, const ScanWithNormals& scan, const MatchGuess& guess) const override;
-  /// Evaluates a pose without moving it.
+  /// Evaluates the match at `pose` without moving the scan.
   static ScanMatch judge(const MatchReference& reference, const ScanWithNormals& scan, const mrpt::math::TPose2D& pose);
 
   /// MRPT's interface: both maps are mrpt::maps::CPointsMap, points in the order of the beams; the result is the pose

@@ -13,8 +13,8 @@ namespace omnimapper::matching {
 /// composed, wherever b lies (thesis 5.2.3.1: nothing is counted twice, nothing is lost).
 class PoseTimeline {
  public:
-  /// Adds the span from `begin` to `end`. False, and nothing changes, if it is empty or reversed, overlaps another one,
-  /// or its motion is not finite. There may be gaps; between() has no motion across them.
+  /// Adds the span from `begin` to `end`. False, and nothing changes, if the span is empty or reversed, overlaps
+  /// another span, or its motion is not finite. There may be gaps; between() has no motion across them.
   bool insert(base::Stamp begin, base::Stamp end, const RelativeMotion& motion);
   /// Removes the span from `begin` to `end`. False, and nothing changes, if no span with these ends was added.
   bool remove(base::Stamp begin, base::Stamp end);
@@ -37,7 +37,8 @@ class PoseTimeline {
   std::deque<Span> spans_;  // in order of time
 };
 
-/// Motion over a, then over b; the covariance of a is transported to the end of b.
+/// The motion `a` followed by the motion `b`. The covariance is the sum of both, where that of `a` is transformed to
+/// the frame at the end of `b`.
 RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b);
 /// No motion, known exactly.
 RelativeMotion identityMotion();

@@ -8,8 +8,8 @@ namespace omnimapper::matching {
 struct PredictedMotion {
   geometry::Se3 last_from_camera;
   geometry::Matrix6d covariance;  ///< in the camera's frame now, tangent as in geometry::Se3
-  /// Only a gyroscope measured it: the translation is zero, with the covariance of a hand-held camera of which nothing
-  /// is known.
+  /// True if only a gyroscope measured the motion. The translation is then that of a base that only turns, with a
+  /// covariance as large as for a hand-held camera of unknown motion.
   bool only_turn = false;
 };
 

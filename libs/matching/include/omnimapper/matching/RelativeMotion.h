@@ -8,7 +8,7 @@ namespace omnimapper::matching {
 
 /// Motion of the base over a span of time.
 struct RelativeMotion {
-  mrpt::poses::CPose3D begin_from_end;     ///< the base at the end of the span, in the base at its beginning
+  mrpt::poses::CPose3D begin_from_end;     ///< pose of the base at the span's end, in the base at its beginning
   Eigen::Matrix<double, 6, 6> covariance;  ///< tangent at the end: x y z [m], rotation vector [rad]
 };
 

@@ -15,23 +15,24 @@ namespace omnimapper::matching {
 struct RelocalizerOptions {
   double cell = 0.1;                ///< [m] cell of the grid that is searched
   double sigma = 0.15;              ///< [m] standard deviation of the bell around each map point
-  double spacing = 0.1;             ///< [m] between the points of the scan that are searched with
+  double spacing = 0.1;             ///< [m] smallest distance between the points of a scan that the search uses
   double min_score = 0.4;           ///< smallest mean likelihood of a candidate's points
   double min_share_of_best = 0.85;  ///< smallest share of the best candidate's score
   int max_candidates = 16;
   std::size_t max_blocks = std::numeric_limits<std::size_t>::max();  ///< limit of the search, as in SearchOptions
-  /// If the mean log-likelihood of the best candidate's beams is below this, it explains the scan poorly, because
-  /// something blocks the view. The search is then repeated down to min_share_if_poor, for twice as many candidates.
+  /// If the mean log-likelihood of the best candidate's beams is below this, that candidate explains the scan poorly,
+  /// for example because something blocks the view. The search is then repeated for twice as many candidates, with
+  /// min_share_if_poor in place of min_share_of_best.
   double poor = -0.4;
   double min_share_if_poor = 0.65;
-  int reference_scans = 16;     ///< number of map scans nearest to a candidate that it is refined against
-  double same_distance = 0.25;  ///< [m] and same_angle: refined candidates this near are merged
+  int reference_scans = 16;     ///< number of map scans around a candidate with which it is matched
+  double same_distance = 0.25;  ///< [m] and same_angle: of refined candidates this near only the best is kept
   double same_angle = 0.1;      ///< [rad]
   double place_distance = 0.5;  ///< [m] and place_angle: the probabilities of candidates this near add up
   double place_angle = 0.2;     ///< [rad]
   grid::BeamModel beams;
   int most_beams = 180;          ///< largest number of beams that count as independent
-  double lead_sigmas = 0.25;     ///< number of standard errors subtracted from a lead over another candidate
+  double lead_sigmas = 0.25;     ///< number of standard errors by which a lead over another candidate is reduced
   double nowhere = -0.9;         ///< mean log-likelihood of the beams at a place that is not in the map
   double min_confidence = 0.95;  ///< smallest probability of an answer
 };
@@ -59,7 +60,7 @@ struct LocationCandidate {
 
 struct Location {
   enum class Answer {
-    found,      ///< the first candidate
+    found,      ///< the first candidate is the place
     ambiguous,  ///< several are possible, and none is likely enough
     none        ///< the scan fits nowhere
   };
@@ -70,8 +71,8 @@ struct Location {
 /// Finds where in a whole map a scan, or several scans on a short path, were taken. A correlative search finds the
 /// places that the points fit; these are refined by a scan matcher and compared by the likelihood of each beam, free
 /// space included (HitMissGrid). Probabilities follow from Bayes' rule, with all candidates and "nowhere in the map"
-/// equally likely a priori; but a lead on which the beams disagree counts for less than its mean. Immutable, so threads
-/// may share it.
+/// equally likely a priori. The lead of the best candidate over another one is the mean difference of their beams'
+/// log-likelihoods; it is reduced if the beams disagree about it. Immutable, so threads may share it.
 class Relocalizer {
  public:
   /// Throws Error(out_of_range) for a map too large for the grids (BeamModel::max_cells).
@@ -80,7 +81,7 @@ class Relocalizer {
 
   /// Searches the whole map, or the window if it is given. Points that are not finite are left out.
   Location locate(const grid::BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
-  /// The same for several scans: places that look alike from one position seldom do along a path.
+  /// As locate(), but for several scans: places that look alike from one position seldom look alike along a path.
   Location locateTogether(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
 
  private:

@@ -31,8 +31,8 @@ struct RgbdLevel {
 /// depths, in which a plane is linear, over pixels of one surface: at a depth discontinuity the nearer surface is kept.
 class RgbdPyramid {
  public:
-  /// `colour` may be null if there is no picture. Throws Error(unreadable_input) if its size is not that of the depth
-  /// image.
+  /// `colour` may be null if there is no picture. Throws Error(unreadable_input) if the picture's size is not that of
+  /// the depth image.
   RgbdPyramid(const perception::DepthImage& depth, const perception::ColourImage* colour,
               const RgbdPyramidOptions& options = {});
 

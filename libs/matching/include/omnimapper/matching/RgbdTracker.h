@@ -17,15 +17,15 @@ namespace omnimapper::matching {
 
 struct RgbdTrackerOptions {
   double key_angle = 7 * base::option_text::kRadiansPerDegree;  ///< [rad] largest rotation from the key frame
-  double key_distance = 0.065;         ///< largest distance from it, as a share of the median depth there
-  double key_overlap = 0.75;           ///< smallest share of its points that are still seen
+  double key_distance = 0.065;         ///< largest distance from the key frame, as a share of its median depth
+  double key_overlap = 0.75;           ///< smallest share of the key frame's points that are still seen
   int key_frames = 80;                 ///< largest number of key frames; the oldest are dropped
   double acceleration = 9;             ///< [m/s2] standard deviation of the camera's acceleration
-  double turn_acceleration = 54;       ///< [rad/s2] standard deviation of its angular acceleration
+  double turn_acceleration = 54;       ///< [rad/s2] standard deviation of the camera's angular acceleration
   double depth_readout = 0.02;         ///< [s] from the first row of depths to the last
   double picture_readout = 0.025;      ///< [s] from the first row of the picture to the last
-  double picture_delay = 0.006;        ///< [s] from the middle of the depths to that of the picture
-  double picture_delay_sigma = 0.001;  ///< [s] with a larger one, an estimated delay can pass for motion
+  double picture_delay = 0.006;        ///< [s] from the middle of the depths to the middle of the picture
+  double picture_delay_sigma = 0.001;  ///< [s] standard deviation of picture_delay; if large, delay can pass for motion
   double longest_loss = 2;             ///< [s] tracking begins anew if the camera is lost for longer
   bool use_features = true;            ///< match corners where a motion was too fast for depths and brightness
 
@@ -34,10 +34,11 @@ struct RgbdTrackerOptions {
 
 /// Tracks a camera from image to image. Each image is registered with the nearest key frame, an earlier image whose
 /// pose is known, so that drift grows with the distance travelled and not with the frame rate. Where the camera returns
-/// to the view of an older key frame, that one is used again. A bare wall leaves directions open (match.open_directions
-/// > 0); the predicted motion is kept there, without wheel odometry for at most `longest_loss`. Where a motion was too
-/// fast for depths and brightness, and where the view was lost, corners give the initial pose of a match. The recent
-/// velocity predicts the next pose and corrects the rolling shutter.
+/// to the view of an older key frame, that key frame is used again. A bare wall leaves directions open
+/// (match.open_directions > 0). In these directions the predicted motion is kept; if wheel odometry does not measure
+/// that motion, it is kept for at most `longest_loss`. Where a motion was too fast for depths and brightness, and where
+/// the view was lost, corners give the initial pose of a match. The recent velocity predicts the next pose and corrects
+/// the rolling shutter.
 class RgbdTracker {
  public:
   RgbdTracker(const RgbdTrackerOptions& options, const DenseMatcherOptions& matching,
@@ -45,10 +46,10 @@ class RgbdTracker {
 
   struct Tracked {
     enum class How {
-      begun,    ///< the first image, or the first after a loss: the motion to it is unknown
+      begun,    ///< the first image, or the first after a long loss: the motion to it is unknown
       tracked,  ///< registered
       found,    ///< registered with a key frame after it was lost
-      lost,     ///< no key frame fits: pose and motion are unknown
+      lost,     ///< no key frame fits, or too few depths to begin: pose and motion are unknown
     };
     How how = How::begun;
     geometry::Se3 map_from_camera;           ///< optical frame; the map's frame is the camera's at the beginning
@@ -56,10 +57,10 @@ class RgbdTracker {
     base::Stamp last;                        ///< stamp of that image
     DenseMatch match;                        ///< with the key frame
     bool is_key_frame = false;               ///< whether the image has become a key frame
-    std::optional<base::Stamp> seen_before;  ///< stamp of a much older key frame whose view it shows again
+    std::optional<base::Stamp> seen_before;  ///< stamp of a much older key frame whose view the image shows
   };
-  /// Tracks the next image; stamps must rise. Without a prediction, and for what it does not cover, the last velocity
-  /// is extrapolated.
+  /// Tracks the next image; stamps must rise. Without a prediction, the last velocity is extrapolated. If the
+  /// prediction is only a turn, this extrapolation replaces its translation.
   Tracked track(base::Stamp stamp, const RgbdPyramid& image, const std::optional<PredictedMotion>& prediction = {});
 
   std::size_t keyFrames() const { return keys_.size(); }
@@ -87,8 +88,8 @@ class RgbdTracker {
     geometry::Matrix6d information = geometry::Matrix6d::Zero();
     geometry::Se3 about;             // centre of the region
     double most = 0, most_turn = 0;  // [m] [rad] radius of the region
-    bool is_measured = false;        // the motion, by wheels
-    bool is_turn_measured = false;   // its rotation, by wheels or a gyroscope
+    bool is_measured = false;        // whether wheels measured the motion
+    bool is_turn_measured = false;   // whether wheels or a gyroscope measured its rotation
 
     bool allows(const geometry::Se3& map_from_camera) const;
   };
@@ -96,14 +97,14 @@ class RgbdTracker {
   Tracked lostAt(base::Stamp last) const;
   void makeKeyFrame(base::Stamp stamp, const Image& image, const geometry::Se3& map_from_camera, double picture_delay);
   CameraMotion motion() const;
-  /// Distance from the view of a key frame, in units at which another key frame is due at 1.
+  /// Distance from the view of a key frame, scaled so that another key frame is due above 1.
   double farness(const KeyFrame& key, const geometry::Se3& map_from_camera) const;
   std::optional<std::size_t> nearest(const geometry::Se3& map_from_camera, double farthest,
                                      std::optional<std::size_t> but) const;
   DenseMatch match(std::size_t key, const Image& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
   Expected expectedAfter(double seconds, const std::optional<PredictedMotion>& prediction) const;
-  /// The expected pose by the recent velocity, which fades.
+  /// The expected pose if the recent velocity goes on and fades.
   Expected expectedOfLate(double seconds) const;
   std::optional<Found> follow(const Image& image, const Expected& expected, double seconds) const;
   std::optional<Found> followByFeatures(const std::vector<std::size_t>& keys, const Image& image,
@@ -119,7 +120,8 @@ class RgbdTracker {
   FeatureMatcher feature_matcher_;
   std::deque<KeyFrame> keys_;
   std::size_t current_ = 0;  // index in keys_
-  // Stamps of the last tracked image, and of the last one that left no direction open.
+  // Stamps of the last tracked image, and of the last image with no open direction or with a motion that wheels
+  // measured.
   std::optional<base::Stamp> last_, constrained_;
   geometry::Se3 map_from_last_;
   geometry::Vector6d velocity_ = geometry::Vector6d::Zero();  // [m/s] [rad/s] in the camera's frame

@@ -24,8 +24,8 @@ struct ScanSweep {
   mrpt::math::TPose2D begin_from_end;
 };
 
-/// The same, deskewed to the middle of the sweep, where an error of the given motion moves the scan least. The
-/// direction of a point determines when it was measured.
+/// As scanInBase(cloud), but the scan is deskewed to the middle of the sweep, because an error of the given motion
+/// moves it least there. The direction of a point determines when the point was measured.
 ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep);
 
 }  // namespace omnimapper::matching

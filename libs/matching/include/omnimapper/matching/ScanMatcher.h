@@ -14,7 +14,7 @@ struct ScanMatch {
   double overlap = 0;                       ///< share of the scan's points that have a correspondence, [0, 1]
   double wall_distance = 0;  ///< [m] root mean square distance of points from the walls that they correspond to
   /// Covariance of the pose, in the scan's frame (x y yaw), if each point had a standard deviation of 1 m: multiply it
-  /// by the variance of a point [m2]. Along a direction that the walls do not constrain the pose stays at the guess,
+  /// by the variance of a point [m2]. Along a direction that the walls do not constrain, the pose stays at the guess,
   /// and the variance is kOpen.
   Eigen::Matrix3d unit_covariance = kOpen * Eigen::Matrix3d::Identity();
   /// [m] Standard deviation of a point that gives a realistic covariance of the pose: the distance of points from the
@@ -35,7 +35,7 @@ struct MatchGuess {
 
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
   /// Weight of this pose relative to the points: inverse covariance in the scan's frame (x y yaw), times the variance
-  /// of a point [m2]. With zero the pose is only where the search begins.
+  /// of a point [m2]. If it is zero, the pose is only where the search begins.
   Eigen::Matrix3d information;
 };
 

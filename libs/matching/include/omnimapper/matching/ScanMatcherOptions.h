@@ -16,9 +16,9 @@ struct ScanMatcherOptions {
   double min_distance = 0.1;  ///< [m] largest distance of a correspondence in the last iterations
   int max_iterations = 30;
   IcpMethod icp_method = IcpMethod::classic;
-  double icp_max_angle =
-      2.0 * base::option_text::kRadiansPerDegree;  ///< [rad]; widens the distance far from the sensor
-  int icp_decimation = 3;                          ///< every n-th point is paired
+  /// [rad] The largest distance of a correspondence grows by this times the distance from the sensor.
+  double icp_max_angle = 2.0 * base::option_text::kRadiansPerDegree;
+  int icp_decimation = 3;  ///< every n-th point is paired
 
   static const base::OptionTable<ScanMatcherOptions>& table();
 };

@@ -19,11 +19,11 @@ namespace omnimapper::matching {
 
 struct ScanTrackerOptions {
   int local_scans = 40;                                              ///< largest number of scans in the local map
-  double local_distance = 0.25;                                      ///< [m] between two of them
-  double local_angle = 10.0 * base::option_text::kRadiansPerDegree;  ///< [rad] between two of them
+  double local_distance = 0.25;                                      ///< [m] distance after which a scan is added to it
+  double local_angle = 10.0 * base::option_text::kRadiansPerDegree;  ///< [rad] turn after which a scan is added to it
   double min_overlap = 0.4;     ///< smallest share of a scan's points that must have a correspondence
   double max_correction = 0.5;  ///< [m] largest correction of a prediction by a match
-  double max_turn_correction = 20 * base::option_text::kRadiansPerDegree;  ///< [rad] of its heading
+  double max_turn_correction = 20 * base::option_text::kRadiansPerDegree;  ///< [rad] largest correction of its heading
 
   static const base::OptionTable<ScanTrackerOptions>& table();
 };
@@ -31,12 +31,12 @@ struct ScanTrackerOptions {
 /// A prediction of the motion since the last scan.
 struct MotionPrediction {
   MatchGuess guess;
-  /// Standard deviations [m] [rad], from the recent errors of the source that predicts.
+  /// Standard deviations [m] [rad], from recent errors of the source of the prediction.
   double position_sigma = 1, angle_sigma = 1;
-  /// Largest possible errors [m] [rad]: as far as a base can accelerate in the time.
+  /// Largest possible errors [m] [rad]: how far a base can get from the prediction by accelerating.
   double most_position = std::numeric_limits<double>::infinity(), most_angle = most_position;
-  /// Whether the motion is unknown, as across a gap: the scan is then searched up to 3 m around, at all headings, and
-  /// must fit by its beams alone.
+  /// Whether the motion is unknown, as after a gap in the data. The pose of the scan is then searched up to 3 m around,
+  /// at all headings, and the beams alone must show that it fits.
   bool is_blind = false;
 };
 
@@ -44,9 +44,9 @@ struct MotionPrediction {
 /// error of one scan is not passed on to the next. Poses are in the frame that the scans are given in.
 ///
 /// The most trusted prediction is matched first. Every other prediction that would not have led to the same match is
-/// tried too, and one that leads to no match becomes a candidate itself. The most probable candidate is taken, by the
-/// walls and the free space of the local map and by all predictions together (Olson 2009; Thrun, Burgard and Fox
-/// 2005, 6.3); if it is no match, there is no result.
+/// tried, too. The matches are candidates, and so are predictions that led to no match. The most probable candidate is
+/// taken. Its probability follows from the walls and the free space of the local map and from all predictions together
+/// (Olson 2009; Thrun, Burgard and Fox 2005, 6.3). If the candidate taken is not a match, there is no result.
 class ScanTracker {
  public:
   ScanTracker(const ScanTrackerOptions& options, std::shared_ptr<const ScanMatcher> matcher);
@@ -54,16 +54,16 @@ class ScanTracker {
   ScanTracker(ScanTracker&&) noexcept;
   ScanTracker& operator=(ScanTracker&&) noexcept;
 
-  /// Forgets all scans and begins with this one. `sensor`: where its laser stood, in its frame [m].
+  /// Forgets all scans and begins with this one. `sensor`: position of the laser in the scan's frame [m].
   void restart(const ScanWithNormals& scan, const Eigen::Vector2f& sensor);
   struct Tracked {
-    ScanMatch match;  ///< its pose is the motion since the last scan; all else is of the match with the local map
-    std::size_t prediction = 0;  ///< index of the prediction that led to it
+    ScanMatch match;             ///< match with the local map, but its pose is the motion since the last scan
+    std::size_t prediction = 0;  ///< index of the prediction that led to the match
     /// What other, less probable matches add to the covariance, in the scan's frame: x y yaw [m] [rad].
     Eigen::Matrix3d search_covariance = Eigen::Matrix3d::Zero();
   };
   /// Matches a scan and makes it the last one. `predictions`: the most trusted one first. None, and nothing changes, if
-  /// no prediction leads to a match, or if the most probable candidate is no match.
+  /// no prediction leads to a match, or if the most probable candidate is not a match.
   std::optional<Tracked> track(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
                                const std::vector<MotionPrediction>& predictions);
 

@@ -7,8 +7,8 @@
 
 namespace omnimapper::matching {
 
-/// Points of a 2D scan, or of several, with the directions of the walls they lie on. Points lie on the line fitted to
-/// their neighbours, so that a noisy wall is as thin as a clean one [m].
+/// Points of a 2D scan, or of several, with the normals of the walls on which they lie [m]. Each point was moved onto
+/// the line fitted to its neighbours, so that a noisy wall is as thin as a clean wall.
 struct ScanWithNormals {
   std::vector<Eigen::Vector2f> points;
   std::vector<Eigen::Vector2f> normals;  ///< one for each point: unit, either sign; zero where no line fits
@@ -26,7 +26,7 @@ ScanWithNormals fitLines(const std::vector<Eigen::Vector2f>& points);
 /// Appends `scan`, moved by target_from_scan, to `target`.
 void append(const ScanWithNormals& scan, const mrpt::math::TPose2D& target_from_scan, ScanWithNormals& target);
 
-/// Keeps the first point of each square cell of `side` [m], so that places that many scans saw count once.
+/// Keeps the first point of each square cell of `side` [m], so that a place that many scans saw counts once.
 ScanWithNormals voxelDownsample(const ScanWithNormals& scan, double side);
 
 }  // namespace omnimapper::matching

@@ -11,7 +11,7 @@ namespace omnimapper::matching {
 struct WallCrossingOptions {
   double cell = 0.1;  ///< [m] cell of the grid of walls
   int min_scans = 5;  ///< smallest number of scans that saw a wall in a cell
-  /// Largest share of scans that pass through the cell of a wall. If more do, there is no wall, or no more.
+  /// Largest share of scans that pass through the cell of a wall. If more pass, there is no wall, or the wall has gone.
   double max_passed = 0.3;
   double min_distance = 0.5;  ///< [m] smallest distance from a wall to the end of a beam that passed through it
   /// [rad] Largest angle between beam and wall normal: a beam along a wall does not cross it.
@@ -21,8 +21,8 @@ struct WallCrossingOptions {
 
 /// Counts of the beams of one scan that have an echo.
 struct CrossedWalls {
-  std::size_t beams = 0;    ///< finite ones that are longer than min_distance
-  std::size_t crossed = 0;  ///< those of them that pass through a wall that other scans saw
+  std::size_t beams = 0;    ///< finite beams that are longer than min_distance
+  std::size_t crossed = 0;  ///< beams among these that pass through a wall that other scans saw
 };
 
 struct WallCrossings {

@@ -12,7 +12,7 @@
 namespace omnimapper::matching {
 
 struct WheelOdometryOptions {
-  std::string label;                                                         ///< empty: the first that comes
+  std::string label;                                                         ///< empty: the first odometry's label
   double position_noise_per_root_m = 0.05;                                   ///< [m / sqrt(m)]
   double yaw_noise_per_root_turn = 0.06;                                     ///< [rad / sqrt(rad)]
   double yaw_noise_per_root_m = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
@@ -20,7 +20,7 @@ struct WheelOdometryOptions {
   double yaw_noise_per_root_s = 0.1 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(s)]
   bool use_reported_covariance = false;
 
-  /// Adds its keys to the table of a struct that derives from it.
+  /// Adds the keys of this struct to the table of a struct that derives from it.
   template <class Options>
   static base::OptionTable<Options>& declareIn(base::OptionTable<Options>& table);
 };
@@ -40,7 +40,8 @@ class WheelOdometry {
   struct Span {
     base::Stamp begin, end;
   };
-  /// Takes an observation into the history if it is of its kind. The order of arrival may differ from that of stamps.
+  /// Takes an observation into the history if it is of the right kind and sensor. Observations may arrive in another
+  /// order than that of their stamps.
   Taken add(const mrpt::obs::CObservation& observation);
   /// Motion from `begin` to `end` (begin <= end); none if the span is not covered. Spans add up as in PoseTimeline.
   std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const;
@@ -49,7 +50,7 @@ class WheelOdometry {
   std::optional<Span> news() const { return news_; }
   /// Warnings for the user at the end of a run: sentences that name the remedy.
   std::vector<std::string> warnings() const;
-  /// Drops what is known before `stamp`: such spans will not be requested any more.
+  /// Drops the data before `stamp`: earlier spans will not be requested any more.
   void forgetBefore(base::Stamp stamp);
 
  private:
@@ -63,13 +64,13 @@ class WheelOdometry {
   Eigen::Matrix<double, 6, 6> covarianceOf(const mrpt::poses::CPose3D& motion, double seconds) const;
 
   WheelOdometryOptions options_;
-  std::optional<std::string> label_;                      // of the first that came
+  std::optional<std::string> label_;                      // of the first odometry that came
   std::map<base::Stamp, mrpt::poses::CPose3D> readings_;  // odom_from_base
   std::optional<base::Stamp> leap_;                       // stamp of a reading far ahead of all before it
   std::optional<Span> news_;
-  bool forgotten_ = false;      // there were readings before the first one of readings_
+  bool forgotten_ = false;      // readings before the first one of readings_ were dropped
   std::size_t impossible_ = 0;  // number of motions that no base can make; they are left out
-  double farthest_ = 0;         // [m] distance of the farthest of these
+  double farthest_ = 0;         // [m] length of the longest of these motions
   PoseTimeline timeline_;
 };
 
@@ -78,17 +79,21 @@ base::OptionTable<Options>& WheelOdometryOptions::declareIn(base::OptionTable<Op
   const auto zero_or_more = base::Range::notNegative();
   return table.text("label", &Options::label, "Sensor label of the odometry; empty for the first that comes.")
       .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
-              "Standard deviation of the position after 1 m of distance travelled [m]; grows with its root.")
-      .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
-              "Standard deviation of the heading after 1 rad of turning [rad]; grows with its root.")
+              "Standard deviation of the position after 1 m of distance travelled [m]; it grows with the square root "
+              "of the distance.")
+      .number(
+          "yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
+          "Standard deviation of the heading after 1 rad of turning [rad]; it grows with the square root of the angle.")
       .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
-              "Standard deviation of the heading after 1 m of distance travelled; grows with its root.")
+              "Standard deviation of the heading after 1 m of distance travelled; it grows with the square root of the "
+              "distance.")
       .number("position_noise_per_root_s", &Options::position_noise_per_root_s, zero_or_more,
-              "Standard deviation of the position after 1 s [m]; grows with its root.")
+              "Standard deviation of the position after 1 s [m]; it grows with the square root of the time.")
       .number("yaw_noise_per_root_s_deg", &Options::yaw_noise_per_root_s, zero_or_more,
-              "Standard deviation of the heading after 1 s; grows with its root.")
+              "Standard deviation of the heading after 1 s; it grows with the square root of the time.")
       .flag("use_reported_covariance", &Options::use_reported_covariance,
-            "Trust the covariance that MRPT's actions carry instead of the noise above.");
+            "Use the covariance that MRPT's actions carry instead of the one computed from the noise keys of this "
+            "section.");
 }
 
 }  // namespace omnimapper::matching

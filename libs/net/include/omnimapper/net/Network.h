@@ -27,13 +27,14 @@ class Session;
 
 /// A trained network with one input and one output, read from an ONNX file. It is computed only in the calling thread,
 /// so that results do not depend on the number of cores; they may depend on the kind of processor. Thread-safe: threads
-/// that call at the same time each use their own copy, which is read when it is first needed.
+/// that call at the same time use different copies of the network, each of which is read from the file when it is first
+/// needed.
 class Network {
  public:
   /// Backend::opencv switches off OpenCV's threads and its log in the whole process. `library` is the file of ONNX
-  /// Runtime, empty with another backend. Throws Error(unreadable_input) that names the file if it is missing, empty or
-  /// no network, or has several inputs or outputs, and Error(plugin_library) if the library cannot be loaded or is
-  /// older than 1.11.
+  /// Runtime; it is empty with another backend. Throws Error(unreadable_input), naming the network's file, if this file
+  /// is missing, empty or no network, or if the network has several inputs or outputs. Throws Error(plugin_library) if
+  /// the library cannot be loaded or is older than 1.11.
   Network(const std::string& path, Backend backend, const std::string& library = "");
   ~Network();
 

@@ -18,8 +18,8 @@ struct ReadText {
 
 /// A sign on or beside a door.
 struct ObservedDoorSign {
-  /// [px] corners of its region in the image, x to the right and y down, (0, 0) the middle of the upper left pixel:
-  /// upper left, upper right, lower right, lower left, as the text is read.
+  /// [px] corners of its region in the image, in the order upper left, upper right, lower right, lower left, as the
+  /// text is read. x is to the right and y down; (0, 0) is the middle of the upper left pixel.
   std::array<Eigen::Vector2f, 4> corners_px{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(),
                                             Eigen::Vector2f::Zero()};
   Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< unit, from the camera to the middle of the sign
@@ -44,8 +44,8 @@ class CObservationDoorSigns : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Draws the ray, on it the interval of range plus and minus two range_sigma, the framed patch and the text. A sign
-  /// without range is drawn at 2 m.
+  /// Draws the ray, the interval of the range plus and minus two range_sigma on the ray, the framed patch, and the
+  /// text. A sign without range is drawn at 2 m.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

@@ -28,7 +28,7 @@ struct LaserLine {
   std::uint32_t first_beam = 0;  ///< index in the scan
   std::uint32_t last_beam = 0;   ///< inclusive
   std::uint32_t inliers = 0;     ///< number of beams from first_beam to last_beam that lie on the line
-  double rms = 0;                ///< [m] distance of the points of these beams from the line
+  double rms = 0;                ///< [m] root mean square distance of the points of these beams from the line
 };
 
 /// The straight lines of one 2D laser scan, in the order of its beams.
@@ -43,8 +43,8 @@ class CObservationLaserLines : public CDerivedObservation {
 
  protected:
   void describe(std::ostream& out) const override;
-  /// Draws thick segments in a colour by index. An end of the wall has a cross bar, other ends a ball: black if the
-  /// rest is hidden, white if the view ends.
+  /// Draws thick segments in a colour by index. A cross bar marks an end of the wall; a ball marks any other end, black
+  /// if the rest of the wall is hidden, white if the view ends.
   void draw(mrpt::opengl::CSetOfObjects& scene_in_sensor) const override;
 };
 

@@ -23,8 +23,9 @@ class CObservationRelativeMotion : public mrpt::obs::CObservation, public mrpt::
   /// Pose of the base at the end of the span in the base at its start [m, rad]. Translation and rotation matrix are
   /// stored bit by bit.
   mrpt::poses::CPose3D begin_from_end;
-  /// Covariance of begin_from_end: right perturbation in the base at the end of the span, order x y z then rotation
-  /// vector [m, rad]. Zero where a direction is known exactly or cannot move, as z, roll and pitch of planar motion.
+  /// Covariance of begin_from_end, for a small change of the pose in the frame of the base at the end of the span: x y
+  /// z [m], then rotation vector [rad]. Zero in directions that are known exactly or cannot move, such as z, roll and
+  /// pitch of planar motion.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 
   /// Identity.

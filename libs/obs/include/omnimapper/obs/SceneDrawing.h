@@ -22,18 +22,18 @@ bool isFinite(const Eigen::Vector3d& point);
 /// Adds a line if both ends are finite.
 void addLine(mrpt::opengl::CSetOfLines& lines, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 void addClosed(mrpt::opengl::CSetOfLines& lines, const geometry::Polygon3& polygon);
-/// Lines of that colour and width [px] as one object.
+/// An object for lines of this colour and width [px], without lines yet.
 mrpt::opengl::CSetOfLines::Ptr makeLines(const mrpt::img::TColor& colour, float width);
 
 /// Adds a line of that width [m], made of triangles, because many graphics drivers draw all lines one pixel wide.
 void addStroke(mrpt::opengl::CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                double width);
 
-/// Triangles of the area inside an odd number of the polygons, which lie about on that plane; none if nothing is
+/// Triangles that fill the area inside an odd number of the polygons, which lie on or near `plane`; none if nothing is
 /// finite.
 mrpt::opengl::CSetOfTriangles::Ptr filled(const geometry::Plane3& plane,
                                           const std::vector<geometry::Polygon3>& polygons);
-/// Adds the same area to a scene, in a translucent colour.
+/// Adds the area that filled() returns to a scene, in a translucent colour.
 void addFilled(mrpt::opengl::CSetOfObjects& scene, const geometry::Plane3& plane,
                const std::vector<geometry::Polygon3>& polygons, const mrpt::img::TColor& colour);
 void addArrow(mrpt::opengl::CSetOfObjects& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& to,

@@ -8,7 +8,7 @@ namespace omnimapper::obs {
 
 /// Registers the observation classes of the project with MRPT, so that a rawlog with them can be read. Loading the
 /// library registers them too, but a linker leaves the library out of a program that neither uses its classes nor calls
-/// this.
+/// this function.
 void registerClasses();
 
 /// The classes that registerClasses() registers.

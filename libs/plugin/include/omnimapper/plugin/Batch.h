@@ -15,7 +15,8 @@
 namespace omnimapper::mapper {
 
 /// An atomic list of edits of graph and landmarks, with the decisions behind them. The engine applies it whole or not
-/// at all. Ids of what it adds are provisional (see isProvisional): usable within this batch, replaced on applying.
+/// at all. Ids of what a batch adds are provisional (isProvisional()): they can be used within this batch, and final
+/// ids replace them when the batch is applied.
 class Batch {
  public:
   /// A fixed variable keeps its value.
@@ -38,16 +39,17 @@ class Batch {
   base::LandmarkId addLandmark(const std::string& kind, std::vector<base::VariableId> variables,
                                std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
                                std::optional<base::Stamp> seen = std::nullopt);
-  /// Counts one more measurement of it, made at time `seen`. A payload replaces the one it has; null keeps that.
+  /// Counts one more measurement of a landmark, made at time `seen`. If `payload` is not null, it replaces the
+  /// landmark's payload.
   void addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
                    std::optional<base::Stamp> seen = std::nullopt);
   /// Replaces the payload of a landmark without counting a measurement.
   void describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload);
   /// Marks the landmark as no longer there: nothing is associated with it any more.
   void retireLandmark(base::LandmarkId id) { retired_landmarks_.push_back(id); }
-  /// Merges two landmarks that are one: factors and evidence of `from` move to `into`, variable by variable, and the
-  /// variables of `from` are removed. A payload replaces that of `into`; null keeps it. A batch may merge several
-  /// landmarks into one, but must not merge any into one that it merges away.
+  /// Merges two landmarks that are the same object: factors and evidence of `from` move to `into`, variable by
+  /// variable, and the variables of `from` are removed. If `payload` is not null, it replaces that of `into`. A batch
+  /// may merge several landmarks into one landmark, but not into a landmark that it merges into another one.
   void mergeLandmarks(base::LandmarkId from, base::LandmarkId into,
                       std::shared_ptr<const map::LandmarkPayload> payload = nullptr) {
     merges_.push_back({from, into, std::move(payload)});
@@ -74,7 +76,7 @@ class Batch {
     base::LandmarkId from, into;
     std::shared_ptr<const map::LandmarkPayload> payload;
   };
-  /// No edit and no decision.
+  /// Whether the batch has no edit and no decision.
   bool empty() const;
   /// Whether it changes the graph: decisions, evidence, new and retired landmarks alone do not.
   bool changesGraph() const;
@@ -88,7 +90,7 @@ class Batch {
   const std::vector<base::LandmarkId>& retiredLandmarks() const { return retired_landmarks_; }
   const std::vector<Merge>& merges() const { return merges_; }
   const std::optional<SessionPlace>& sessionPlace() const { return session_place_; }
-  /// `hypothesis` of a decision, if set, is a provisional id: its index is the factor's position in addedFactors().
+  /// If Decision::hypothesis is set, it is a provisional id whose index is the factor's position in addedFactors().
   const std::vector<Decision>& decisions() const { return decisions_; }
 
   /// Provisional ids have this session number, which no map uses.
@@ -122,7 +124,7 @@ struct AppliedBatch {
 /// Which plugin made a batch, and when; both are written into its new landmarks.
 struct BatchOrigin {
   std::string owner;  ///< INI section of the plugin
-  base::Stamp stamp;  ///< of the key frame it was made at
+  base::Stamp stamp;  ///< of the key frame at which the batch was made
 };
 
 /// Why `batch` cannot be applied to this graph and map; empty if it can. A batch that a job made from an older state

@@ -10,7 +10,7 @@ namespace omnimapper::mapper {
 
 /// Work that may take longer than the time between two key frames, such as the search for a loop closure. It is a pure
 /// function of the state at the key frame that requested it, and runs in the worker pool. Its batch is applied [mapper]
-/// job_delay key frames later, or at the end of the log, for any number of workers. A batch that can no longer be
+/// job_delay key frames later, or at the end of the log, whatever the number of workers. A batch that can no longer be
 /// applied is dropped, and the decision log says so.
 struct Job {
   std::string name;  ///< for the decision log: "loop closure of 0:17"

@@ -12,8 +12,8 @@ namespace omnimapper::mapper {
 /// the label is the landmark's kind.
 map::LandmarkShape shapeOf(const map::Landmark& landmark, const State& state);
 
-/// The number of landmarks by label, such as "wall", or by kind if the label begins with it: "marker 12" counts as
-/// "marker". Candidates, merged landmarks and those that are no longer there are not counted.
+/// The number of landmarks by label, such as "wall", or by kind if the label begins with the kind: "marker 12" counts
+/// as "marker". Candidates, merged landmarks and those that are no longer there are not counted.
 std::map<std::string, std::size_t> countLandmarks(const State& state);
 
 }  // namespace omnimapper::mapper

@@ -14,7 +14,7 @@ struct LiveMetrics {
     std::uint64_t observations = 0;
     double clock_offset = 0;  ///< [s] that was added to its stamps
     std::uint64_t clock_jumps = 0;
-    std::uint64_t reopened = 0;  ///< how often it came back after it was silent or lost
+    std::uint64_t reopened = 0;  ///< how often it sent data again after it was silent or lost
     std::uint64_t left_out = 0;  ///< invalid messages or lines, which were discarded
   };
   std::vector<Sensor> sensors;

@@ -21,8 +21,9 @@ struct LocalizationEstimate {
 
   /// Covariance of the position along the map's axes [m^2]; none if `covariance` is none.
   std::optional<Eigen::Matrix3d> positionCovariance() const;
-  /// Whether it is joined and the standard deviation of its position on the floor in the least certain direction is at
-  /// most kLocatedSigma [m]. The height is left out because a planar laser does not measure it.
+  /// Whether the session is joined and its position is certain: the standard deviation in the least certain direction
+  /// on the floor is at most kLocatedSigma [m]. The height is left out because a planar laser does not measure the
+  /// height.
   bool located() const;
   static constexpr double kLocatedSigma = 0.5;
 };

@@ -34,20 +34,22 @@ class MeasurementPlugin {
   /// Whether the plugin uses this observation, raw or derived. The answer must depend only on the observation and the
   /// options. It is called from several threads.
   virtual bool wants(const mrpt::obs::CObservation& observation) const = 0;
-  /// Whether it works only on landmarks of other plugins: wants() then returns false for every observation.
+  /// Whether the plugin works only on landmarks of other plugins: wants() then returns false for every observation.
   virtual bool worksOnLandmarks() const { return false; }
   /// Heavy work that needs only the observation and the options. It runs in several threads of the worker pool while
-  /// the other functions run, so it must not read what they change.
+  /// the other functions run, so it must not read data that those change.
   virtual std::unique_ptr<const Prepared> prepare(const mrpt::obs::CObservation& /*observation*/) const { return {}; }
-  /// Whether its factors measure absolute poses in the map. The first pose is then not held at the origin.
+  /// Whether the plugin's factors measure absolute poses in the map. The first pose is then not held at the origin.
   virtual bool givesAbsolutePoses() const { return false; }
-  /// `frame` is linked to its neighbours already. It is the newest key frame unless the observation came late;
-  /// spliced() was then called before. A late observation may also be the second of its label at an older key frame.
+  /// `frame` is linked to its neighbours already. It is the newest key frame unless the observation came late. If a
+  /// late observation made a new key frame, spliced() was called before. If a late observation belongs to an older key
+  /// frame, the plugin may have measured another observation of the same label there.
   virtual Batch measure(const map::KeyFrame& frame, const Observed& observed, const View& view) = 0;
-  /// Gets the final ids of what its last batch added, in order of addition. Also called for the batches of its jobs.
+  /// Gets the final ids of what the plugin's last batch added, in order of addition. Also called for the batches of its
+  /// jobs.
   virtual void applied(const AppliedBatch& /*ids*/) {}
-  /// Called after a late key frame was inserted into the trajectory: two continuous factors replace the one between its
-  /// neighbours. `before` or `after` is none at the ends.
+  /// Called after a late key frame was inserted into the trajectory: two motion factors replace the one between its
+  /// neighbours. At an end of the trajectory, `before` or `after` is none.
   virtual void spliced(const map::KeyFrame& /*frame*/, std::optional<base::KeyFrameId> /*before*/,
                        std::optional<base::KeyFrameId> /*after*/) {}
   /// Called when a key frame left the window of a run that localizes: the plugin must not measure between it and
@@ -64,8 +66,9 @@ class MeasurementPlugin {
   /// What a map file must keep of the plugin so that a later session can continue; the engine names the section. None
   /// if frames, landmarks and graph suffice.
   virtual std::optional<map::MapSection> save() const { return std::nullopt; }
-  /// Called once, before the first observation, when a map is continued: restores what save() returned and what it
-  /// needs of earlier sessions. `saved` is null if the file has no section of it. Throws Error(unreadable_input).
+  /// Called once, before the first observation, when a map is continued: restores what save() returned and what the
+  /// plugin needs of earlier sessions. `saved` is null if the file has no section of the plugin. Throws
+  /// Error(unreadable_input).
   virtual void restore(const map::MapSection* /*saved*/, const View& /*view*/) {}
 };
 

@@ -11,9 +11,10 @@ enum class RawImages { none, depth, all };
 class OutputPlugin {
  public:
   virtual ~OutputPlugin() = default;
-  /// Whether it writes the map itself. A run that localizes in a map skips such outputs, because it makes no new map.
+  /// Whether it writes the map itself. A run that localizes in a map skips such outputs, because such a run makes no
+  /// new map.
   virtual bool isOfMap() const { return false; }
-  /// Which images of a log it needs. Key frames keep as many as the output that needs most.
+  /// Which images of a log it needs. Key frames keep the images that the most demanding output needs.
   virtual RawImages needsOfImages() const { return RawImages::none; }
   /// Called after each solve, for live display.
   virtual void update(const View& /*view*/) {}
@@ -24,7 +25,7 @@ class OutputPlugin {
   virtual void frameAdded(const View& /*view*/) {}
   /// Called once, at the end of the run. Throws base::Error if an output cannot be written.
   virtual void finish(const View& view) = 0;
-  /// Whether a user may still be viewing it: the run ends only once this is false for every output.
+  /// Whether a user may still be viewing the output: the run ends only once this is false for every output.
   virtual bool isLookedAt() const { return false; }
 };
 

@@ -11,8 +11,9 @@
 namespace omnimapper::mapper {
 
 /// Zero offsets of pan-tilt units (thesis 4.3.2.5): one variable of kind "pan_tilt" for each camera and run. Its value
-/// is true minus reported angles [rad], pan to the left and tilt down, with a prior at zero. Errors that change from
-/// image to image belong to the measurement noise. See SensorCorrections for sensors that are mounted askew.
+/// is the true angles minus the reported ones [rad], pan to the left and tilt down, with a prior at zero. Errors that
+/// change from image to image belong to the measurement noise. See SensorCorrections for sensors that are mounted
+/// askew.
 class PanTiltOffsets {
  public:
   /// `sigma` [rad] is the prior standard deviation of each angle; 0 means that the reported angles have no offset.

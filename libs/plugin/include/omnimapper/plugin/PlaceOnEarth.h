@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-// Where a map is on the earth. A plugin that knows it passes it to outputs in its section of the map file; a mark at
-// the end of the section identifies it.
+// Where a map is on the earth. A plugin that knows this place passes it to outputs in the plugin's section of the map
+// file; a mark at the end identifies such a section.
 namespace omnimapper::mapper {
 
 /// [deg] WGS84, altitude [m] above the ellipsoid.
@@ -24,7 +24,8 @@ struct PlaceOnEarth {
 /// The bytes of a plugin's section that holds `place`.
 std::string writePlace(const PlaceOnEarth& place);
 
-/// The first place on earth in the sections of a map whose variable is still in the graph; none if there is none.
+/// The place on earth that the sections of a map hold: the first whose variable is still in the graph; none if there is
+/// none.
 std::optional<PlaceOnEarth> placeOnEarth(const View& view);
 
 /// Converts points of the map to longitude, latitude and altitude.

@@ -24,7 +24,7 @@ struct PluginContext {
   std::string section;  ///< its section of the INI; owner of its factors and decisions
   Motion motion = Motion::planar;
   bool map_is_held = false;   ///< the run localizes in a map that it does not change
-  std::string output_folder;  ///< exists; empty in a run without outputs
+  std::string output_folder;  ///< an existing folder; empty in a run without outputs
   std::string title;          ///< of the run, for reports: the log's name
   std::string config_text;    ///< the INI of the run
 };
@@ -48,7 +48,8 @@ class PluginFactory : public mrpt::rtti::CObject {
   /// One sentence for --list-plugins.
   virtual std::string summary() const = 0;
   virtual const std::vector<base::OptionSpec>& options() const = 0;
-  /// Registers the variables, factors and payloads that its plugin puts into a map, so that a map file can be read.
+  /// Registers the variables, factors and payloads that the class's plugins put into a map, so that a map file can be
+  /// read.
   virtual void registerKinds(Kinds& /*kinds*/) const {}
 };
 

@@ -18,10 +18,11 @@ class PosePlugin {
   enum class Taken {
     not_mine,  ///< of another kind or sensor
     taken,
-    unusable,  ///< of its kind, but with values that are not finite or time that runs backwards
+    unusable,  ///< of the right kind, but not finite, or its time runs backwards
   };
-  /// Takes an observation, never null, into its history if it is of its kind. Called in order of arrival, which may
-  /// differ from the order of stamps. A source may keep the pointer for later: the observation is never changed.
+  /// Takes an observation, never null, into the plugin's history if it is of the right kind. Called in order of
+  /// arrival, which may differ from the order of stamps. A source may keep the pointer for later: the observation is
+  /// never changed.
   virtual Taken add(const mrpt::obs::CObservation::ConstPtr& observation) = 0;
   struct Span {
     base::Stamp begin, end;
@@ -33,14 +34,15 @@ class PosePlugin {
   /// requested. Heavy work that needs the order of stamps is done here.
   virtual void processUntil(base::Stamp /*stamp*/) {}
   /// Motion from `begin` to `end` (begin <= end); none if the span is not covered.
-  /// Additive: cov(a, c) = cov(a, b) transported + cov(b, c), so a span may be split and its covariance stays the same.
+  /// Spans must add up: cov(a, c) is the sum of cov(a, b), transformed to the frame at c, and cov(b, c). A span can
+  /// then be split without a change of its covariance.
   virtual std::optional<RelativeMotion> between(base::Stamp begin, base::Stamp end) const = 0;
-  /// The time up to which it can return motions; none before it has data.
+  /// The time up to which the source can return motions; none before it has data.
   virtual std::optional<base::Stamp> coveredUntil() const = 0;
-  /// A fallback is used only for a span that no other source covers, and the queue never waits for it. If there are
-  /// several, only the first in the order of the INI that covers the span is used.
+  /// A fallback is used only for a span that no other source covers, and the queue never waits for it. Of several
+  /// fallbacks that cover a span, only the first in the order of the INI is used.
   virtual bool isFallback() const { return false; }
-  /// Whether its motions are measured. A source that only guesses is not asked whether the base has moved.
+  /// Whether the motions are measured. A source that only guesses motions is not asked whether the base has moved.
   virtual bool measures() const { return true; }
   /// Warnings for the user at the end of a run: sentences that name the sensor and the remedy.
   virtual std::vector<std::string> warnings() const { return {}; }

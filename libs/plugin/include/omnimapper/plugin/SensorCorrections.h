@@ -11,19 +11,20 @@
 
 namespace omnimapper::mapper {
 
-/// How far a measurement plugin trusts the pose of its sensor on the base that an observation (or the INI, see
-/// SensorPoses) reports. The options struct of a plugin that leaves the choice to its user derives from this one.
+/// How far a measurement plugin trusts the reported pose of its sensor on the base. An observation reports this pose,
+/// unless the INI gives it instead (SensorPoses). The options struct of a plugin that leaves the choice to its user
+/// derives from this one.
 struct SensorPoseTrust {
   enum class Estimate {
     no,             ///< the reported pose is exact
     once,           ///< one correction for all key frames of a run: a sensor mounted a little askew
-    each_key_frame  ///< one for each: a pan-tilt head whose encoders are noisy
+    each_key_frame  ///< one correction for each: a pan-tilt head whose encoders are noisy
   };
   Estimate estimate = Estimate::no;
   double position_sigma = 0.01;                               ///< [m] of the reported pose
   double angle_sigma = base::option_text::kRadiansPerDegree;  ///< [rad] of the reported pose
 
-  /// Adds its keys to the table of a struct that derives from it.
+  /// Adds the keys of this struct to the table of a struct that derives from it.
   template <class Options>
   static base::OptionTable<Options>& declareIn(base::OptionTable<Options>& table);
 };
@@ -31,7 +32,7 @@ struct SensorPoseTrust {
 /// The pose of a sensor on the base as a variable with a prior (thesis 5.3.3: static or dynamic transform from sensor
 /// to base). The reported pose may differ between key frames, so the variable is a correction to it:
 ///   base_from_sensor = base_from_reported * reported_from_sensor,
-/// kind se3, prior at the identity. A factor that uses it binds (pose, reported_from_sensor, ...) and keeps
+/// kind se3, prior at the identity. A factor that uses this variable binds (pose, reported_from_sensor, ...) and keeps
 /// base_from_reported as a measurement.
 class SensorCorrections {
  public:

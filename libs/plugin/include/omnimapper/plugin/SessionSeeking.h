@@ -7,12 +7,13 @@ namespace omnimapper::mapper {
 class SeeksSession {
  public:
   virtual ~SeeksSession() = default;
-  /// Whether it is searching now: it needs data of both the map and the session to compare.
+  /// Whether the plugin is searching now: it needs data of both the map and the session to compare them.
   virtual bool isSeeking() const = 0;
 };
 
-/// A second base class for measurement plugins whose landmarks look alike in many places, such as walls. One of them
-/// does not determine where a session lies, and a wrong tie to it ends the search of the plugins that seek.
+/// A second base class for measurement plugins whose landmarks look alike in many places, such as walls. A single such
+/// landmark does not determine where a session lies, and a wrong association with it would end the search of the
+/// plugins that search the map.
 class LeavesSeeking {
  public:
   virtual ~LeavesSeeking() = default;

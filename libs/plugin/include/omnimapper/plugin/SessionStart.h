@@ -20,8 +20,8 @@ struct SessionStart {
 /// key frame.
 SessionStart startAnywhere(const map::Map& map);
 
-/// The initial estimate as a prior on the session's anchor, with a robust loss: if measurements contradict it by much,
-/// it has little effect on the map.
+/// The initial estimate as a prior on the session's anchor, with a robust loss: if measurements contradict the prior by
+/// much, it has little effect on the map.
 graph::FactorRecord startFactor(Motion motion, base::VariableId anchor, const SessionStart& start);
 
 /// A better initial estimate for a session that nothing ties to the map yet.
@@ -30,7 +30,7 @@ struct SessionPlace {
   SessionStart start;      ///< where that key frame is, and how well this is known
 };
 
-/// Why the session cannot be placed, such as that it is not the newest or is joined; empty if it can be placed.
+/// Why the session cannot be placed, for example because it is not the newest or is joined; empty if it can be placed.
 std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const map::Map& map);
 
 /// Moves the whole session, so that the key frame is at its new pose: key frames, anchor, the session's own landmarks,

@@ -43,8 +43,8 @@ class StageTimes {
     double engine_ms = 0;  ///< everything else except waiting; includes releasing old data
   };
 
-  /// Measures a stage until it is destroyed. It pauses while a timer that was started within it measures, so each
-  /// second counts once.
+  /// Measures a stage until this timer is destroyed. The timer pauses while another timer that was started later
+  /// measures, so each second counts once.
   class [[nodiscard]] Timer {
    public:
     Timer(StageTimes& times, Stage stage, const std::string& section);
@@ -58,7 +58,7 @@ class StageTimes {
     double& of_stage_;
     Timer* outer_;
     double before_ = 0;  // [s] until a timer within this one took over
-    StopWatch watch_;    // since it began or resumed
+    StopWatch watch_;    // since this timer began or resumed
   };
   /// `section` is the INI section of a plugin or output, else empty. This object must outlive the timer and must not be
   /// moved.

@@ -25,7 +25,7 @@ struct State {
   std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<base::VariableId>& ids) const {
     return uncertainty.joint(graph, ids);
   }
-  /// Whether the relative pose of two sessions is known: they are the same, or both are joined to the map.
+  /// Whether the relative pose of two sessions is known: they are the same session, or both are joined to the map.
   bool areJoined(std::uint16_t session, std::uint16_t other) const;
   /// Every factor on the landmark's variables, in the order of ids.
   std::vector<base::FactorId> factorsOf(base::LandmarkId id) const;
@@ -33,7 +33,8 @@ struct State {
   std::vector<base::LandmarkId> candidates(const std::string& owner) const;
 };
 
-/// An own copy of the state for jobs, which does not change any more. It is cheap to make: unchanged data is shared.
+/// A separate copy of the state for jobs, which does not change any more. It is cheap to make, because unchanged data
+/// are shared.
 struct Snapshot {
   map::Map map;
   graph::Graph graph;

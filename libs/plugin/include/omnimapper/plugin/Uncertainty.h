@@ -10,9 +10,9 @@
 
 namespace omnimapper::mapper {
 
-/// Covariances for gates. The graph as it was at construction is factorized once, at the first query, in the thread of
-/// that query. Later key frames are reached by the factors along the trajectory. Copies share the factorized graph.
-/// Results depend only on graph and map, not on earlier queries.
+/// Covariances for gates. The matrix of the graph as it was at construction is decomposed once, at the first query, in
+/// the thread of that query. For key frames that were added later, the covariance is propagated by the factors along
+/// the trajectory. Copies share the decomposition. Results depend only on graph and map, not on earlier queries.
 class Uncertainty {
  public:
   /// Without a graph: every result is none.
@@ -22,7 +22,8 @@ class Uncertainty {
 
   /// Covariance of inverse(map_from_base of `from`) * map_from_base of `to`: tangent at `to`, x y z [m], rotation
   /// vector [rad]; zeros outside x, y, yaw in a planar map. None while a direction of some variable is undetermined, or
-  /// if the trajectory does not connect to the later of the two. `map` and `graph` are the current ones.
+  /// if the factors along the trajectory do not reach a key frame that was added later. `map` and `graph` are the
+  /// current ones.
   std::optional<Eigen::Matrix<double, 6, 6>> between(const map::Map& map, const graph::Graph& graph,
                                                      base::KeyFrameId from, base::KeyFrameId to) const;
 

@@ -5,7 +5,7 @@
 
 namespace omnimapper::mapper {
 
-/// One number that a plugin computed of a finished map, and whether it is for or against the map.
+/// One number that a plugin computed from a finished map, and whether this number is for or against the map.
 struct Evidence {
   enum class Says {
     good,        ///< it is not against the map
@@ -25,8 +25,9 @@ struct Verdict {
   std::vector<Evidence> evidence;
 };
 
-/// Suspicious if any evidence is against the map; else "cannot tell" if any is too_little or there is none at all; else
-/// consistent. A too_little is ignored if another plugin has better evidence of the same name.
+/// Suspicious if any evidence is against the map; else "cannot tell" if any evidence is too_little or there is no
+/// evidence at all; else consistent. Evidence that is too_little is ignored if other evidence of the same name is not
+/// too_little.
 Verdict conclude(std::vector<Evidence> all);
 
 /// "consistent", "cannot tell" or "suspicious".

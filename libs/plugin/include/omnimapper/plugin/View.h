@@ -26,7 +26,7 @@ struct RunCounts {
   std::size_t too_late = 0;        ///< refused: older than [mapper] horizon_s
   std::size_t late = 0;            ///< came after their window and were inserted in order
   std::size_t spliced = 0;         ///< key frames inserted between others for late observations
-  std::size_t hurried = 0;         ///< stamps processed before their window was over, by [mapper] queue_limit
+  std::size_t hurried = 0;         ///< stamps processed before their window was over, due to [mapper] queue_limit
   std::size_t left_out = 0;        ///< discarded by the source as unusable (source::ObservationGate)
   std::size_t unusable = 0;        ///< refused: odometry that runs backwards in time or jumps
   std::size_t unconnected = 0;     ///< refused: no pose plugin has the motion since the previous key frame
@@ -49,7 +49,7 @@ struct View : State {
   const std::vector<SolveRecord>& solves;
   /// Warnings for the user of this run: damaged input, interruption, observations left out.
   const std::vector<std::string>& warnings;
-  /// The other sections of a map file, beside graph, frames and landmarks: those of plugins and unknown ones.
+  /// The sections of a map file beside graph, frames and landmarks: those of plugins and unknown ones.
   const std::vector<map::MapSection>& sections;
   /// Whether the run only localizes in a saved map: it does not change what earlier sessions made.
   bool map_is_held = false;

@@ -22,8 +22,8 @@ struct NearPlace {
   double distance;  ///< [m] seen from above, to its extent; 0 inside
 };
 
-/// The places nearest to a point, the nearest first: at most `most` of those within `within` [m]. They point into
-/// `places`.
+/// The places nearest to a point, the nearest first: at most `most` of those within `within` [m]. The result points
+/// into `places`.
 std::vector<NearPlace> nearestPlaces(const std::vector<map::Place>& places, const Eigen::Vector2d& point, double within,
                                      std::size_t most);
 

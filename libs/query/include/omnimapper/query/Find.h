@@ -23,13 +23,13 @@ struct Found {
   bool isOnlyNear() const { return !places.empty() && places.front().match.grade == MatchGrade::near; }
 };
 
-/// The names by which a place can be found: its caption, its label, and the texts of its properties that are no
-/// measures.
+/// The names by which a place can be found: its caption, its label, and the values of those properties that are texts
+/// and not measures.
 std::vector<std::string> namesOf(const map::Place& place);
 
-/// The places called `text`: all those with a name that fits, or if there are none, those with a near name. They point
-/// into `places`. Throws Error(command_line) for a text that is empty, too long or not UTF-8, or has control
-/// characters.
+/// The places called `text`: all places with a name that fits, or if there are none, those with a similar name. The
+/// result points into `places`. Throws Error(command_line) for a text that is empty, too long or not UTF-8, or has
+/// control characters.
 Found find(const std::vector<map::Place>& places, const std::string& text);
 
 }  // namespace omnimapper::query

@@ -47,9 +47,10 @@ class RoomToMove {
   bool is_start_known_ = false;
 };
 
-/// The pose at the distance nearest to `options.distance` from the target's edge that is nearest to `start`, straight
-/// in front of the free side if that is known, with a line of sight to the target. Poses connected to the start are
-/// preferred. Distances from half to twice the requested one are tried. None if none of these is free.
+/// A free pose that faces the target, with a line of sight to the target. The best pose is at `options.distance` from
+/// the target's edge nearest to `start`, straight in front of the target's free side if this side is known. If that
+/// pose is not free, other edges, directions, and distances from half to twice the requested distance are tried, and
+/// the pose that differs least is taken. Poses connected to the start are preferred. None if no such pose is free.
 std::optional<Goal> goalBefore(const map::Place& target, const Eigen::Vector2d& start, const RoomToMove& room,
                                const GridMap& grid, const GoalOptions& options);
 

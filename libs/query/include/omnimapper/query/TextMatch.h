@@ -18,13 +18,13 @@ std::string toString(MatchGrade grade);
 /// A name that fits a text.
 struct TextMatch {
   MatchGrade grade = MatchGrade::near;
-  double cost = 0;   ///< 0 except for `near`: the difference as a share of the longer text
+  double cost = 0;   ///< 0 except for `near`: how much the texts differ, about from 0 to 1
   std::string name;  ///< the name that fits
 };
 
-/// A text to compare names with, by weighted edits: letters and digits that are easily confused (0 and O, 1 and I and
-/// l, 8 and B, 5 and S) differ little, and a wrong digit costs twice as much as a wrong letter, because another
-/// number is another door. Texts and names are UTF-8; only their first 200 characters are compared.
+/// A text with which names are compared, by counting edits with weights: letters and digits that are easily confused (0
+/// and O, 1 and I and l, 8 and B, 5 and S) differ little, and a wrong digit costs twice as much as a wrong letter,
+/// because another number is another door. Texts and names are UTF-8; only their first 200 characters are compared.
 class AskedText {
  public:
   explicit AskedText(const std::string& text);

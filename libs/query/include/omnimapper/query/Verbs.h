@@ -16,8 +16,8 @@ struct Request {
 };
 
 struct Answer {
-  std::string text;                          ///< lines for a terminal, in which no name from the map moves the cursor
-  std::string json;                          ///< the same as one JSON document, ASCII
+  std::string text;                          ///< lines for a terminal; control characters in names are made printable
+  std::string json;                          ///< the answer as one JSON document, ASCII
   base::ExitCode code = base::ExitCode::ok;  ///< ok or nothing_found
 };
 
@@ -44,7 +44,7 @@ struct Verb {
 /// Throws Error(command_line) if the request has too few words for the verb.
 void expectWords(const Verb& verb, const Request& request);
 
-/// All verbs; the first one is used if words follow the map and none of them is a verb.
+/// All verbs. If the words after the map on the command line contain no verb, the first verb is used.
 const std::vector<Verb>& verbs();
 
 }  // namespace omnimapper::query
