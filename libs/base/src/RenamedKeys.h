@@ -14,7 +14,7 @@ inline const std::map<std::string, std::string>& renamedKeys() {
       {"join_way_m", "join_travel_m"},          {"jump_share", "relative_jump"},
       {"lost_way_m", "lost_travel_m"},          {"max_surprise", "max_outlier_share"},
       {"min_sightings", "min_measurements"},    {"min_way_m", "min_travel_m"},
-      {"pixel_noise", "point_sigma_px"},
+      {"pixel_noise", "point_sigma_px"},        {"sample_radius_m", "sample_cube_m"},
   };
   return keys;
 }

@@ -33,7 +33,7 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
                   "for a Kinect.")
           .number("gate_sigmas", &Options::gate, Range::positive(),
                   "A point farther from a plane than this many standard deviations is not on it.")
-          .number("sample_radius_m", &Options::sample_radius, Range::positive(),
+          .number("sample_cube_m", &Options::sample_cube, Range::positive(),
                   "Side of the cubes from which the three points of a plane hypothesis are drawn.")
           .integer("trials", &Options::trials, {1, 1000000},
                    "Largest number of point triples that are drawn for each plane.")

@@ -131,7 +131,9 @@ class ScanOdometryPluginFactory : public mapper::PosePluginFactory {
   DEFINE_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "ScanOdometryPlugin"; }
-  std::string summary() const override { return "Laser odometry: every 2D scan against those just before it."; }
+  std::string summary() const override {
+    return "Laser odometry: matches every 2D scan with a local map of the scans before it.";
+  }
   const std::vector<base::OptionSpec>& options() const override;
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
                                            const mapper::PluginContext& context) const override;

@@ -108,7 +108,8 @@ class ViewLinksPluginFactory : public mapper::MeasurementPluginFactory {
  public:
   std::string name() const override { return "ViewLinksPlugin"; }
   std::string summary() const override {
-    return "Links key frames by their depth images: each to several before it, and to views that are seen again.";
+    return "Links key frames by their depth images: each to several key frames before it, and to older ones that show "
+           "the same place.";
   }
   const std::vector<base::OptionSpec>& options() const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

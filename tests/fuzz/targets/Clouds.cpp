@@ -20,7 +20,7 @@ CloudPlaneOptions takeCloudOptions(Input& input) {
   options.range_sigma = input.between(1e-6, 0.1);
   options.noise_at_1m = input.flag() ? 0 : input.between(0, 0.01);
   options.gate = input.between(0.1, 10);
-  options.sample_radius = input.between(1e-3, 3);
+  options.sample_cube = input.between(1e-3, 3);
   options.trials = 1 + input.below(50);
   options.seed = input.below(1000);
   options.max_gap = input.between(1e-3, 1);

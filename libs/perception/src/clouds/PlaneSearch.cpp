@@ -134,7 +134,7 @@ void LoosePoints::remove(const std::vector<bool>& flags) {
 LoosePoints loosen(const Voxels& voxels, const CloudPlaneOptions& options) {
   const auto& points = voxels.means;
   int groups = 0;
-  const auto group = cubesOf(points, options.sample_radius, groups);
+  const auto group = cubesOf(points, options.sample_cube, groups);
   // Counting sort by group.
   std::vector<int> place(static_cast<std::size_t>(groups) + 1, 0);
   for (const int g : group) {

@@ -34,7 +34,7 @@ struct LoosePoints {
   void remove(const std::vector<bool>& flags);
 };
 
-/// Groups the means of voxels by cubes of side `options.sample_radius`, and computes their tolerances.
+/// Groups the means of voxels by cubes of side `options.sample_cube`, and computes their tolerances.
 LoosePoints loosen(const Voxels& voxels, const CloudPlaneOptions& options);
 
 /// Draws planes through three neighbouring points and returns the one that most points are on, refined by least

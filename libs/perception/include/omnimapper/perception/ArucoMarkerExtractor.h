@@ -42,26 +42,27 @@ struct ArucoMarkerOptions {
   static const base::OptionTable<ArucoMarkerOptions>& table();
 };
 
-/// Suffix of the label of a picture's markers, after the picture's label.
+/// The label of a picture's markers is the picture's label with this suffix.
 inline constexpr char kMarkersSuffix[] = ".markers";
 
-/// Extracts the square markers in a picture as points with numbers (thesis 4.6.3, where ranges and bearings are those
-/// of ARToolKit Plus markers). Markers are detected by OpenCV's ArUco (Garrido-Jurado et al.: Automatic generation and
-/// detection of highly reliable fiducial markers under occlusion, 2014), and a marker's pose is fitted to its four
-/// corners by least squares.
+/// Extracts the square markers in a picture; each becomes a point with the marker's number (thesis 4.6.3, which
+/// measures ranges and bearings of ARToolKit Plus markers). Markers are detected by OpenCV's ArUco (Garrido-Jurado et
+/// al.: Automatic generation and detection of highly reliable fiducial markers under occlusion, 2014), and a marker's
+/// pose is fitted to its four corners by least squares.
 ///
-/// Each picture gives one observation, with markers in the order of their ids. It has the picture's stamp and the label
-/// "<label>.markers"; its sensorLocationOnRobot is the camera's pose, rotated to MRPT's axes (x forward, y left, z up).
-/// A measurement is that of the marker's centre: range [m], yaw to the left and pitch down [rad], with the marker's id
-/// as landmarkID. The covariance of range, yaw and pitch follows from `corner_sigma` to first order, with the marker's
-/// orientation unknown. For a marker that faces the camera, which noise can only make seem tilted, squared errors are
-/// about a third larger than this covariance says.
+/// Each picture gives one observation, with markers in the order of their ids. The observation has the picture's stamp
+/// and the label "<label>.markers"; its sensorLocationOnRobot is the camera's pose, rotated to MRPT's axes (x forward,
+/// y left, z up). Each measurement states where the marker's centre is, as range [m], yaw [rad, positive to the left]
+/// and pitch [rad, positive down]; its landmarkID is the marker's id. The covariance of range, yaw and pitch follows
+/// from `corner_sigma` to first order, and the marker's orientation counts as unknown. Noise can only make a marker
+/// that faces the camera seem tilted; the squared errors of such a marker are about a third larger than the covariance
+/// says.
 /// Pictures must have 8 bits and 1 or 3 channels; others give no markers. Lens models are those of MRPT's TCamera:
 /// none, plumb_bob, kannala_brandt.
 ///
-/// markersIn() throws Error(missing_images) for a picture in a file that was not loaded (sources load them), and
-/// Error(unreadable_input) for a camera with a focal length below 1 px or a parameter that is not finite or beyond
-/// 10^6 px, unless the picture has no pixels. Thread-safe; the same picture gives the same bits.
+/// markersIn() throws Error(missing_images) for a picture in a file that was not loaded (sources load such files), and
+/// Error(unreadable_input) for a camera with a focal length below 1 px or a parameter that is not finite or beyond 10^6
+/// px, unless the picture has no pixels. Thread-safe; the same picture gives the same bits.
 class ArucoMarkerExtractor : public Extractor {
  public:
   static constexpr const char* kName = "ArucoMarkerExtractor";
@@ -69,7 +70,7 @@ class ArucoMarkerExtractor : public Extractor {
 
   explicit ArucoMarkerExtractor(const ArucoMarkerOptions& options) : options_(options) {}
 
-  /// The markers in the observation's picture (pictureOf()); none without a picture.
+  /// The markers in the observation's picture (pictureOf()). If there is no picture, the result contains no markers.
   mrpt::obs::CObservationBearingRange::Ptr markersIn(const mrpt::obs::CObservation& raw) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

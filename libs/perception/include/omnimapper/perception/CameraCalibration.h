@@ -12,17 +12,17 @@
 
 namespace omnimapper::perception {
 
-/// Section [calibration] of an INI file: calibration of a depth camera that replaces the one in its observations. A
-/// number that the section does not give stays as it is in the log.
+/// Section [calibration] of an INI file: a calibration of a depth camera, which replaces the calibration in the
+/// camera's observations. Numbers that the section does not give stay as they are in the log.
 struct CameraCalibrationOptions {
   using Number = std::optional<double>;
-  std::string label;  ///< of the camera's observations; empty: every depth camera
+  std::string label;  ///< label of the camera's observations; empty: every depth camera
 
   Number depth_fx, depth_fy, depth_cx, depth_cy;                      ///< [px]
   Number depth_k1, depth_k2, depth_p1, depth_p2, depth_k3;            ///< lens, as OpenCV and MRPT's plumb_bob have it
   Number picture_fx, picture_fy, picture_cx, picture_cy;              ///< [px]
   Number picture_k1, picture_k2, picture_p1, picture_p2, picture_k3;  ///< lens
-  Number depth_scale;                                                 ///< true depth over the depth in the log
+  Number depth_scale;                                                 ///< [-] true depth / depth in the log
   std::vector<std::string> depth_distortion;  ///< coefficients of DepthDistortion [1/m], each as text
   /// The pose depth_from_picture, defined as MRPT's relativePoseIntensityWRTDepth: the picture's frame is optical (x
   /// right, y down, z forward) while the depth camera's frame is not (x forward, y left, z up). [m] and [rad],
@@ -32,24 +32,24 @@ struct CameraCalibrationOptions {
   static const base::OptionTable<CameraCalibrationOptions>& table();
 };
 
-/// A calibration that replaces that of a depth camera in a log.
+/// A calibration that replaces the one that a depth camera has in a log.
 class CameraCalibration {
  public:
-  /// Changes nothing.
+  /// A calibration that changes nothing.
   CameraCalibration() = default;
-  /// Throws Error(out_of_range) for a pose of the picture that is given only in part and for coefficients that
+  /// Throws Error(out_of_range) for a pose of the picture that is only partly given and for coefficients that
   /// DepthDistortion refuses, and Error(wrong_type) for coefficients that are not numbers.
   explicit CameraCalibration(const CameraCalibrationOptions& options);
   /// Reads the section [calibration] of `config`; without that section the calibration changes nothing.
   static CameraCalibration read(const base::Config& config);
 
-  /// Whether it changes observations with that label.
+  /// Whether this calibration changes observations with the label `label`.
   bool isOf(const std::string& label) const { return is_set_ && (options_.label.empty() || options_.label == label); }
   const std::string& label() const { return options_.label; }
   const DepthDistortion& depthDistortion() const { return depth_distortion_; }
-  /// Replaces the intrinsics of the cameras, their relative pose and the unit of the depths. If there is a depth
-  /// distortion, the depth image is corrected first, in the log's units, and then scaled; else the image itself stays
-  /// as it is. Thread-safe.
+  /// Replaces the intrinsics of the cameras, their relative pose and the unit of the depths. A depth distortion is
+  /// corrected first, in the log's units of depth; without a depth distortion the depth image itself stays as it is.
+  /// Thread-safe.
   void applyTo(mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:

@@ -13,7 +13,7 @@
 namespace omnimapper::perception {
 
 struct CloudSensorOptions {
-  std::vector<std::string> sensor_labels;  ///< of the clouds to use; empty: all but those of other extractors
+  std::vector<std::string> sensor_labels;  ///< of the clouds to use; empty: all that no other extractor made
 
   static const base::OptionTable<CloudSensorOptions>& table();
 };
@@ -30,11 +30,11 @@ class CloudPlaneExtractor : public Extractor {
   CloudPlaneExtractor(const CloudPlaneOptions& planes, const CloudSensorOptions& sensors)
       : options_(planes), finder_(planes), sensors_(sensors) {}
 
-  /// Planes with the observation's stamp and sensorPose, in the frame of that pose, label "<its label>.planes". The
-  /// points of a Velodyne scan that has none are computed from its packets, as if the sensor stood still. Throws
-  /// Error(unreadable_input) for packets that do not fit their calibration, Error(missing_images) for clouds that are
-  /// in files and were not loaded (sources load them), and Error(internal) for other observations. Thread-safe; the
-  /// same cloud gives the same bits.
+  /// The planes of a cloud, in the frame of its sensorPose. They have the stamp and the sensorPose of the cloud, and
+  /// the label "<label of the cloud>.planes". If a Velodyne scan has packets but no points, the points are computed
+  /// from the packets, as if the sensor stood still. Throws Error(unreadable_input) for packets that do not fit their
+  /// calibration, Error(missing_images) for clouds in files that were not loaded (sources load such files), and
+  /// Error(internal) for other observations. Thread-safe; the same cloud gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> planesOf(const mrpt::obs::CObservation& raw) const;
 
   /// True for clouds and Velodyne scans of the sensors to use.

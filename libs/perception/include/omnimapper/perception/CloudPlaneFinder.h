@@ -11,21 +11,22 @@ namespace omnimapper::perception {
 
 struct CloudPlaneOptions {
   enum class Outline { convex, concave };
-  double voxel = 0.025;          ///< [m] side of the cubes over which points are averaged; 0 leaves them as they are
+  double voxel = 0.025;          ///< [m] side of the cubes over which points are averaged; 0: no averaging
   double min_range = 0.3;        ///< [m]
   double max_range = 100;        ///< [m]
   double range_sigma = 0.01;     ///< [m] standard deviation of a point along its ray, near the sensor
-  double noise_at_1m = 0;        ///< [m] the same at 1 m, for noise that grows with the squared range: depth cameras
-  double correlated_points = 1;  ///< number of neighbours that share an error: 9 for a Kinect
-  double bias_sigma = 0.01;      ///< [m] standard deviation of an error along their rays that points share
-  double distortion_at_1m = 0;   ///< [m] two sigma of such an error at 1 m that grows with the squared range
-  double scale_sigma = 0;        ///< [-] standard deviation of such an error, relative to the range
+  double noise_at_1m = 0;        ///< [m] at 1 m: further noise along the ray, which grows with the squared range
+  double correlated_points = 1;  ///< number of neighbouring points that share one error; 9 for a Kinect
+  double bias_sigma = 0.01;      ///< [m] standard deviation of the error along the rays that neighbouring points share
+  double distortion_at_1m = 0;   ///< [m] at 1 m: two sigma of a shared error that grows with the squared range
+  double scale_sigma = 0;        ///< [-] standard deviation of a shared error that is proportional to the range
   double gate = 3;               ///< [-] standard deviations; a point farther from a plane is not on it
-  double sample_radius = 0.3;    ///< [m] side of the cubes that three points are drawn from
+  double sample_cube = 0.3;    ///< [m] the three points that determine a plane are drawn from a cube with this side
   int trials = 300;              ///< largest number of triples that are drawn for each plane
-  int seed = 1;                  ///< of the random numbers that draw them
+  int seed = 1;                  ///< of the random numbers that draw the triples
   double max_gap = 0.1;          ///< [m] a plane with larger gaps is split into several surfaces
-  double min_incidence = 2 * base::option_text::kRadiansPerDegree;  ///< [rad] between a plane and the rays to it
+  /// [rad] Smallest angle between a plane and the rays to it.
+  double min_incidence = 2 * base::option_text::kRadiansPerDegree;
   int min_points = 150;  ///< least number of points of a surface, after averaging
   Outline outline = Outline::concave;
 
@@ -35,33 +36,33 @@ struct CloudPlaneOptions {
 /// A connected flat part of a cloud, in the cloud's frame.
 struct CloudPlane {
   geometry::Plane3 plane_in_sensor;  ///< normal towards the sensor, distance >= 0
-  /// Covariance of the two changes of the normal [rad] and that of the distance [m], as geometry/PlaneTangent.h defines
-  /// them. It includes the noise of the points, however many were averaged, and the errors that they share, which do
-  /// not average out.
+  /// Covariance of the two changes of the normal [rad] and the change of the distance [m], which
+  /// geometry/PlaneTangent.h defines. It includes the noise of the points, which averages out, and the errors that
+  /// neighbouring points share, which do not.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m] mean of its points, projected onto the plane
-  int inliers = 0;                                     ///< points, after averaging
-  double rms = 0;                                      ///< [m] distance of those from the plane
-  geometry::Polygon3 outline;                          ///< [m] on the plane, counter-clockwise against the normal
-  std::vector<geometry::Polygon3> holes;               ///< of a concave outline
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();  ///< [m] mean of the surface's points, projected onto the plane
+  int inliers = 0;                                     ///< number of points, after averaging
+  double rms = 0;                                      ///< [m] root mean square distance of these points from the plane
+  geometry::Polygon3 outline;                          ///< [m] on the plane, counter-clockwise as seen from the sensor
+  std::vector<geometry::Polygon3> holes;               ///< only if the outline is concave
 };
 
 struct CloudPlanes {
-  std::vector<std::uint16_t> labels;  ///< of each point: i + 1 on planes[i], 0 if on none
+  std::vector<std::uint16_t> labels;  ///< for each point: i + 1 if it lies on planes[i], 0 if it lies on none
   std::vector<CloudPlane> planes;     ///< in the order in which they were found: large ones first
 };
 
 /// Finds all planes of a cloud without order (thesis 3.3), such as that of a 3D laser, a tilting laser or several
-/// merged views. It takes the plane through three random points that most points lie on, and refines it by least
-/// squares. Each large cluster of points on that plane is a surface. The same is done with the remaining points until
-/// no surface is large enough.
+/// merged views. Of many planes through three random points, it takes the one on which most points lie, and refines
+/// this plane by least squares. Each large cluster of points on the plane is a surface. The search is repeated with the
+/// remaining points until no surface is large enough.
 /// - The three points are neighbours, since distant ones hardly ever lie on one surface. Source: Myatt et al., NAPSAC:
 ///   High noise, high dimensional robust estimation, BMVC 2002.
 /// - How far a point may be from a plane follows from the noise of its range.
-/// - Planes that are seen edge-on are left out: a sensor sees no surface so, but the points of one turn of a laser lie
-/// on
-///   planes through the laser.
-/// - A concave outline is that of the cells of side `max_gap` that the points fill, drawn in to the points.
+/// - Planes that are seen edge-on are left out: no sensor can see a surface edge-on, but the points of one turn of a
+///   laser lie on a plane through the laser.
+/// - A concave outline is the outline of the square cells of side `max_gap` in which points lie, moved inwards to the
+///   points.
 class CloudPlaneFinder {
  public:
   /// Throws Error(out_of_range) for min_range >= max_range.

@@ -9,14 +9,14 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours close together in space and on no masked surface (thesis 3.4.6), such as those of one object
-/// on a table whose plane is masked.
+/// Comparator for connectComponents(): joins neighbours that are close together in space and on no masked surface
+/// (thesis 3.4.6), such as the pixels of an object on a table whose plane is masked.
 struct ClusterComparator {
   const OrganizedPoints& points;
-  const std::vector<std::uint16_t>& labels;  ///< of each pixel, such as those of PlaneSegmentation
+  const std::vector<std::uint16_t>& labels;  ///< label of each pixel, such as PlaneSegmentation::labels
   const std::vector<std::uint8_t>& masked;   ///< for each label, 0 included, whether its pixels are left out
   float max_gap = 0.02F;                     ///< [m]
-  float max_gap_at_1m = 0.0069F;             ///< [m] noise at 1 m; times the squared depth, it adds to max_gap
+  float max_gap_at_1m = 0.0069F;  ///< [m] noise at 1 m; multiplied by the squared depth, it is added to max_gap
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);

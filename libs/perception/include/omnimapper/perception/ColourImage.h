@@ -4,7 +4,8 @@
 
 namespace omnimapper::perception {
 
-/// A colour picture somebody else owns: rows from the top, `stride` bytes apart, each pixel one byte (grey) or three.
+/// A colour picture that somebody else owns: rows from the top, `stride` bytes apart, each pixel one byte (grey) or
+/// three.
 struct ColourImage {
   enum class Order { grey, rgb, bgr };
   const std::uint8_t* pixels = nullptr;

@@ -5,13 +5,14 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on one plane and of one colour (thesis 3.4.5), such as those of a sheet of paper on a table.
-/// The edge between two colours is some pixels wide in a picture, so that neighbours there differ by little: pixels
-/// across which the colour changes within `reach` belong to no component. Light that changes slowly separates nothing.
+/// Comparator for connectComponents(): joins neighbours on one plane and of one colour (thesis 3.4.5), such as the
+/// pixels of a sheet of paper on a table. In a picture, the edge between two colours is some pixels wide, so that
+/// neighbours on it differ by little. Therefore a pixel belongs to no component if the colours `reach` pixels to its
+/// two sides differ. Light that changes slowly separates nothing.
 struct ColouredPlaneComparator {
   PlanePixels pixels;
   double max_distance = 30;  ///< Euclidean in RGB, in the 256 steps of a channel
-  int reach = 2;             ///< [px] on either side
+  int reach = 2;             ///< [px] distance at which colours are compared, to either side
 
   bool valid(int pixel) const {
     const int column = pixel % pixels.width, row = pixel / pixels.width;
@@ -28,14 +29,15 @@ struct ColouredPlaneComparator {
     return red * red + green * green + blue * blue <= max_distance * max_distance;
   }
 
-  // Whether the colour does not change across a pixel, along the row (step 1) or the column (step width). There are
-  // `before` and `behind` pixels on its two sides.
+  // True if the colour is the same on both sides of a pixel, along the row (step 1) or the column (step width).
+  // `before` and `behind`: numbers of pixels between this pixel and the image's border on the two sides.
   bool isPlain(int pixel, int step, int before, int behind) const {
     const int one = onPlane(pixel, -step, before), other = onPlane(pixel, step, behind);
     return isAlike(one, other) && isAlike(pixel, one);
   }
 
-  // The farthest pixel within reach on the same plane; `step` leads from one pixel to the next.
+  // The farthest pixel within `reach` that is on the same plane. `step` leads from one pixel to the next; there are
+  // `room` pixels up to the image's border.
   int onPlane(int pixel, int step, int room) const {
     int other = pixel + step * (reach < room ? reach : room);
     while (pixels.planes[other] != pixels.planes[pixel]) other -= step;

@@ -14,9 +14,10 @@ struct PixelRun {
 struct Components {
   int width = 0, height = 0;
   std::vector<PixelRun> runs;  ///< from top to bottom, from left to right
-  std::vector<int> pixels;     ///< of each component; components are numbered by their first pixel
+  std::vector<int> pixels;     ///< number of pixels of each component; components are sorted by their first pixel
 
-  /// For each pixel its component + 1, or 0 where it belongs to none or to one with fewer than `fewest` pixels.
+  /// For each pixel the number of its component plus 1, or 0 for pixels of no component and of components with fewer
+  /// than `fewest` pixels.
   std::vector<std::int32_t> labels(int fewest = 1) const;
 };
 
@@ -48,13 +49,13 @@ class UnionFind {
   std::vector<int> parent_;
 };
 
-/// Second pass: replaces provisional numbers by those of components.
+/// Second pass of connectComponents(): replaces the provisional numbers of the runs by the numbers of their components.
 void numberComponents(UnionFind& sets, Components& components);
 
 }  // namespace detail
 
-/// The functions that connectComponents() calls for a row are below. A comparator that can answer for many pixels at
-/// once, such as one of equal labels, has its own overloads of them.
+/// connectComponents() calls the following three functions for each row. A comparator that can decide about many pixels
+/// at once, such as SameLabel, has its own overloads of these functions.
 
 /// The first valid pixel from `begin` on, or `end_of_row`.
 template <class Comparator>
@@ -71,8 +72,8 @@ int endOfRun(const Comparator& comparator, int begin, int end_of_row) {
   return end;
 }
 
-/// Whether any of `n` pixels from `below` on is similar to the one above it; the upper pixels are of one run, and so
-/// are the lower ones.
+/// Whether any of the `n` pixels from `below` on is similar to the pixel above it; the first of the upper pixels is
+/// `above`. The upper pixels belong to one run, and so do the lower ones.
 template <class Comparator>
 bool touch(const Comparator& comparator, int above, int below, int n) {
   for (int i = 0; i < n; ++i) {
@@ -83,8 +84,8 @@ bool touch(const Comparator& comparator, int above, int below, int n) {
 
 /// Finds the 4-connected components of an image in two passes with union-find (thesis 3.4.2). The comparator decides
 /// which pixels belong together; pixels are numbered row by row:
-///   bool valid(int pixel) const;           whether it may belong to a component
-///   bool similar(int a, int b) const;      for valid neighbours, b right of a or below it
+///   bool valid(int pixel) const;           whether the pixel may belong to a component
+///   bool similar(int a, int b) const;      for valid neighbours a and b, where b is to the right of a or below a
 template <class Comparator>
 Components connectComponents(int width, int height, const Comparator& comparator) {
   Components result;

@@ -7,14 +7,14 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours close together in space, unless the boundary between them is concave: objects that touch meet
-/// at concave boundaries, and most objects have none themselves. Source of the idea: S. Stein et al., Object
-/// partitioning using local convexity, CVPR 2014.
+/// Comparator for connectComponents(): joins neighbours that are close together in space, unless the boundary between
+/// them is concave. Objects that touch meet at a concave boundary, while most objects have no concave boundaries of
+/// their own. Source of the idea: S. Stein et al., Object partitioning using local convexity, CVPR 2014.
 struct ConvexClusterComparator {
   ClusterComparator cluster;
   const NormalImage& normals;
-  int reach = 6;               ///< [px] from a boundary, where the normals are those of its sides
-  float max_cosine = 0.9397F;  ///< of the angle between the sides' normals: 20 deg
+  int reach = 6;               ///< [px] distance from a boundary at which the normals of its two sides are taken
+  float max_cosine = 0.9397F;  ///< cosine of 20 deg, the smallest angle between the normals at a concave boundary
 
   bool valid(int pixel) const { return cluster.valid(pixel); }
 
@@ -35,13 +35,14 @@ struct ConvexClusterComparator {
     const auto i = static_cast<std::size_t>(pixel);
     return {normals.x()[i], normals.y()[i], normals.z()[i]};
   }
-  /// Vector from `from`, along the surface with the normal `surface` there, to the ray through `to`. Its direction does
-  /// not depend on the two depths, so that their noise does not matter.
+  /// The vector from the point `from` to the ray through `to`, within the plane through `from` with the normal
+  /// `surface`. Its direction does not depend on the depths of the two points, so that the noise of the depths does not
+  /// matter.
   static Vector step(const Vector& from, const Vector& surface, const Vector& to) {
     return to * (surface.dot(from) / surface.dot(to)) - from;
   }
 
-  // The pixel `reach` steps beyond `to`, coming from its neighbour `from`, or the last one before the image's border.
+  // The pixel `reach` steps beyond `to`, coming from its neighbour `from`, or the last pixel before the image's border.
   int beyond(int from, int to) const {
     const int step = to - from, width = cluster.points.width;
     const int row = to / width, column = to % width;

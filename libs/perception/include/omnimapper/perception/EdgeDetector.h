@@ -21,8 +21,8 @@ struct EdgeOptions {
   bool high_curvature = true;   ///< whether to look for high curvature edges
   /// [rad] Smallest angle between the two sides of a high curvature edge.
   double min_turn = 25 * base::option_text::kRadiansPerDegree;
-  double turn_sigmas = 2;   ///< smallest such angle, in standard deviations of the angle between two normals
-  int window_radius = 4;    ///< [px] of the windows of normals
+  double turn_sigmas = 2;   ///< smallest angle of such an edge in standard deviations of the angle between two normals
+  int window_radius = 4;    ///< [px] radius of the square window from which a normal is estimated
   int min_turn_pixels = 8;  ///< high curvature edges with fewer pixels are dropped
   bool rgb = true;          ///< whether to look for edges in the picture, if there is one
   double rgb_low = 40;    ///< edges continue above this gradient, |gx| + |gy| of Sobel's 3 x 3 operators on 8-bit grey
@@ -33,12 +33,13 @@ struct EdgeOptions {
 };
 
 /// Finds the five kinds of edges of thesis 3.1 in a depth image and the picture of the same view.
-/// - Occluding and occluded: the near and the far side of a depth discontinuity. It is between two 8-connected
-/// neighbours,
-///   or the pixels on both sides of a hole in a row or column, that differ by more than the noise and `relative_jump`
-///   allow, also when the surface on either side is continued to the other: a merely oblique surface has none.
-/// - Boundary: a pixel beside a hole that is open (longer than `max_hole`, or reaching the image's border) in each
-///   direction in which the pixel touches it, and which is on no depth discontinuity. The image's border alone is none.
+/// - Occluding and occluded: the near and the far side of a depth discontinuity. A discontinuity lies between two
+///   8-connected neighbours, or between the pixels on both sides of a hole in a row or column. Their depths must differ
+///   by more than the noise and `relative_jump` allow, and by more than the noise even if the surface on either side is
+///   continued to the other pixel. A surface that is merely oblique therefore has no discontinuity.
+/// - Boundary: a pixel beside a hole, unless the pixel is on a depth discontinuity. In each direction in which the
+///   pixel touches a hole, the hole must be longer than `max_hole` or reach the image's border. The image's border
+///   alone is no boundary edge.
 /// - High curvature: the normals of neighbours on one surface differ by more than `min_turn` and by more than the noise
 ///   explains. Pixels without normals between such neighbours are skipped.
 /// - RGB: Canny's edges of the picture where there is depth. J. Canny: A computational approach to edge detection, PAMI
@@ -50,9 +51,9 @@ class EdgeDetector {
   /// Throws Error(out_of_range) for min_depth >= max_depth or rgb_low > rgb_high.
   explicit EdgeDetector(const EdgeOptions& options);
 
-  /// Finds the kinds of edges that the options want, except RGB. Thread-safe, as is the other overload.
+  /// Finds the kinds of edges that the options ask for, except RGB. Both overloads are thread-safe.
   EdgeImage detect(const DepthImage& image) const;
-  /// Throws Error(unreadable_input) if the picture is not of the depth image's size.
+  /// Finds RGB edges, too. Throws Error(unreadable_input) if the picture does not have the size of the depth image.
   EdgeImage detect(const DepthImage& image, const ColourImage& colour) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace omnimapper::perception {
 
-/// Suffix of the labels of a scan's edges, after the scan's label and before the name of the kind of edges.
+/// The label of a scan's edges is the scan's label, this suffix, and the name of the kind of edges.
 inline constexpr char kEdgesSuffix[] = ".edges.";
 
 /// Extracts the 3D edges of a range camera's depth image and picture (thesis 3.1), as EdgeDetector finds them.
@@ -23,14 +23,15 @@ class EdgeExtractor : public Extractor {
   /// Throws as EdgeDetector.
   explicit EdgeExtractor(const EdgeOptions& options) : options_(options), detector_(options) {}
 
-  /// One cloud for each kind that the options want, RGB only for scans with a picture: stamp and sensorPose of the
-  /// scan, points [m] in the frame of that pose (x forward, y left, z up), label "<scan label>.edges.<nameOf(kind)>".
-  /// If the picture has another view than the depth image, RGB edges are the depth pixels at which the picture shows an
-  /// edge, by the two cameras' calibrations. Throws Error(unreadable_input) for a camera whose focal length is unknown
-  /// and Error(missing_images) for images that are in files and were not loaded; sources load them. Thread-safe; the
-  /// same scan gives the same bits.
+  /// One cloud for each kind of edges that the options ask for; RGB edges only if the scan has a picture. A cloud has
+  /// the scan's stamp and sensorPose, points [m] in the frame of this pose (x forward, y left, z up), and the label
+  /// "<scan label>.edges.<nameOf(kind)>". If the picture has another view than the depth image, RGB edges are those
+  /// depth pixels at which the picture shows an edge according to the calibrations of the two cameras. Throws
+  /// Error(unreadable_input) for a camera whose focal length is unknown, and Error(missing_images) for images in files
+  /// that were not loaded (sources load such files). Thread-safe; the same scan gives the same bits.
   std::vector<mrpt::obs::CObservationPointCloud::Ptr> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
-  /// Labels of the clouds that extract() makes of the scan. Throws if its picture was not loaded.
+  /// Labels of the clouds that extract() makes of the scan. Throws Error(missing_images) if the scan's picture is in a
+  /// file that was not loaded.
   std::vector<std::string> labelsOf(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

@@ -30,7 +30,8 @@ struct EdgeImage {
 };
 
 /// The points [m] of all pixels with one of `kinds`, row by row, in the camera's optical frame: x right, y down, z
-/// forward. Pixels on edges have depth. Throws Error(unreadable_input) if `image` is not of the labels' size.
+/// forward. Every pixel on an edge has a depth. Throws Error(unreadable_input) if `image` does not have the size of
+/// `edges`.
 std::vector<Eigen::Vector3f> edgePoints(const EdgeImage& edges, const DepthImage& image, unsigned kinds);
 
 }  // namespace omnimapper::perception

@@ -5,9 +5,10 @@
 
 namespace omnimapper::perception {
 
-/// Gives pixels without a label (0) the label of a neighbour, ring by ring around those that have one, at most `rings`
-/// times (thesis 3.4.4, in one pass over the pixels that change). The comparator is one of connectComponents(): a pixel
-/// takes the label if it is valid and similar(neighbour, pixel) holds, whichever of the two comes first in the image.
+/// Gives pixels without a label (0) the label of a neighbour: ring by ring around the pixels that have a label, at most
+/// `rings` rings (thesis 3.4.4, in one pass over the pixels that change). The comparator is one that
+/// connectComponents() could use. A pixel takes the label of its neighbour if the pixel is valid and similar(neighbour,
+/// pixel) holds, whichever of the two comes first in the image.
 template <class Comparator>
 void growLabels(int width, int height, const Comparator& comparator, int rings, std::vector<std::int32_t>& labels) {
   const auto at = [&](int pixel) -> std::int32_t& { return labels[static_cast<std::size_t>(pixel)]; };

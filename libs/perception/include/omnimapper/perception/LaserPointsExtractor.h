@@ -13,7 +13,8 @@ struct LaserPointsOptions {
   double min_range = 0.1;          ///< [m]
   double max_range = 40.0;         ///< [m]; the sensor's own limit applies too
   double spacing = 0.05;           ///< [m] between kept points along the scan; 0 keeps all
-  double isolated_distance = 0.5;  ///< [m]; a point this far from both its neighbours is a mixed pixel; 0 keeps all
+  double isolated_distance = 0.5;  ///< [m] a point this far from both of its neighbours is dropped, because its beam
+                                   ///< probably hit the edge of something and what is behind it; 0 keeps all
 
   static const base::OptionTable<LaserPointsOptions>& table();
 };
@@ -32,9 +33,9 @@ class LaserPointsExtractor : public Extractor {
   /// Whether the observation was made by such an extractor, in this run or in an earlier one that wrote it to a log.
   static bool made(const mrpt::obs::CObservation& observation);
 
-  /// A CObservationPointCloud with the scan's stamp and sensorPose, points in the sensor frame [m], label
-  /// "<scan label>.points". Beams that are invalid, not finite, out of range or at the sensor's own limit, where
-  /// nothing came back, give no point. Thread-safe.
+  /// A CObservationPointCloud with the scan's stamp and sensorPose, with points in the sensor frame [m], and with the
+  /// label "<scan label>.points". Beams that are invalid, not finite, out of range or at the sensor's own limit (no
+  /// echo) give no point. Thread-safe.
   mrpt::obs::CObservation::Ptr extract(const mrpt::obs::CObservation2DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

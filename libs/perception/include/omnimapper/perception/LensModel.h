@@ -20,12 +20,12 @@ class LensModel {
   /// `who` names the camera in the message.
   LensModel(const mrpt::img::TCamera& camera, const std::string& who);
 
-  /// The rays of image points; none if the lens has no ray for one of them.
+  /// The rays of four image points; none if one of the points has no ray in the lens model.
   std::optional<Corners> raysOf(const Corners& in_image) const;
 
   struct Projection {
     Eigen::Vector2d place;                 ///< [px]
-    Eigen::Matrix<double, 2, 3> by_point;  ///< [px/m] derivative of the place by the point
+    Eigen::Matrix<double, 2, 3> by_point;  ///< [px/m] derivative of `place` by the point
   };
   /// Projects a point in front of the camera, given in the optical frame [m].
   Projection project(const Eigen::Vector3d& point) const;

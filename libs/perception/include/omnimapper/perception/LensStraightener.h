@@ -9,7 +9,7 @@
 namespace omnimapper::perception {
 
 /// Removes the lens distortion from the images of one range camera (radial and tangential, or fisheye, in OpenCV's and
-/// MRPT's models), so that they are those of pinhole cameras with the same focal lengths and centres.
+/// MRPT's models), so that they look as if taken by pinhole cameras with the same focal lengths and centres.
 class LensStraightener {
  public:
   LensStraightener();
@@ -17,15 +17,17 @@ class LensStraightener {
   LensStraightener(const LensStraightener&) = delete;
   LensStraightener& operator=(const LensStraightener&) = delete;
 
-  /// Returns a scan with undistorted images and cameras without distortion, or `scan` itself if its lenses move no
-  /// pixel by a third of a pixel or its calibration is invalid. Beside the images only stamps, labels and poses are
-  /// kept: no points and no confidences. Pixels that the lens did not show have no depth and are black. Throws
-  /// Error(missing_images) if the picture is in a file that cannot be read.
+  /// Returns a scan with undistorted images and cameras without distortion. An image stays as it is if its lens moves
+  /// every pixel by less than a third of a pixel, or if its calibration is invalid; if this holds for all images,
+  /// returns `scan` itself. A new scan has the stamp, the label and the poses of `scan`, but no points and no
+  /// confidences. Pixels that the lens did not show have no depth and are black. Throws Error(missing_images) if the
+  /// picture is in a file that cannot be read.
   mrpt::obs::CObservation3DRangeScan::ConstPtr straightened(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
 
  private:
   struct Map;
-  /// The undistortion map for a camera and an image size, which is kept for the next images; null if none is needed.
+  /// The undistortion map for a camera and an image size; null if the image stays as it is. `kept` keeps the map for
+  /// the next images.
   const Map* mapOf(const mrpt::img::TCamera& camera, int width, int height, std::unique_ptr<Map>& kept);
 
   std::unique_ptr<Map> depth_, picture_;

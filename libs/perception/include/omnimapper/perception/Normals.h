@@ -12,11 +12,11 @@ struct NormalOptions {
   double step_at_1m = DepthNoise().step;    ///< [m]
   double min_depth = 0.2;                   ///< [m]
   double max_depth = 12;                    ///< [m]
-  int radius = 4;                           ///< [px] of the square window, of 2 radius + 1 pixels a side; 1 to 7
+  int radius = 4;                           ///< [px] 1 to 7; the square window has 2 radius + 1 pixels a side
 };
 
-/// Unit normals in the order of an image's pixels, towards the sensor, in its optical frame; NaN where none could be
-/// determined.
+/// Unit normals of an image's pixels, row by row. They point towards the sensor and are in its optical frame (x right,
+/// y down, z forward). NaN where no normal could be determined.
 struct NormalImage {
   int width = 0, height = 0;
   /// All x, then all y, then all z.
@@ -28,14 +28,14 @@ struct NormalImage {
   const float* z() const { return values.get() + 2 * size(); }
 };
 
-/// Estimates the normal of each pixel from the plane fitted to the window around it, in inverse depth for the reasons
-/// given at PlaneSegmenter. Where the window reaches over an edge, over pixels that were not measured or over the
-/// image's border, the normal is that of a neighbour on whose plane the pixel lies, up to 2 radius steps away. Images
-/// narrower than the window plus seven pixels have no normals.
+/// Estimates the normal of each pixel from a plane that is fitted to the window around the pixel. The fit uses inverse
+/// depths, for the reasons given at PlaneSegmenter. Where the window contains an edge or pixels that were not measured,
+/// or reaches beyond the image's border, the pixel gets the normal of another pixel on whose plane it lies, at most 2
+/// radius steps away. Images narrower than the window plus seven pixels have no normals.
 class NormalEstimator {
  public:
-  /// Throws Error(out_of_range) for a radius out of 1 to 7, a noise that is not positive, a negative step, or depths
-  /// that are not 0 < min_depth < max_depth.
+  /// Throws Error(out_of_range) unless 0 < min_depth < max_depth, and for a radius out of 1 to 7, a noise that is not
+  /// positive, or a negative step.
   explicit NormalEstimator(const NormalOptions& options);
 
   /// Thread-safe.

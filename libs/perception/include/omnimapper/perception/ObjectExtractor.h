@@ -15,12 +15,12 @@ struct ObjectPointOptions {
   static const base::OptionTable<ObjectPointOptions>& table();
 };
 
-/// Suffix of the label of a scan's objects, after the scan's label.
+/// The label of a scan's objects is the scan's label with this suffix.
 inline constexpr char kObjectsSuffix[] = ".objects";
 
 /// Extracts the planes of a range camera's depth image and the objects that stand on them, as ObjectFinder finds them
-/// (thesis 3.4.6, 3.5.1.2). Since objects refer to their plane by its index, it also gives the planes that a
-/// PlaneExtractor with the same options gives.
+/// (thesis 3.4.6, 3.5.1.2). Since objects refer to their plane by its index, this extractor also returns the planes,
+/// which are the same as those of a PlaneExtractor with the same options.
 class ObjectExtractor : public Extractor {
  public:
   static constexpr const char* kName = "ObjectExtractor";
@@ -46,23 +46,24 @@ class ObjectExtractor : public Extractor {
                   const ObjectPointOptions& points)
       : ObjectExtractor(Options{planes, outlines, objects, points}) {}
 
-  /// Both with the scan's stamp and sensorPose, in the frame of that pose, labels "<scan label>.planes" and
-  /// "<scan label>.objects". The scan's sensorPose determines which direction is up. An object's points are thinned
-  /// evenly to at most `max_points`; they have colours if the scan has one for each of them. Throws as PlaneExtractor.
-  /// Thread-safe; the same scan gives the same bits.
+  /// The planes and the objects of a scan. Both have the scan's stamp and sensorPose, are in the frame of this pose,
+  /// and have the labels "<scan label>.planes" and "<scan label>.objects". The scan's sensorPose determines which
+  /// direction is up. An object's points are thinned evenly to at most `max_points`; they have colours if the scan has
+  /// a colour for each of them. Throws as PlaneExtractor. Thread-safe; the same scan gives the same bits.
   Found extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
-  /// A warning if no scan showed a level surface, and only objects on surfaces were asked for.
+  /// A warning if only objects on level surfaces were asked for, but no scan showed such a surface.
   std::vector<std::string> warnings() const override;
 
  private:
   Options options_;
   PlaneSegmenter segmenter_;
   ObjectFinder finder_;
-  mutable std::atomic<std::size_t> scans_{0}, with_surface_{0};  // of the scans that extract(raw) was given
+  mutable std::atomic<std::size_t> scans_{0}, with_surface_{0};  // number of scans given to extract(raw), and of those
+                                                                 // with a level surface
 };
 
 }  // namespace omnimapper::perception

@@ -14,7 +14,7 @@ struct OrganizedPoints {
   std::vector<float> x, y, z;
 };
 
-/// Depths outside [min_depth, max_depth] [m] are no measurement.
+/// Computes the points of a depth image. Depths outside [min_depth, max_depth] [m] count as not measured.
 OrganizedPoints backProject(const DepthImage& image, double min_depth = 0,
                             double max_depth = std::numeric_limits<double>::infinity());
 

@@ -24,13 +24,13 @@ struct PlaneComparisonOptions {
   static const base::OptionTable<PlaneComparisonOptions>& table();
 };
 
-/// A criterion for which neighbouring pixels are of one plane; an INI chooses it by `comparator = ...`. Its functions
-/// are called once for an image; the comparators in them are inlined.
+/// A criterion by which neighbouring pixels belong to one plane; an INI chooses it by `comparator = ...`. Each function
+/// is called once for an image; the comparator that decides about single pixels is inlined in it.
 struct PlaneComparison {
   /// Finds the planes of an image and which pixels lie on each; see planes/LabelledPlanes.h.
   planes::LabelledPlanes (*find)(const DepthImage& image, const planes::InverseDepth& inverse,
                                  const PlaneOptions& options);
-  /// Finds which of a plane's pixels belong together; pixels of no component are left out.
+  /// Finds which pixels of a plane belong together. Pixels in no component are removed from their plane.
   Components (*connect)(const PlanePixels& pixels, const PlaneComparisonOptions& options);
   bool needs_colours = false;
 };
@@ -41,7 +41,7 @@ extern const PlaneComparison kSimilarNormals;      ///< flat surfaces, by the no
 
 namespace detail {
 
-/// A comparator for which all pixels on planes are valid; which ones are similar, `comparator` decides.
+/// A comparator for which all pixels on planes are valid; `comparator` decides which ones are similar.
 template <class Comparator>
 struct OnPlane {
   const Comparator& comparator;
@@ -52,9 +52,9 @@ struct OnPlane {
 
 }  // namespace detail
 
-/// Splits planes into pieces by a comparator. Each of its components is the start of a piece, except for specks. The
-/// other pixels of a plane then join a piece beside them that they are similar to, or else any piece, if it is at most
-/// four pixels away (thesis 3.4.4), so that noise and thin print leave no holes.
+/// Splits planes into pieces by a comparator. Each component of at least 16 pixels is the core of a piece. The other
+/// pixels of a plane then join a piece that is at most four pixels away: first a piece to which they are similar, and
+/// if there is none, any piece of their plane (thesis 3.4.4). Noise and thin print therefore leave no holes.
 template <class Comparator>
 Components connectPieces(const PlanePixels& pixels, const Comparator& comparator) {
   constexpr int kFewest = 16, kRings = 4;

@@ -9,14 +9,14 @@
 namespace omnimapper::perception {
 
 struct OutlineOptions {
-  /// [px]; corners of an outline that lie closer to the line through the others are left out. 0 keeps every corner of
-  /// every pixel, some ten times as many.
+  /// [px] A corner of an outline that is nearer than this to the line through the remaining corners is left out. 0
+  /// keeps all corners of pixels, which are some ten times as many.
   double tolerance = 1;
 
   static const base::OptionTable<OutlineOptions>& table();
 };
 
-/// Suffix of the label of a scan's planes, after the scan's label.
+/// The label of a scan's planes is the scan's label with this suffix.
 inline constexpr char kPlanesSuffix[] = ".planes";
 
 /// Extracts the planes of a range camera's depth image (thesis 3.4), as PlaneSegmenter finds them.
@@ -30,12 +30,13 @@ class PlaneExtractor : public Extractor {
                  const PlaneComparisonOptions& comparison = {})
       : segmenter_(planes, comparison), outlines_(outlines) {}
 
-  /// Planes with the scan's stamp and sensorPose, in the frame of that pose (x forward, y left, z up), label
-  /// "<scan label>.planes". Colours are those of the scan's picture, mapped by the calibrations of both
-  /// cameras if the picture has another view than the depth image. Depths of 0 or 65535 units are no measurements; lens
-  /// distortion is not removed. A scan without depths has no planes. Throws Error(unreadable_input) for a camera whose
-  /// focal length is unknown, or where a comparison needs colours and the scan has none, and Error(missing_images) for
-  /// images that are in files and were not loaded; sources load them. Thread-safe; the same scan gives the same bits.
+  /// The planes of a scan, in the frame of its sensorPose (x forward, y left, z up). They have the scan's stamp and
+  /// sensorPose, and the label "<scan label>.planes". Their colours come from the scan's picture; if the picture has
+  /// another view than the depth image, the calibrations of both cameras relate their pixels. Depths of 0 or 65535
+  /// units are no measurements; lens distortion is not removed. A scan without depths has no planes. Throws
+  /// Error(unreadable_input) for a camera whose focal length is unknown, and if the comparison needs colours and the
+  /// scan has none. Throws Error(missing_images) for images in files that were not loaded (sources load such files).
+  /// Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

@@ -26,22 +26,22 @@ struct PlaneOptions {
   static const base::OptionTable<PlaneOptions>& table();
 };
 
-/// Finds all planes of an organized depth image (thesis 3.4.3 and 3.4.4), to the pixel.
-/// A plane is linear in inverse depth, 1/z = a u + b v + c, and the noise of triangulating sensors is the same
-/// everywhere in inverse depth: least squares there are exact for planes, and each threshold is one number of the noise
-/// model, near and far. Cells of 16 x 16 pixels are fitted and grown to regions, regions that one plane explains are
-/// merged, borders are decided pixel by pixel, and the resulting regions are fitted again and outlined. A comparison
-/// may have further criteria than lying on one plane, or find planes by another method. The result has the same bits on
-/// every x86-64, with AVX2 and without.
+/// Finds all planes of an organized depth image (thesis 3.4.3 and 3.4.4), accurate to a pixel. All computations use the
+/// inverse depth 1/z. The inverse depth of a plane is linear in column u and row v, 1/z = a u + b v + c, and the noise
+/// that triangulating sensors have in it is the same at all depths. A linear least squares fit of inverse depths is
+/// therefore exact for planes, and each threshold is a single number for near and far planes. Cells of 16 x 16 pixels
+/// are fitted and grown to regions, regions that one plane explains are merged, borders are decided pixel by pixel, and
+/// the resulting regions are fitted again and outlined. A comparison may have further criteria than lying on one plane,
+/// or find planes by another method. The result has the same bits on every x86-64, with AVX2 and without.
 class PlaneSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.
   explicit PlaneSegmenter(const PlaneOptions& options, const PlaneComparisonOptions& comparison = {});
 
-  /// Thread-safe. An image without a plane gives none, whatever its size.
+  /// Thread-safe. For an image without planes, such as one without pixels, the result has no planes.
   PlaneSegmentation segment(const DepthImage& image) const { return segment(image, {}); }
-  /// `colours` has the colour of each pixel, row by row, black where it is not known. A comparison that needs colours
-  /// throws Error(unreadable_input) if there are not as many as pixels.
+  /// `colours` has the colour of each pixel, row by row, black where it is not known. Throws Error(unreadable_input) if
+  /// the comparison needs colours and there are not as many colours as pixels.
   PlaneSegmentation segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const;
   bool needsColours() const { return comparison_.comparison->needs_colours; }
 

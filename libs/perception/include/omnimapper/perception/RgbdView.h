@@ -11,16 +11,16 @@ namespace omnimapper::perception {
 /// The depth image of a range camera's observation, in its optical frame, and the colour of each of its pixels.
 class RgbdView {
  public:
-  /// The observation must outlive it. Throws Error(missing_images) for images in files that were not loaded, and
-  /// Error(unreadable_input) for a camera without a calibration.
+  /// The observation must outlive this object. Throws Error(missing_images) for images in files that were not loaded,
+  /// and Error(unreadable_input) for a camera without a calibration.
   explicit RgbdView(const mrpt::obs::CObservation3DRangeScan& scan);
   ~RgbdView();
   RgbdView(const RgbdView&) = delete;
   RgbdView& operator=(const RgbdView&) = delete;
 
   const DepthImage& depth() const;
-  /// Null without a picture of 8 bits. A picture of another view is converted to the view of the depths, where pixels
-  /// that it does not show are black.
+  /// The colours of the depth image's pixels; null if there is no picture of 8 bits. A picture with another view is
+  /// converted to the view of the depth image; pixels that the picture does not show are black then.
   const ColourImage* colour() const;
 
  private:

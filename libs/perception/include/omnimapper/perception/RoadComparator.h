@@ -9,16 +9,17 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on ground that may rise and fall smoothly and is near the expected ground (thesis 3.4.7).
+/// Comparator for connectComponents(): joins neighbours on ground that may rise and fall smoothly and is near the
+/// expected ground (thesis 3.4.7).
 struct RoadComparator {
   const OrganizedPoints& points;
   const NormalImage& normals;
-  Eigen::Vector3f up = -Eigen::Vector3f::UnitY();  ///< of the expected ground, in the optical frame
-  float height = 0;                                ///< [m] of the sensor above it
-  float min_cosine = 0.94F;                        ///< of the angle between a normal and `up`: 20 deg
+  Eigen::Vector3f up = -Eigen::Vector3f::UnitY();  ///< unit normal of the expected ground, in the optical frame
+  float height = 0;                                ///< [m] height of the sensor above the expected ground
+  float min_cosine = 0.94F;                        ///< cosine of the largest angle between a normal and `up`: 20 deg
   float max_off = 0.3F;                            ///< [m] largest distance from the expected ground
   float max_slope = 0.1F;                          ///< [-] increase of max_off with each metre of depth
-  float min_cosine_between = 0.98F;                ///< of the angle between neighbours' normals
+  float min_cosine_between = 0.98F;                ///< cosine of the largest angle between the normals of neighbours
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);

@@ -9,16 +9,16 @@
 namespace omnimapper::perception {
 
 struct RoadPoseOptions {
-  double ground_height = 0;  ///< [m] of the ground in the base's frame
+  double ground_height = 0;  ///< [m] height of the ground in the base's frame
 
   static const base::OptionTable<RoadPoseOptions>& table();
 };
 
-/// Suffix of the label of a scan's ground, after the scan's label.
+/// The label of a scan's ground is the scan's label with this suffix.
 inline constexpr char kRoadSuffix[] = ".road";
 
-/// The ground that the wheels stand on, at `ground_height` [m] in the base's frame, as a plane in the camera's optical
-/// frame, by the scan's sensorPose.
+/// The ground that the wheels stand on, as a plane in the camera's optical frame. In the base's frame it is the level
+/// plane at the height `ground_height` [m]; the scan's sensorPose relates the two frames.
 geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, double ground_height);
 
 /// Extracts the ground that a depth camera sees, as RoadSegmenter finds it (thesis 3.4.7).
@@ -32,8 +32,8 @@ class RoadExtractor : public Extractor {
   RoadExtractor(const RoadOptions& road, const OutlineOptions& outlines, const RoadPoseOptions& pose)
       : segmenter_(road), outlines_(outlines), pose_(pose) {}
 
-  /// The pieces of ground, each with the plane that fits it best, in the form of PlaneExtractor's planes, label
-  /// "<scan label>.road". Throws as PlaneExtractor. Thread-safe; the same scan gives the same bits.
+  /// The pieces of ground, each with the plane that fits it best. They have the form of the planes of PlaneExtractor,
+  /// and the label "<scan label>.road". Throws as PlaneExtractor. Thread-safe; the same scan gives the same bits.
   std::shared_ptr<obs::CObservationPlanes> extract(const mrpt::obs::CObservation3DRangeScan& scan) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

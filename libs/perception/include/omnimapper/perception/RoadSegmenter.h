@@ -7,22 +7,24 @@
 
 namespace omnimapper::perception {
 
-/// The default noise is that of a stereo camera with 60 px m of focal length times baseline, a quarter of a pixel of
-/// noise and steps of 1/16 px.
+/// The default noise is that of a stereo camera whose focal length times baseline is 60 px m, with a quarter of a pixel
+/// of noise and steps of 1/16 px in disparity.
 struct RoadOptions {
-  double noise_at_1m = 0.0042;                                  ///< [m]
-  double step_at_1m = 0.001;                                    ///< [m]
-  double correlation_area = 16;                                 ///< [px^2]
-  double scale_sigma = DepthNoise().scale;                      ///< [-]
-  double min_depth = 0.4;                                       ///< [m]
-  double max_depth = 20;                                        ///< [m]
-  int window_radius = 7;                                        ///< [px] of the windows of normals
-  double max_tilt = 25 * base::option_text::kRadiansPerDegree;  ///< [rad] from the normal of the expected ground
-  double max_turn = 8 * base::option_text::kRadiansPerDegree;   ///< [rad] between the normals of neighbours
-  double max_off = 0.3;                                         ///< [m] from the expected ground, near the sensor
+  double noise_at_1m = 0.0042;              ///< [m]
+  double step_at_1m = 0.001;                ///< [m]
+  double correlation_area = 16;             ///< [px^2]
+  double scale_sigma = DepthNoise().scale;  ///< [-]
+  double min_depth = 0.4;                   ///< [m]
+  double max_depth = 20;                    ///< [m]
+  int window_radius = 7;                    ///< [px] radius of the square window from which a normal is estimated
+  /// [rad] Largest angle between a pixel's normal and the normal of the expected ground.
+  double max_tilt = 25 * base::option_text::kRadiansPerDegree;
+  /// [rad] Largest angle between the normals of neighbours.
+  double max_turn = 8 * base::option_text::kRadiansPerDegree;
+  double max_off = 0.3;  ///< [m] largest distance from the expected ground, near the sensor
   double max_slope = 4 * base::option_text::kRadiansPerDegree;  ///< [rad] angle at which max_off widens with the depth
   double grow_sigmas = 4.5;   ///< largest distance of added pixels from the ground around them, in standard deviations
-  double step_sigmas = 9;     ///< smallest step in height, such as a kerb, that is no ground, in standard deviations
+  double step_sigmas = 9;     ///< larger steps in height, such as kerbs, are not ground; in standard deviations
   int min_pixels = 200;       ///< least number of pixels of a piece of ground
   int min_hole_pixels = 100;  ///< smaller holes are not outlined
 
@@ -31,25 +33,25 @@ struct RoadOptions {
 };
 
 struct RoadSegmentation {
-  PlaneSegmentation ground;  ///< its connected pieces, with the planes that fit them best; the largest first
-  /// For each pixel, row by row: 1 where its own normal shows that it is ground, before the second pass; else 0. It has
-  /// the size of the image, even if that is one pixel or none.
+  PlaneSegmentation ground;  ///< connected pieces, each with the plane that fits it best; the largest first
+  /// For each pixel of the image, row by row: 1 if the pixel is ground that the first pass found by the pixel's own
+  /// normal, else 0.
   std::vector<std::uint8_t> sure;
 };
 
 /// Finds the ground that can be driven on, which need not be flat (thesis 3.4.7): connected parts of the image that are
 /// near the ground expected from the sensor's pose, and whose normals are near that ground's normal and change
 /// smoothly. The normals of stereo cameras are noisy and have holes. A second pass therefore adds pixels that lie on
-/// planes fitted to the ground around them. It leaves out pixels that are above that ground on average over a window,
-/// and objects that by their normals stand on the ground, with their feet. It also removes steps between two heights of
-/// the ground, such as the sides of kerbs.
+/// planes fitted to the ground around them. It does not add pixels whose surroundings are on average above this ground,
+/// nor objects that, according to their normals, stand on the ground, nor the feet of these objects. It also removes
+/// steps between two heights of the ground, such as the sides of kerbs.
 class RoadSegmenter {
  public:
   /// Throws Error(out_of_range) for min_depth >= max_depth.
   explicit RoadSegmenter(const RoadOptions& options);
 
-  /// `expected`: the ground that the wheels stand on, in the camera's optical frame (x right, y down, z forward),
-  /// normal up. Thread-safe; the same bits on every x86-64.
+  /// `expected`: the ground that the wheels stand on, in the camera's optical frame (x right, y down, z forward), with
+  /// the normal up. Thread-safe; the same bits on every x86-64.
   RoadSegmentation segment(const DepthImage& image, const geometry::Plane3& expected) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace omnimapper::perception {
 
-/// Comparator for connectComponents(): pixels with the same label, an integer that is not 0.
+/// Comparator for connectComponents(): joins neighbours with the same label, an integer that is not 0.
 template <class Label>
 struct SameLabel {
   const Label* labels;
@@ -18,8 +18,8 @@ struct SameLabel {
 template <class Label>
 SameLabel(const Label*) -> SameLabel<Label>;
 
-/// The first pixel from `begin` on with another label than `label`, or `end`: 64 bytes at a time, then eight, then one
-/// label.
+/// The first pixel from `begin` on whose label is not `label`, or `end`. Compares 64 bytes at a time, then eight bytes,
+/// then single labels.
 template <class Label>
 int endOfLabel(const Label* labels, Label label, int begin, int end) {
   using Unsigned = std::make_unsigned_t<Label>;

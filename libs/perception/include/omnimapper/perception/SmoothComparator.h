@@ -8,12 +8,14 @@
 
 namespace omnimapper::perception {
 
-/// Comparator: neighbours on one smooth surface, by the planes through their points (thesis 3.4.3).
+/// Comparator for connectComponents(): joins neighbours on one smooth surface. It compares the planes through their
+/// points, with their normals (thesis 3.4.3).
 struct SmoothComparator {
   const OrganizedPoints& points;
   const NormalImage& normals;
-  float min_cosine = 0.9986F;        ///< of the angle between the normals: 3 deg
-  float max_offset_at_1m = 0.0069F;  ///< [m] between the planes' distances, times the squared depth: 3 sigma of noise
+  float min_cosine = 0.9986F;        ///< cosine of the largest angle between the normals: 3 deg
+  float max_offset_at_1m = 0.0069F;  ///< [m] largest difference of the planes' distances at 1 m, which grows with the
+                                     ///< squared depth; by default three standard deviations of the noise
 
   bool valid(int pixel) const {
     const auto i = static_cast<std::size_t>(pixel);
@@ -27,7 +29,7 @@ struct SmoothComparator {
     return cosine >= min_cosine && std::abs(offset(i) - offset(j)) <= max_offset_at_1m * points.z[j] * points.z[j];
   }
 
-  /// Distance [m] along its normal of the plane through a pixel's point.
+  /// Signed distance [m] of the plane through a pixel's point from the sensor, along the pixel's normal.
   float offset(std::size_t i) const {
     return normals.x()[i] * points.x[i] + normals.y()[i] * points.y[i] + normals.z()[i] * points.z[i];
   }

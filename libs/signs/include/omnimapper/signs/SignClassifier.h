@@ -13,12 +13,12 @@ namespace omnimapper::signs {
 /// Histograms of oriented gradients of a region (thesis 3.5.3.1; Dalal and Triggs: Histograms of oriented gradients for
 /// human detection, 2005), by OpenCV's HOGDescriptor. As in the thesis there are 4 x 4 cells, one block over all of
 /// them and 9 orientations. The thesis's window of 16 x 26 pixels cannot be divided into 4 x 4 cells of whole pixels,
-/// so ours has 32 x 32; every region is warped to it, whatever its aspect ratio.
+/// so the window here has 32 x 32 pixels. Every region is warped to this window, whatever its aspect ratio.
 struct HogOptions {
   int columns = 4, rows = 4;  ///< number of cells in the window
   int cell = 8;               ///< side of a cell [px]
   int block = 4;              ///< side of a block, over which contrast is normalized [cells]
-  int orientations = 9;       ///< number over half a turn, so that dark on bright equals bright on dark
+  int orientations = 9;       ///< number of orientations over half a turn: dark on bright equals bright on dark
   double margin = 0.0625;     ///< share of the window on each side that shows the region's surroundings
 
   static const base::OptionTable<HogOptions>& table();
@@ -26,21 +26,22 @@ struct HogOptions {
   int length() const { return (columns - block + 1) * (rows - block + 1) * block * block * orientations; }
 };
 
-/// The feature vector of a region: the histograms of the region when it is warped to the window, 8 bits a number.
+/// The feature vector of a region: the histograms of the region after it was warped to the window, with 8 bits for each
+/// number.
 using SignFeatures = std::vector<std::uint8_t>;
 
 /// The features of each region. Throws as SignDetector::detect().
 std::vector<SignFeatures> describe(const perception::ColourImage& picture, const std::vector<Corners>& regions,
                                    const HogOptions& options);
 
-/// A support vector machine with a radial basis function as kernel (thesis, equation 2), and the mapping of its
-/// decision value to a probability.
+/// A support vector machine with a radial basis function as kernel (thesis, equation 2), and the function that maps the
+/// machine's decision value y to a probability.
 struct SignModel {
   HogOptions hog;
-  double gamma = 0;                   ///< of the kernel exp(-gamma |x - y|^2), with features in [0, 0.5]
+  double gamma = 0;                   ///< of the kernel exp(-gamma |a - b|^2), with features a and b in [0, 0.5]
   double bias = 0;                    ///< b of equation 2
   double slope = -1, offset = 0;      ///< the probability is 1 / (1 + exp(slope y + offset))
-  std::vector<double> weights;        ///< of each support vector
+  std::vector<double> weights;        ///< weight of each support vector
   std::vector<SignFeatures> vectors;  ///< support vectors of hog.length() numbers each
 };
 

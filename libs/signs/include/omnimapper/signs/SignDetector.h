@@ -16,7 +16,7 @@ using Corners = std::array<Eigen::Vector2f, 4>;
 /// A region of a picture that may be a door sign.
 struct SignRegion {
   Corners corners_px;
-  double score = 0;  ///< probability that it is a sign, 0 to 1
+  double score = 0;  ///< probability that the region is a sign, 0 to 1
 };
 
 /// Finds door signs in a picture of 8 bits. Pure and thread-safe; the same picture gives the same bits.
@@ -28,9 +28,9 @@ class SignDetector {
   virtual std::vector<SignRegion> detect(const perception::ColourImage& picture) const = 0;
 };
 
-/// A view of the pixels of a picture, which must outlive it. Throws Error(unreadable_input) if the picture does not
-/// have 8 bits and one or three channels, and Error(missing_images) if it is in a file that was not loaded and is
-/// missing.
+/// A view of the pixels of `picture`, which must outlive the view. Throws Error(unreadable_input) if the picture does
+/// not have 8 bits and one or three channels, and Error(missing_images) if the picture is in a file that was not loaded
+/// and is missing.
 perception::ColourImage pixelsOf(const mrpt::img::CImage& picture);
 
 }  // namespace omnimapper::signs

@@ -11,8 +11,8 @@ namespace omnimapper::signs {
 struct Reading {
   std::string text;                   ///< UTF-8
   std::vector<double> probabilities;  ///< of each letter, as the reader reports it, 0 to 1
-  /// Where the reader's likeliest letter is not in the alphabet, another one is taken: the smallest probability of
-  /// these; 1 if there are none.
+  /// Where the reader's likeliest letter is not in the alphabet, the reader takes another letter or none. This is the
+  /// smallest probability of the letters taken instead, 0 if a letter was left out, and 1 if neither happened.
   double of_left_out = 1;
 };
 
@@ -24,12 +24,12 @@ class TextReader {
   virtual Reading read(const perception::ColourImage& patch) const = 0;
 };
 
-/// The letters that a text may consist of. Some other letters are replaced by one of them.
+/// The letters that a text may consist of. Some letters outside of the alphabet are replaced by a letter of it.
 class Alphabet {
  public:
   /// `letters` in UTF-8. Middle dots and dashes are read as hyphens if the alphabet has the hyphen.
   explicit Alphabet(const std::string& letters);
-  /// The letter of the alphabet that this one is read as; empty if there is none.
+  /// The letter of the alphabet as which `letter` is read; empty if there is none.
   std::string letterFor(const std::string& letter) const;
   /// All letters and the blank.
   const std::vector<std::string>& letters() const { return letters_; }

@@ -15,9 +15,9 @@ struct TrainingRequest {
   SignTrainingOptions options;
 };
 
-/// Trains on all folders and writes the model; returns the tables. With `trial` it returns how well that model finds
-/// the signs of each picture. Throws as readTrainingFolder(), trainClassifier(), SignClassifier::read() and
-/// base::writeFile().
+/// Trains on all folders and writes the model; returns the tables. With `trial`, trains nothing and returns how well
+/// that model finds the signs of each picture. Throws as readTrainingFolder(), trainClassifier(),
+/// SignClassifier::read() and base::writeFile().
 std::string runTraining(const TrainingRequest& request, base::Progress& progress,
                         const std::function<bool()>& stop = {});
 
@@ -25,8 +25,8 @@ std::string runTraining(const TrainingRequest& request, base::Progress& progress
 struct PictureTrial {
   std::string name;
   int signs = 0;          ///< number of signs that count, as in RegionSet
-  int found = 0;          ///< number of these with the middle of a reported region on the sign
-  double overlap = 0;     ///< mean overlap of the upright boxes of the signs that were found
+  int found = 0;          ///< number of these signs on which the middle of a reported region lies
+  double overlap = 0;     ///< mean overlap of the upright boxes of region and sign, for the signs found
   int false_alarms = 0;   ///< number of reported regions whose middle is on no sign
   double best_score = 0;  ///< best score of a region on a sign
 };

@@ -18,13 +18,14 @@ struct QueueLimits {
 };
 
 /// A queue between two threads: push() waits while it is full, pop() while it is empty. A waiting producer is woken
-/// only when the queue is half empty, because waking it for each item can cost more than the item itself.
+/// only when the queue is half empty, because waking a thread for each item can cost more than the item itself.
 template <class T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(QueueLimits limits) : limits_(limits) {}
 
-  /// Waits for room. Returns false if the queue is closed; the item is discarded then. `bytes`: size of the item.
+  /// Waits for room, then appends the item, whose size is `bytes`. If the queue is closed, discards the item and
+  /// returns false.
   bool push(T item, std::size_t bytes) {
     std::unique_lock lock(mutex_);
     room_.wait(lock, [&] { return closed_ || hasRoomFor(bytes); });
@@ -36,8 +37,8 @@ class BoundedQueue {
     return true;
   }
 
-  /// Waits for the oldest item. Returns none if the queue is closed, or if `stop`, which is called ten times a second
-  /// while pop() waits, returns true; an empty `stop` never stops it.
+  /// Waits for an item and returns the oldest one; none if the queue is closed. While pop() waits, it calls `stop`,
+  /// unless empty, ten times a second, and returns none as soon as `stop` returns true.
   std::optional<T> pop(const std::function<bool()>& stop = {}) {
     std::unique_lock lock(mutex_);
     const auto is_ready = [&] { return closed_ || !items_.empty(); };

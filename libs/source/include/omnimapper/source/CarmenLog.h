@@ -10,13 +10,14 @@
 
 namespace omnimapper::source {
 
-/// Which odometry of a CARMEN log gets the label ODOM, which comes first in the stream and which a mapper uses. Such a
-/// log holds the odometry twice: in ODOM lines with their own stamps, and again in each scan's line, which repeats the
-/// last ODOM line, however old that is. The odometry of a scan is handed out right before the scan, with its stamp.
+/// A CARMEN log holds the odometry twice: in ODOM lines with their own stamps, and again in the line of each scan,
+/// which repeats the last ODOM line, however old this line is. One of the two gets the label ODOM, and a mapper uses
+/// it, because it comes first in the stream. The odometry of a scan is handed out right before the scan, with the
+/// scan's stamp.
 enum class CarmenOdometry {
   automatic,  ///< `lines` if the log has ODOM lines and no stamp runs backwards, else `scans`
-  lines,      ///< ODOM lines are ODOM, better if the log's clock is good; odometry of scans is <scan's label>_ODOM
-  scans,      ///< the odometry of scans is ODOM; ODOM lines are left out
+  lines,      ///< ODOM lines get the label ODOM, and scans' odometry <scan's label>_ODOM; better if the clock is good
+  scans,      ///< the odometry of scans gets the label ODOM; ODOM lines are left out
 };
 
 /// Streams a CARMEN log (plain, gzip or bzip2) as MRPT observations: CObservation2DRangeScan for FLASER, RLASER,
@@ -26,9 +27,9 @@ enum class CarmenOdometry {
 /// be, so the stamps of each label are repaired: t'_i = max(t_i, t'_(i-1) + 1 ms).
 /// A ROBOTLASER line describes its beams itself. The beams of FLASER and RLASER are described by the log's PARAM lines
 /// (laser_front_laser_resolution and _fov [deg], robot_front_laser_max [m], robot_frontlaser_offset and _side_offset
-/// [m], _angular_offset [rad], and the same with rear). Without these the laser is taken for a SICK at the base: 180
-/// beams from -90 to +89 deg, or 181 to +90 deg, counter-clockwise; the rear one looks back. Readings of 80 m and more
-/// count as no echo.
+/// [m], _angular_offset [rad], and the same names with `rear`). Without these lines the laser is taken for a SICK at
+/// the base, with beams in counter-clockwise order: 180 beams from -90 to +89 deg, or 181 beams from -90 to +90 deg.
+/// The rear laser looks back. Readings of 80 m and more count as no echo.
 class CarmenLog : public ObservationSource {
  public:
   /// Throws Error(unreadable_input) if the file cannot be opened or is no CARMEN log.
@@ -40,7 +41,7 @@ class CarmenLog : public ObservationSource {
   /// `objects` counts lines; `other_objects` counts lines that are not used, by their first word.
   SourceReport report() const override;
 
-  /// The choice that was made; never `automatic`.
+  /// The odometry that was chosen; never `automatic`.
   CarmenOdometry odometry() const;
 
   struct BadLine {
@@ -50,8 +51,8 @@ class CarmenLog : public ObservationSource {
   std::uint64_t badLineCount() const;
   /// The first ten bad lines.
   const std::vector<BadLine>& badLines() const;
-  /// Odometry readings left out: those of the kind that was not chosen, those not later than the reading before them,
-  /// and those of scans before the first ODOM.
+  /// Number of odometry readings left out: with `scans`, all ODOM lines; with `lines`, the readings of scans before the
+  /// first ODOM line; with both, readings of scans that are not later than the reading before them.
   std::uint64_t unusedOdometry() const;
 
  private:

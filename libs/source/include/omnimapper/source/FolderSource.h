@@ -8,7 +8,7 @@
 namespace omnimapper::source {
 
 /// Streams the files of a folder in the order of their names; each file is one observation. If all names are Unix
-/// times, in seconds or nanoseconds, they are the stamps.
+/// times, in seconds or nanoseconds, these times are the stamps.
 class FolderSource : public ObservationSource {
  public:
   /// Files that read() refuses are left out and counted as missing images.
@@ -18,8 +18,8 @@ class FolderSource : public ObservationSource {
   bool areNamesTimes() const { return !times_.empty(); }
 
  protected:
-  /// `takes` selects the files, and `what` names their kind in the error. `rate` [1/s] determines the stamps if the
-  /// names are no Unix times. Throws Error(unreadable_input) if the folder has no such files.
+  /// `takes` selects the files, and `what` names their kind in the error. If the names are no Unix times, `rate` [1/s]
+  /// determines the stamps. Throws Error(unreadable_input) if the folder has no such files.
   FolderSource(const std::string& folder, bool (*takes)(const std::string& file), const std::string& what,
                const std::string& label, double rate);
   /// Reads one file; the caller sets stamp and label. Throws base::Error if the file cannot be read.

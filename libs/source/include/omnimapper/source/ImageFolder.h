@@ -14,9 +14,9 @@ struct ImageFolderOptions {
 
 /// Streams the JPEG and PNG images of a folder as CObservationImage, except NAME.mask.png, which marks the signs in the
 /// image NAME. Images of 16 bits, grey ones and those with an alpha channel become three channels of 8 bits. Files that
-/// are no images, images that were cut off, and those whose header states more pixels than any camera has are left out.
-/// The camera is a pinhole whose axis goes through the middle of the image; cameraPose is level, with z forward along
-/// the base's x.
+/// are no images, images that were cut off, and images whose header states more pixels than any camera has are left
+/// out. The camera is a pinhole whose axis goes through the middle of the image; cameraPose is level, with z forward
+/// along the base's x.
 class ImageFolder : public FolderSource {
  public:
   /// Throws Error(unreadable_input) for a folder without such images.

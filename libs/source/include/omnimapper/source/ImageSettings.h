@@ -7,7 +7,7 @@ namespace omnimapper::source {
 /// Encoding of colour images inside a rawlog.
 enum class ColourImages {
   lossless,
-  jpeg,  ///< quality 95; takes a twentieth of the space and of the time
+  jpeg,  ///< quality 95; takes a twentieth of the space and time of lossless images
 };
 
 /// Sets how MRPT writes images in the whole process; the destructor restores the old settings.

@@ -7,17 +7,18 @@
 
 namespace omnimapper::source {
 
-/// Merges several sources by stamp. The order within each source is kept: an observation without a stamp, or whose
-/// stamp runs backwards, comes right after the one before it. Of equal stamps, that of the earlier source comes first.
+/// Merges several sources by stamp. The order within each source is kept: an observation without a stamp, or with a
+/// stamp that runs backwards, comes right after the observation before it. Of observations with equal stamps, the one
+/// of the source that is earlier in the list comes first.
 class MergedSource : public ObservationSource {
  public:
   explicit MergedSource(std::vector<std::unique_ptr<ObservationSource>> sources);
 
   mrpt::obs::CObservation::Ptr next() override;
-  /// The mean of all sources.
+  /// The mean progress of all sources.
   double progress() const override;
-  /// The sum of all counts, with the worst ending. has_logs_apart is set, once all have ended, if one source lies a
-  /// minute or more from all others in time.
+  /// The sum of all counts, with the worst ending. Once all sources have ended, has_logs_apart is set if one source
+  /// lies a minute or more from all others in time.
   SourceReport report() const override;
   void interrupt() override;
 

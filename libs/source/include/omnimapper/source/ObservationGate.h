@@ -13,17 +13,18 @@ namespace omnimapper::source {
 
 /// Passes usable observations only, so that later stages need not check whether a sensor pose, an aperture, intrinsics,
 /// a motion or a covariance is finite and plausible, or whether a depth image has the usual size of its sensor. Single
-/// beams and pixels without a return, and scans without beams, are no reason to refuse. Each log needs its own gate.
+/// beams or pixels without a return are no reason to refuse an observation, nor is a scan without beams. Each log needs
+/// its own gate.
 class ObservationGate {
  public:
-  /// Why the observation cannot be used, as a clause about several such ones ("their aperture is not finite"); none if
-  /// it can be used.
+  /// Why the observation cannot be used, as a clause about several such observations ("their aperture is not finite");
+  /// none if it can be used.
   std::optional<std::string> refuses(const mrpt::obs::CObservation& observation);
 
  private:
   using Size = std::pair<std::size_t, std::size_t>;  // columns and rows
-  /// Sizes of a sensor's newest images. The most common size counts as the sensor's; of two equally common ones, the
-  /// newer.
+  /// Sizes of a sensor's newest images. The most common size counts as the sensor's size; of two equally common sizes,
+  /// the newer one does.
   using Sizes = std::deque<Size>;
 
   bool isOdd(const mrpt::obs::CObservation& observation, const Size& size);
@@ -31,7 +32,8 @@ class ObservationGate {
   std::map<const mrpt::rtti::TRuntimeClassId*, std::map<std::string, Sizes>> sizes_;  // by class and label
 };
 
-/// Why an observation cannot be used regardless of the rest of the log; same form as ObservationGate::refuses().
+/// Why an observation cannot be used, regardless of the rest of the log; in the same form as
+/// ObservationGate::refuses().
 std::optional<std::string> whyUnusable(const mrpt::obs::CObservation& observation);
 
 }  // namespace omnimapper::source

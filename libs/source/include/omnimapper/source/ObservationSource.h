@@ -13,10 +13,10 @@ class ObservationSource {
   /// The next observation, owned by the caller; null at the end. Damaged input does not throw: the stream ends, and
   /// report() says why. Data in external files is loaded.
   virtual mrpt::obs::CObservation::Ptr next() = 0;
-  /// Part of the input that has been read, in [0, 1].
+  /// Share of the input that has been read, in [0, 1].
   virtual double progress() const = 0;
   virtual SourceReport report() const = 0;
-  /// Called from another thread before this source is given up: a next() that is waiting then returns null soon.
+  /// Another thread calls this before it gives the source up; a call of next() that is waiting then returns null soon.
   virtual void interrupt() {}
 };
 

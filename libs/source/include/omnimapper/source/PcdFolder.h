@@ -18,7 +18,7 @@ struct PcdFolderOptions {
 /// Throws Error(unreadable_input), with `name` in it, if the points do not lie on the rays of a pinhole camera.
 mrpt::obs::CObservation3DRangeScan::Ptr depthImageOf(const PcdCloud& cloud, const std::string& name);
 
-/// Converts any other cloud to a CObservationPointCloud in the frame of its points, without colours.
+/// Converts a cloud that is not organized to a CObservationPointCloud in the frame of its points, without colours.
 mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud);
 
 /// Streams the PCD files of a folder: organized clouds by depthImageOf(), others by cloudOf(), with sensorPose at the

@@ -18,20 +18,20 @@ using StopOpening = std::function<bool()>;
 /// or pairs of actions and sensory frames. Memory does not grow with the file.
 ///
 /// MRPT's readers can crash on corrupt data. A child process therefore reads the log a little ahead. This source
-/// follows it object by object, and ends before the object at which the child ended.
+/// follows the child object by object; if the child crashes, the source ends before the object at which it crashed.
 ///
-/// An action becomes a CObservationRelativeMotion over the span of time that SourceOptions::action_span gives it. It is
-/// handed out as soon as the end of the span is known: with its action, or right before the frame that ends the span.
-/// The spans follow each other without a gap. The stamp of a frame is the latest stamp of its observations, or else
-/// that of its action; observations without a stamp get that of their frame. Observations before the first stamp of the
-/// log are handed out without one.
+/// An action becomes a CObservationRelativeMotion over the span of time that SourceOptions::action_span gives the
+/// action. The motion is handed out as soon as the end of its span is known: at the place of the action, or right
+/// before the frame that ends the span. The spans follow each other without a gap. The stamp of a frame is the latest
+/// stamp of its observations, or else the stamp of its action; observations without a stamp get the stamp of their
+/// frame. Observations before the first stamp of the log are handed out without one.
 ///
-/// Labels are written by base::sensorName(), so that no log can forge lines of a terminal or an INI. Observations that
-/// ObservationGate refuses are left out.
+/// Labels are converted by base::sensorName(), so that no log can forge lines of a terminal or an INI. Observations
+/// that ObservationGate refuses are left out.
 class RawlogSource : public ObservationSource {
  public:
-  /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, Error(interrupted) if `stop` returns
-  /// true.
+  /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, and Error(interrupted) if `stop`
+  /// returns true.
   explicit RawlogSource(const std::string& path, const SourceOptions& options = {}, const StopOpening& stop = {});
   ~RawlogSource() override;
 
@@ -42,10 +42,11 @@ class RawlogSource : public ObservationSource {
 
   /// The first stamp of the log, if one of its first objects has a stamp.
   std::optional<base::Stamp> firstStamp() const;
-  /// Sets the time from which start_s and end_s are counted, unless that is 1970; by default the log's first stamp.
+  /// Sets the time from which start_s and end_s are counted. By default this is the log's first stamp, or 1970 with
+  /// TimeReference::unix_epoch.
   void setLogStart(base::Stamp log_start);
-  /// For a log in several files that are read one after the other: sets the gate that the earlier files passed. To be
-  /// called before next().
+  /// For a log in several files that are read one after the other: sets the gate through which the earlier files
+  /// passed. Must be called before next().
   void setGate(std::shared_ptr<ObservationGate> gate);
 
  private:
@@ -54,7 +55,7 @@ class RawlogSource : public ObservationSource {
 };
 
 /// Opens one rawlog, or several merged by stamp, with start_s and end_s counted from the earliest first stamp of all.
-/// Throws as RawlogSource; Error(command_line) if there is no path.
+/// Throws as RawlogSource, and Error(command_line) if there is no path.
 std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,
                                                const StopOpening& stop = {});
 

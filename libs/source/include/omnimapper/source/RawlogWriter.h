@@ -23,8 +23,8 @@ class RawlogWriter {
 };
 
 /// Writes a gzip rawlog as a whole or not at all: to a temporary file, which is read back and compared by size and
-/// checksum before it replaces `path`. The same content gives the same bytes. Throws Error(disk_full) as
-/// base::replaceFile(). While it writes, `images` is MRPT's setting for the whole process.
+/// checksum before it replaces `path`. The same content gives the same bytes. Throws as base::replaceFile(). While the
+/// file is written, `images` is MRPT's setting for the whole process.
 void writeRawlog(const std::string& path, const std::function<void(RawlogWriter&)>& fill,
                  ColourImages images = ColourImages::lossless);
 

@@ -16,9 +16,9 @@ namespace omnimapper::source {
 
 struct RgbdFolderOptions {
   std::string label = "RGBD";
-  double largest_difference = 0.02;  ///< between the stamps of depth and colour that make a pair [s]
-  double depth_units = 0;  ///< values of a depth image per metre; 0: the usual one of the form, see RgbdFolder
-  double rate = 30;        ///< images per second, if they have no stamps [1/s]
+  double largest_difference = 0.02;  ///< [s] largest difference between the stamps of a pair's depth and colour image
+  double depth_units = 0;            ///< depth values per metre; 0: as usual for the form of the folder, see RgbdFolder
+  double rate = 30;                  ///< images per second, if they have no stamps [1/s]
   /// freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file that has fx, fy, cx and cy: four numbers,
   /// or OpenCV's "Camera.fx: 535.4". Empty: determined by the folder's form and name.
   std::string intrinsics;
@@ -32,17 +32,20 @@ struct RgbdPair {
 
 /// Streams a folder of depth images and colour images registered to them as CObservation3DRangeScan: depth along the
 /// optical axis in rangeUnits, sensorPose at the base (x forward, z up). Known forms of folders:
-///  - TUM RGB-D: depth.txt and rgb.txt with "stamp file" lines, groundtruth.txt with "stamp x y z qx qy qz qw"; with
-///    truth_cam_poses.txt in place of groundtruth.txt, the stamps are running numbers and are replaced, line by line,
-///    by those of the poses; 5000 depth values per metre;
-///  - pairs of equal names without stamps, in the order of their numbers: depth/1.png with rgb/1.png (ICL-NUIM's own),
-///    5000 per metre; depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and Redwood have it), 1000;
-///  - associations.txt with lines "1 depth/1.png 1 rgb/1.png", running numbers or stamps (ICL-NUIM's own); 5000;
-///  - 7-Scenes: frame-000001.depth.png, .color.png or .color.jpg, .pose.txt (4 x 4 matrix); 1000 per metre.
+///  - TUM RGB-D: depth.txt and rgb.txt with "stamp file" lines, and groundtruth.txt with "stamp x y z qx qy qz qw"
+///    lines. If there is truth_cam_poses.txt instead of groundtruth.txt, the stamps of the images are running numbers;
+///    the stamps of the poses replace them line by line. 5000 depth values per metre.
+///  - Pairs of equal names without stamps, in the order of their numbers: depth/1.png with rgb/1.png (as ICL-NUIM
+///    itself has them; 5000 depth values per metre), or depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and
+///    Redwood have it; 1000 depth values per metre).
+///  - associations.txt with lines "1 depth/1.png 1 rgb/1.png", where the numbers are running numbers or stamps (as
+///    ICL-NUIM itself has them). 5000 depth values per metre.
+///  - 7-Scenes: frame-000001.depth.png, .color.png or .color.jpg, and .pose.txt (4 x 4 matrix). 1000 depth values per
+///    metre.
 /// A depth image without a colour image of its time is handed out without colour.
 class RgbdFolder : public ObservationSource {
  public:
-  /// Throws Error(unreadable_input) if the folder is of no known form, a list cannot be read or intrinsics are missing.
+  /// Throws Error(unreadable_input) if the folder has no known form, a list cannot be read, or intrinsics are missing.
   explicit RgbdFolder(const std::string& folder, const RgbdFolderOptions& options = {});
 
   /// Pairs whose images cannot be read are left out and counted as missing images.
@@ -50,7 +53,7 @@ class RgbdFolder : public ObservationSource {
   double progress() const override;
   SourceReport report() const override { return report_; }
 
-  /// In order of their stamps.
+  /// In order of the stamps.
   const std::vector<RgbdPair>& pairs() const { return pairs_; }
   /// Number of depth images without a colour image of their time.
   std::size_t unpaired() const { return unpaired_; }
@@ -59,9 +62,10 @@ class RgbdFolder : public ObservationSource {
   const std::string& cameraName() const { return camera_name_; }
   /// Values of a depth image per metre.
   double depthUnits() const { return options_.depth_units; }
-  /// Median over all pixels with a depth in all images that next() returned [m]; none before the first.
+  /// Median depth [m] of all pixels with a depth in the images that next() returned; none before the first image.
   std::optional<double> medianDepth() const;
-  /// True poses of the base in the world frame of the folder, as far as it has them: stamp and pose, in order.
+  /// True poses of the base in the world frame of the folder, as far as the folder has them: stamp and pose, in order
+  /// of stamps.
   const std::vector<std::pair<base::Stamp, geometry::Se3>>& groundTruth() const { return ground_truth_; }
   /// The true pose nearest in time; none if it is more than `tolerance` [s] away.
   std::optional<geometry::Se3> truthAt(base::Stamp stamp, double tolerance) const;

@@ -10,8 +10,8 @@ namespace omnimapper::source {
 /// The span of time that an action of MRPT's action / sensory-frame format covers.
 enum class ActionSpan {
   automatic,  ///< `own` if the first actions have stamps, else `frames`
-  frames,     ///< from the stamp of the frame before it to that of the frame after it
-  own,        ///< from the stamp of the previous action, or of the first frame, to its own
+  frames,     ///< from the stamp of the frame before the action to the stamp of the frame after it
+  own,        ///< from the stamp of the previous action, or of the first frame, to the action's own stamp
 };
 
 /// Time from which start_s and end_s are counted.
@@ -23,10 +23,10 @@ enum class TimeReference {
 /// Section [source] of an INI file.
 struct SourceOptions {
   std::vector<std::string> labels;  ///< sensor labels to hand out; empty: all
-  double start = 0;                 ///< [s] observations before it are left out
-  double end = 0;                   ///< [s] observations after it are left out; 0: none
+  double start = 0;                 ///< [s] observations before this time are left out
+  double end = 0;                   ///< [s] observations after this time are left out; 0: none are left out
   TimeReference time_reference = TimeReference::log_start;
-  double step = 0;  ///< [s] between steps of a log whose stamps stand still; 0: its own stamps
+  double step = 0;  ///< [s] time between the steps of a log whose stamps stand still; 0: the log's own stamps
   ActionSpan action_span = ActionSpan::automatic;
   std::string action_label = "odometry";  ///< label of the motions that actions become
   std::string images_folder;              ///< empty: <rawlog without extension>_Images beside the rawlog

@@ -14,7 +14,7 @@ struct Judgement {
   std::string reason;  ///< "level, 0.74 m above the floor, 1.60 by 0.80 m: table 0.91, cabinet 0.09"
 };
 
-/// Classifies surfaces by their orientation, height, size, upper and lower edge, and the surfaces behind and beside
+/// Classifies surfaces by their orientation, height, size, upper and lower edge, and by the surfaces behind and beside
 /// them. The examples most similar to a surface vote on its class (k nearest neighbours, weighted by the inverse of the
 /// squared distance; Dudani: The distance-weighted k-nearest-neighbor rule, IEEE Transactions on Systems, Man, and
 /// Cybernetics 6, 1976). The class is "surface" if no class has half of the votes or no example is similar. The z of

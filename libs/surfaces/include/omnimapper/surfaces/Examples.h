@@ -16,7 +16,7 @@ struct Example {
 
 /// The examples as a table with a header and one line each, lengths rounded to the centimetre.
 std::string toCsv(const std::vector<Example>& examples);
-/// Reads text of toCsv(). Throws base::Error(unreadable_input) that names `file` and the line for any other text.
+/// Reads text of toCsv(). For any other text, throws base::Error(unreadable_input), which names `file` and the line.
 std::vector<Example> readExamples(const std::string& text, const std::string& file);
 
 /// The examples that classify() uses by default: surfaces of maps of simulated homes, offices and laboratories

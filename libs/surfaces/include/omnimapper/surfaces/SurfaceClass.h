@@ -11,14 +11,14 @@ enum class SurfaceClass {
   floor,
   ceiling,
   wall,
-  door,        ///< a face of a leaf
+  door,        ///< a face of a door leaf
   door_frame,  ///< the sides of the opening of a door or a passage
   window,      ///< pane, sill and frame
-  table,       ///< the top
-  counter,     ///< the worktop
-  shelf,       ///< a board
+  table,       ///< a table top
+  counter,     ///< a worktop
+  shelf,       ///< a board of a shelf
   cabinet,     ///< any face of a cabinet, and the side of a counter, a desk or a shelf
-  seat,        ///< of chairs and sofas, with their arms and backs
+  seat,        ///< seats of chairs and sofas, and their arms and backs
   bed,
   appliance,  ///< stove, fridge, printer, bathtub, television, machine, radiator
   ramp,       ///< a floor that is not level
@@ -27,7 +27,7 @@ enum class SurfaceClass {
   surface,    ///< unknown
 };
 
-/// "door frame" for door_frame; for all others the name as above.
+/// "door frame" for door_frame; for all other classes the name above.
 std::string toString(SurfaceClass surface_class);
 /// None for an unknown name.
 std::optional<SurfaceClass> surfaceClassNamed(const std::string& name);

@@ -27,21 +27,22 @@ struct SurfaceSetLevel {
 
 /// One flat surface of a place, either a true one or one of a map, in the frame of the set [m].
 struct Surface {
-  int id = 0;        ///< of a true surface any number above 0, of a map that of the landmark; unique in its set
-  std::string name;  ///< of a true surface such as "kitchen/wall_2", of a map the landmark's name
-  std::string body;  ///< of a true surface: the body that it is a side of; else empty
+  int id = 0;        ///< a number above 0 that is unique in the set
+  std::string name;  ///< for a true surface, for example "kitchen/wall_2"; for a surface of a map, the landmark's name
+  std::string body;  ///< for a true surface: the body of which it is a side; else empty
   SurfaceClass is = SurfaceClass::surface;
-  std::string reason;  ///< of a map: the reason for its class; else empty
+  std::string reason;  ///< for a surface of a map: the reason for its class; else empty
   geometry::Plane3 plane;
   std::vector<FlatPart> parts;
-  /// Of a true surface: cells that a beam or pixel of the log hit from within 4 m at under 75 deg. None: not recorded.
+  /// For a true surface: the cells that a beam or pixel of the log hit from at most 4 m away and at most 75 deg from
+  /// the surface's normal. None: not recorded.
   std::optional<CellGrid> seen;
-  bool is_moved = false;      ///< of a true surface: it is elsewhere at some time of the log
-  int measurements = 0;       ///< of a map: number of measurements
-  bool is_candidate = false;  ///< of a map: measured too rarely to be drawn
+  bool is_moved = false;      ///< for a true surface: it is somewhere else at some time of the log
+  int measurements = 0;       ///< for a surface of a map: number of measurements
+  bool is_candidate = false;  ///< for a surface of a map: measured too rarely, or too rough, to be drawn
 };
 
-/// An opening through which one goes or looks from one room into another.
+/// An opening through which people go or look from one room into another.
 struct Opening {
   enum class Kind { door, passage, window };
   enum class Leaf { none, open, closed };
@@ -53,7 +54,7 @@ struct Opening {
   std::array<Eigen::Vector3d, 4> rectangle;
   Leaf leaf = Leaf::none;
   double leaf_angle = 0;  ///< angle by which an open leaf is turned into the first room [rad]
-  std::string leaf_body;  ///< Surface::body of its faces; empty without a leaf
+  std::string leaf_body;  ///< Surface::body of the leaf's faces; empty without a leaf
 };
 
 /// The flat surfaces and openings of a place.
@@ -67,9 +68,10 @@ struct SurfaceSet {
 /// The same set in frame b.
 SurfaceSet moved(SurfaceSet set, const geometry::Se3& b_from_a);
 
-/// The file surfaces.json, UTF-8, byte for byte the same for the same set: {"format": "omnimapper surfaces 1", ...}.
+/// The content of a file surfaces.json in UTF-8: {"format": "omnimapper surfaces 1", ...}. The same set always gives
+/// the same bytes.
 std::string toJson(const SurfaceSet& set);
-/// Reads a file of toJson(). Throws base::Error(unreadable_input) that names `file` and the place in it.
+/// Reads a file of toJson(). Throws base::Error(unreadable_input), which names `file` and the place in it.
 SurfaceSet readSurfaces(const std::string& file);
 
 /// Area of the outlines without the holes [m^2].

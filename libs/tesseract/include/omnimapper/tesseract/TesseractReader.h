@@ -13,10 +13,10 @@ class TessBaseAPI;
 namespace omnimapper::tesseract_reader {
 
 /// Reads with Tesseract 5 (Smith: An overview of the Tesseract OCR engine, 2007; since version 4 a recurrent network)
-/// and its English letters. Threads that read at the same time use separate engines.
+/// and its data for English. Threads that read at the same time use separate engines.
 class TesseractReader : public signs::TextReader {
  public:
-  /// Throws Error(plugin_library) if Tesseract has no English letters.
+  /// Throws Error(plugin_library) if Tesseract does not find its data for English.
   explicit TesseractReader(const signs::Alphabet& alphabet);
   ~TesseractReader() override;
 
