@@ -288,7 +288,7 @@ std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByScans(std::vect
 }
 
 // The only span whose scans do not confirm its motion, such as one that only the wheels measured. It gets the motion
-// that follows from the closures, with the uncertainty of the map between them.
+// that follows from the closures, with a fixed uncertainty for the error of the rest of the map.
 std::optional<SlipSearch::SpanCorrection> SlipSearch::correctedByClosures(std::vector<Span> spans) {
   constexpr double kMost = 0.2;  // share of the scans that may fit by chance
   if (spans.empty()) return std::nullopt;
