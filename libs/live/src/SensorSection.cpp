@@ -92,10 +92,12 @@ const base::OptionTable<SensorOptions>& SensorOptions::table() {
       base::OptionTable<SensorOptions>()
           .choice("clock", &SensorOptions::clock,
                   {{"automatic", Clock::automatic}, {"driver", Clock::driver}, {"arrival", Clock::arrival}},
-                  "Source of an observation's stamp: the driver, the time of arrival, or (automatic) the driver, "
-                  "corrected by the estimated offset where its clock is not the host's.")
+                  "Source of an observation's stamp. driver: the driver's own stamp. arrival: the time at which the "
+                  "observation arrives. automatic: the driver's stamp, corrected by an estimated offset if the "
+                  "driver's clock is not the computer's.")
           .number("clock_offset_s", &SensorOptions::clock_offset, base::Range(),
-                  "Offset added to every stamp of the driver; a known latency is a negative offset.");
+                  "Time that is added to every stamp of the driver. It is negative if the stamps are late, for example "
+                  "by a known latency.");
   return table;
 }
 

@@ -10,21 +10,22 @@ const base::OptionTable<ScanMatcherOptions>& ScanMatcherOptions::table() {
       base::OptionTable<Options>()
           .choice("matcher", &Options::matcher,
                   {{"point_to_line", MatcherKind::point_to_line}, {"icp", MatcherKind::icp}},
-                  "Algorithm that matches scans: point-to-line matching, or MRPT's ICP.")
+                  "Algorithm that matches scans: point-to-line matching, or MRPT's ICP (iterative closest points).")
           .number("max_distance_m", &Options::max_distance, base::Range::positive(),
                   "Largest distance between corresponding points in the first iterations.")
           .number("min_distance_m", &Options::min_distance, base::Range::positive(),
-                  "Limit to which max_distance_m shrinks in the course of the iterations.")
+                  "Lower limit of the largest distance between corresponding points, which begins at max_distance_m "
+                  "and shrinks in the course of the iterations.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 10000},
                    "Largest number of iterations of a match.")
           .choice("icp_method", &Options::icp_method,
                   {{"classic", IcpMethod::classic}, {"levenberg_marquardt", IcpMethod::levenberg_marquardt}},
-                  "Variant of MRPT's ICP.")
+                  "With matcher = icp, variant of MRPT's ICP.")
           .number("icp_max_angle_deg", &Options::icp_max_angle, base::Range{0, 45},
-                  "MRPT's ICP: this angle times a point's distance from the sensor is added to the largest distance "
-                  "between corresponding points.")
+                  "With matcher = icp, this angle times a point's distance from the sensor is added to the largest "
+                  "distance between corresponding points.")
           .integer("icp_decimation", &Options::icp_decimation, base::Range{1, 1000},
-                   "MRPT's ICP: only every n-th point is used for correspondences.");
+                   "With matcher = icp, only one in this many points is used for correspondences.");
   return table;
 }
 

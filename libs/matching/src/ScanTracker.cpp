@@ -80,11 +80,13 @@ const base::OptionTable<ScanTrackerOptions>& ScanTrackerOptions::table() {
           .integer("local_scans", &Options::local_scans, base::Range{1, 1000},
                    "Largest number of scans in the local map that a new scan is matched against.")
           .number("local_distance_m", &Options::local_distance, base::Range::positive(),
-                  "A scan is added to the local map once it is farther than this from the last one there.")
+                  "A scan is added to the local map once it is farther than this from the scan that was added last.")
           .number("local_angle_deg", &Options::local_angle, base::Range{0.1, 180},
-                  "A scan is added to the local map once it is rotated by more than this from the last one there.")
+                  "A scan is added to the local map once it is rotated by more than this from the scan that was added "
+                  "last.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Smallest share of a scan's points that must find a correspondence in the local map.")
+                  "A match is accepted only if at least this share of the scan's points have a corresponding point in "
+                  "the local map.")
           .number("max_correction_m", &Options::max_correction, base::Range::positive(),
                   "A match whose position is farther from the prediction than this is rejected.")
           .number("max_turn_correction_deg", &Options::max_turn_correction, base::Range{0, 180},

@@ -27,18 +27,18 @@ const base::OptionTable<ArucoMarkerOptions>& ArucoMarkerOptions::table() {
                       {"7x7_50", D::dict_7x7_50},     {"7x7_100", D::dict_7x7_100},    {"7x7_250", D::dict_7x7_250},
                       {"7x7_1000", D::dict_7x7_1000}, {"original", D::original},       {"april_16h5", D::april_16h5},
                       {"april_25h9", D::april_25h9},  {"april_36h10", D::april_36h10}, {"april_36h11", D::april_36h11}},
-                     "Dictionary of the markers: cells along a side and number of markers, ArUco's original one, "
-                     "or an AprilTag family.")
+                     "Dictionary of the markers. 4x4_50, for example, has 50 markers with 4 cells along a side. "
+                     "original is ArUco's original dictionary; the names with april_ are AprilTag families.")
           .number("side_m", &Options::side, {1e-3, 100}, "Side length of a marker's black square.")
           .number("corner_sigma_px", &Options::corner_sigma, {1e-3, 100},
                   "Standard deviation of a marker's corner in the image, from which covariances are computed.")
           .number("min_side_px", &Options::min_side, {8, 10000},
-                  "Markers with a shorter side in the image are left out.")
+                  "Markers whose sides are shorter than this in the image are left out.")
           .choice<Refinement>(
               "refinement", &Options::refinement,
               {{"none", Refinement::none}, {"gradients", Refinement::gradients}, {"edges", Refinement::edges}},
-              "Subpixel refinement of marker corners: none, by the image gradients around them, or by the lines "
-              "along the marker's sides.");
+              "How marker corners are located more finely than to a pixel. none: they are not. gradients: by the image "
+              "gradients around a corner. edges: by the lines along the marker's sides.");
   return table;
 }
 

@@ -67,8 +67,8 @@ const base::OptionTable<Options>& Options::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the depth camera that is calibrated; empty for all of them.")
-          .number("depth_fx_px", &Options::depth_fx, focal, "Focal length of the depth camera, along the columns.")
-          .number("depth_fy_px", &Options::depth_fy, focal, "Focal length of the depth camera, along the rows.")
+          .number("depth_fx_px", &Options::depth_fx, focal, "Horizontal focal length of the depth camera.")
+          .number("depth_fy_px", &Options::depth_fy, focal, "Vertical focal length of the depth camera.")
           .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
           .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
           .number("depth_k1", &Options::depth_k1, lens,
@@ -81,9 +81,8 @@ const base::OptionTable<Options>& Options::table() {
                   "Second tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
           .number("depth_k3", &Options::depth_k3, lens,
                   "Third radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("picture_fx_px", &Options::picture_fx, focal,
-                  "Focal length of the picture camera, along the columns.")
-          .number("picture_fy_px", &Options::picture_fy, focal, "Focal length of the picture camera, along the rows.")
+          .number("picture_fx_px", &Options::picture_fx, focal, "Horizontal focal length of the picture camera.")
+          .number("picture_fy_px", &Options::picture_fy, focal, "Vertical focal length of the picture camera.")
           .number("picture_cx_px", &Options::picture_cx, centre, "Column of the picture camera's optical axis.")
           .number("picture_cy_px", &Options::picture_cy, centre, "Row of the picture camera's optical axis.")
           .number("picture_k1", &Options::picture_k1, lens,
@@ -96,10 +95,11 @@ const base::OptionTable<Options>& Options::table() {
                   "Second tangential distortion coefficient of the picture camera's lens, in OpenCV's model.")
           .number("picture_k3", &Options::picture_k3, lens,
                   "Third radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
-          .number("depth_scale", &Options::depth_scale, scale, "Ratio of the true depth to the depth in the log.")
+          .number("depth_scale", &Options::depth_scale, scale, "True depth divided by the depth in the log.")
           .list("depth_distortion_per_m", &Options::depth_distortion,
-                "Correction that is added to the inverse depth over the image, before depth_scale is applied: "
-                "coefficients of products of Legendre polynomials, as omnimapper-calibrate depth writes them.")
+                "Correction of depths that depends on the pixel: coefficients of products of Legendre polynomials, as "
+                "omnimapper-calibrate depth writes them. Their sum is added to the inverse depth of a pixel before "
+                "depth_scale is applied.")
           .number("picture_x_m", &Options::picture_x, place,
                   "Forward position of the picture camera in the depth camera's frame (x forward, y left, z up), "
                   "as in MRPT.")

@@ -11,30 +11,32 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
   using base::Range;
   static const auto table =
       base::OptionTable<Options>()
-          .number("voxel_m", &Options::voxel, Range::notNegative(),
-                  "Side of the voxels over which points are averaged; 0 leaves the points as they are.")
+          .number(
+              "voxel_m", &Options::voxel, Range::notNegative(),
+              "Side of the cubes (voxels) in each of which the points are averaged; 0 leaves the points as they are.")
           .number("min_range_m", &Options::min_range, Range::notNegative(), "Points nearer than this are left out.")
           .number("max_range_m", &Options::max_range, Range::positive(), "Points farther than this are left out.")
           .number("range_sigma_m", &Options::range_sigma, Range::positive(),
-                  "Standard deviation of a point along its ray, near the sensor.")
+                  "Standard deviation of a point along its ray, apart from the noise that grows with the range.")
           .number("noise_at_1m_m", &Options::noise_at_1m, Range::notNegative(),
-                  "Standard deviation at 1 m of the range noise that grows with the square of the range; 0.0023 "
-                  "for a Kinect.")
+                  "Standard deviation, at a range of 1 m, of the part of the noise that grows with the square of the "
+                  "range; 0.0023 for a Kinect.")
           .number("correlated_points", &Options::correlated_points, {1, 10000},
                   "Number of neighbouring points that share one error; 9 for a Kinect.")
           .number("bias_sigma_m", &Options::bias_sigma, Range::notNegative(),
-                  "Standard deviation of the range error that neighbouring points have in common, which covariances "
-                  "include.")
+                  "Standard deviation of the range error that neighbouring points have in common. Reported covariances "
+                  "include it.")
           .number("distortion_at_1m_m", &Options::distortion_at_1m, Range::notNegative(),
-                  "Largest systematic range error at 1 m that neighbouring points have in common and that grows "
+                  "Largest systematic range error that neighbouring points have in common, at a range of 1 m. It grows "
                   "with the square of the range; 0.004 for a Kinect.")
           .number("scale_sigma", &Options::scale_sigma, {0, 1},
                   "Standard deviation of the relative range error that neighbouring points have in common; 0.01 "
                   "for a Kinect.")
-          .number("gate_sigmas", &Options::gate, Range::positive(),
-                  "A point farther from a plane than this many standard deviations is not on it.")
+          .number(
+              "gate_sigmas", &Options::gate, Range::positive(),
+              "A point that is farther from a plane than this many standard deviations does not belong to the plane.")
           .number("sample_cube_m", &Options::sample_cube, Range::positive(),
-                  "Side of the cubes from which the three points of a plane hypothesis are drawn.")
+                  "The three points that a possible plane is computed from are drawn from a cube with this side.")
           .integer("trials", &Options::trials, {1, 1000000},
                    "Largest number of point triples that are drawn for each plane.")
           .integer("seed", &Options::seed, {0, 2147483647},
@@ -42,13 +44,13 @@ const base::OptionTable<CloudPlaneOptions>& CloudPlaneOptions::table() {
           .number("max_gap_m", &Options::max_gap, Range::positive(),
                   "Parts of a plane that are farther apart than this are separate surfaces.")
           .number("min_incidence_deg", &Options::min_incidence, {0, 89},
-                  "Planes at a smaller angle to the rays are rejected: a real surface is not visible edge-on, but the "
-                  "points of one ring of a 3D laser lie on a plane through the laser.")
+                  "Planes at a smaller angle than this to the rays are rejected. A real surface is not visible "
+                  "edge-on, but the points of one ring of a 3D laser lie on a plane through the laser.")
           .integer("min_points", &Options::min_points, {3, 100000000},
-                   "Surfaces with fewer points, after averaging over voxels, are left out.")
+                   "Surfaces with fewer points than this are left out. Points are counted after averaging over voxels.")
           .choice<Outline>("outline", &Options::outline, {{"concave", Outline::concave}, {"convex", Outline::convex}},
-                           "Outline of a surface: concave follows its points and has holes, convex is their "
-                           "convex hull.");
+                           "Outline of a surface. concave: it follows the points and has holes. convex: it is the "
+                           "convex hull of the points.");
   return table;
 }
 

@@ -14,7 +14,8 @@ base::OptionTable<Options> depthSensorTable() {
       .number("noise_at_1m_m", &Options::noise_at_1m, Range::positive(),
               "Standard deviation of a pixel's depth at 1 m. It grows with the square of the depth.")
       .number("step_at_1m_m", &Options::step_at_1m, Range::notNegative(),
-              "Step between two depths that the sensor can distinguish at 1 m. 0 means that it has no such step.")
+              "Difference between successive depths that the sensor can report, at 1 m. 0 means that depths are not "
+              "rounded to such steps.")
       .number("correlation_area_px2", &Options::correlation_area, {1, 10000},
               "Number of neighbouring pixels that share one depth error.")
       .number("min_depth_m", &Options::min_depth, Range::positive(), "Pixels with a smaller depth are left out.")

@@ -16,32 +16,37 @@ const base::OptionTable<EdgeOptions>& EdgeOptions::table() {
   using base::Range;
   static const auto table =
       depthSensorTable<EdgeOptions>()
-          .flag("jumps", &EdgeOptions::jumps, "Detect occluding, occluded and boundary edges.")
+          .flag("jumps", &EdgeOptions::jumps,
+                "Detects edges at depth discontinuities (occluding on their near side, occluded on their far side) and "
+                "beside holes of the depth image (boundary).")
           .number("jump_sigmas", &EdgeOptions::jump_sigmas, Range::positive(),
-                  "Smallest depth discontinuity that is an occluding edge, in standard deviations of the "
-                  "difference of two pixels.")
+                  "Smallest depth discontinuity that is an occluding edge, in standard deviations of the difference "
+                  "between two pixels. The discontinuity must exceed relative_jump, too.")
           .number("relative_jump", &EdgeOptions::relative_jump, {0, 1},
-                  "Smallest depth discontinuity that is an occluding edge, relative to the depth (thesis: "
-                  "tau_dd).")
+                  "Smallest depth discontinuity that is an occluding edge, relative to the depth (thesis: tau_dd). The "
+                  "discontinuity must exceed jump_sigmas, too.")
           .integer("max_hole_px", &EdgeOptions::max_hole, {0, 4096},
                    "Holes in the depth image up to this width are bridged. Pixels beside wider holes are "
                    "boundary edges.")
-          .flag("high_curvature", &EdgeOptions::high_curvature, "Detect high curvature edges, where the surface turns.")
+          .flag("high_curvature", &EdgeOptions::high_curvature,
+                "Detects high curvature edges, where neighbouring surfaces meet at an angle.")
           .number("min_turn_deg", &EdgeOptions::min_turn, {1, 180},
                   "Smallest angle between the surfaces on the two sides of a high curvature edge.")
           .number("turn_sigmas", &EdgeOptions::turn_sigmas, Range::notNegative(),
-                  "Smallest angle between the two sides of a high curvature edge, in standard deviations of the "
-                  "angle between two normals.")
+                  "Smallest angle between the surfaces on the two sides of a high curvature edge, in standard "
+                  "deviations of the angle between two normals.")
           .integer("window_radius_px", &EdgeOptions::window_radius, {1, 7},
-                   "Radius of the window from which a normal is estimated, which has 2 radius + 1 pixels a side.")
+                   "Radius r of the square window around a pixel from which the pixel's normal is estimated. The "
+                   "window has 2 r + 1 pixels a side.")
           .integer("min_turn_pixels", &EdgeOptions::min_turn_pixels, {1, 1000000},
-                   "High curvature edges with fewer pixels are left out.")
-          .flag("rgb", &EdgeOptions::rgb, "Detect edges in the picture.")
+                   "High curvature edges with fewer pixels than this are left out.")
+          .flag("rgb", &EdgeOptions::rgb, "Detects edges in the picture.")
           .number("rgb_low", &EdgeOptions::rgb_low, {0, 2040},
-                  "Lower Canny threshold: an edge of the picture continues where the gradient is above this "
-                  "value.")
+                  "Lower threshold of the Canny edge detector: an edge of the picture continues where the gradient is "
+                  "above this value.")
           .number("rgb_high", &EdgeOptions::rgb_high, {0, 2040},
-                  "Upper Canny threshold: an edge of the picture starts where the gradient is above this value.");
+                  "Upper threshold of the Canny edge detector: an edge of the picture starts where the gradient is "
+                  "above this value.");
   return table;
 }
 

@@ -23,14 +23,15 @@ const base::OptionTable<LaserLineOptions>& LaserLineOptions::table() {
           .number("max_range_m", &Options::max_range, Range::positive(), "Readings farther than this are dropped.")
           .number("range_sigma_m", &Options::range_sigma, Range::positive(), "Standard deviation of a range reading.")
           .number("beam_width_deg", &Options::beam_width, {0, 10},
-                  "Full angle of a beam. Where a beam meets a wall obliquely, the range varies over the part of the "
-                  "wall that it covers; that variation is added to its noise.")
+                  "Full opening angle of a beam. A beam that meets a wall obliquely covers a part of the wall over "
+                  "which the range varies; this variation is added to the noise.")
           .number("roughness_m", &Options::roughness, Range::notNegative(),
-                  "Standard deviation of a wall's surface from a flat one.")
+                  "Standard deviation by which a wall's surface deviates from a flat one.")
           .number("gate_sigmas", &Options::gate, Range::positive(),
-                  "A point farther from a line than this many standard deviations is not on it.")
+                  "A point that is farther from a line than this many standard deviations does not belong to the line.")
           .number("max_gap_m", &Options::max_gap, Range::notNegative(),
-                  "A line is split where the beams along it met something else over a longer distance than this.")
+                  "A line is split between two of its points that are farther apart than this if the beams between "
+                  "them did not meet the line.")
           .number("min_length_m", &Options::min_length, Range::positive(), "Lines shorter than this are dropped.")
           .integer("min_points", &Options::min_points, {3, 100000}, "Lines with fewer points are dropped.")
           .integer("ransac_trials", &Options::ransac_trials, {1, 100000},

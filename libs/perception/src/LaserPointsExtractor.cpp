@@ -63,16 +63,17 @@ std::vector<Point> spaced(const std::vector<Point>& points, double spacing) {
 
 const base::OptionTable<LaserPointsOptions>& LaserPointsOptions::table() {
   using Options = LaserPointsOptions;
-  static const auto table = base::OptionTable<Options>()
-                                .number("min_range_m", &Options::min_range, base::Range::notNegative(),
-                                        "Readings nearer than this are dropped.")
-                                .number("max_range_m", &Options::max_range, base::Range::positive(),
-                                        "Readings farther than this are dropped.")
-                                .number("spacing_m", &Options::spacing, base::Range::notNegative(),
-                                        "Smallest distance between kept points along the scan; 0 keeps all.")
-                                .number("isolated_distance_m", &Options::isolated_distance, base::Range::notNegative(),
-                                        "A point farther than this from both of its neighbours is dropped, because its "
-                                        "beam probably hit the edge of something and what is behind it; 0 keeps all.");
+  static const auto table =
+      base::OptionTable<Options>()
+          .number("min_range_m", &Options::min_range, base::Range::notNegative(),
+                  "Readings nearer than this are dropped.")
+          .number("max_range_m", &Options::max_range, base::Range::positive(),
+                  "Readings farther than this are dropped.")
+          .number("spacing_m", &Options::spacing, base::Range::notNegative(),
+                  "Smallest distance between successive points that are kept of a scan; 0 keeps all points.")
+          .number("isolated_distance_m", &Options::isolated_distance, base::Range::notNegative(),
+                  "A point that is farther than this from both of its neighbours is dropped, because its beam probably "
+                  "hit both the edge of something and what is behind that edge; 0 keeps all points.");
   return table;
 }
 

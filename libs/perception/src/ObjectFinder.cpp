@@ -30,13 +30,13 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
           .number("min_surface_area_m2", &Options::min_surface_area, Range::positive(),
                   "Planes at least this large belong to the environment, smaller ones to the objects in it.")
           .number("max_tilt_deg", &Options::max_tilt, {0, 180},
-                  "Largest tilt from level of a surface that objects stand on, according to the sensor's pose on "
-                  "the base.")
+                  "Largest tilt from level of a surface that objects can stand on. What is level follows from the "
+                  "sensor's pose on the base.")
           .number("coplanar_angle_deg", &Options::coplanar_angle, {0, 90},
                   "Largest angle between the normals of planes that may be pieces of one surface.")
           .number("coplanar_distance_m", &Options::coplanar_distance, Range::notNegative(),
-                  "Largest distance between the middle of one plane and the other plane if both are pieces of one "
-                  "surface, in addition to the sensor's systematic distortion.")
+                  "Two planes can be pieces of one surface only if the middle of each is at most this far from the "
+                  "other plane, apart from the sensor's systematic distortion.")
           .number("min_height_m", &Options::min_height, Range::notNegative(),
                   "Points that are above a surface by less than the sum of this and the noise belong to the surface "
                   "itself.")
@@ -46,12 +46,13 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
           .number("max_standing_gap_m", &Options::max_standing_gap, Range::notNegative(),
                   "Largest distance between a surface and the lowest visible point of an object on it. It is not zero, "
                   "because nearer objects may hide the foot of an object.")
-          .integer("min_points", &Options::min_points, {1, 1e9}, "Clusters with fewer points are dropped.")
+          .integer("min_points", &Options::min_points, {1, 1e9}, "Clusters of fewer points than this are dropped.")
           .number("min_size_m", &Options::min_size, Range::notNegative(),
-                  "Clusters are dropped if the longest side of their bounding box is shorter.")
+                  "Clusters of points are dropped if the longest side of their bounding box is shorter than this.")
           .number("max_volume_m3", &Options::max_volume, Range::positive(),
-                  "Clusters are dropped if the volume of their bounding box is larger.")
-          .flag("on_surfaces_only", &Options::on_surfaces_only, "Drop clusters that do not stand on a level surface.");
+                  "Clusters of points are dropped if the volume of their bounding box is larger than this.")
+          .flag("on_surfaces_only", &Options::on_surfaces_only,
+                "Drops clusters of points that do not stand on a level surface.");
   return table;
 }
 

@@ -34,8 +34,8 @@ const base::OptionTable<PlaneComparisonOptions>& PlaneComparisonOptions::table()
               "have one colour, which needs a picture with each depth image. normals: their normals and offsets are "
               "similar, as in the thesis.")
           .number("max_colour_distance", &Options::max_colour_distance, {0, 442},
-                  "With comparator = plane_colour, largest Euclidean RGB distance (channels 0 to 255) between pixels "
-                  "at most 2 pixels apart that count as one colour.");
+                  "With comparator = plane_colour, two pixels that are at most 2 pixels apart have one colour if their "
+                  "RGB values (0 to 255) differ by at most this (Euclidean distance).");
   return table;
 }
 

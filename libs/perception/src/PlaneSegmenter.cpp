@@ -14,12 +14,12 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
   static const auto table =
       depthSensorTable<PlaneOptions>()
           .number("distortion_at_1m_m", &PlaneOptions::distortion_at_1m, Range::notNegative(),
-                  "Largest systematic distortion of a flat wall by the sensor, at 1 m. Covariances count half of "
-                  "it as a standard deviation.")
+                  "Largest distortion that the sensor makes in a flat wall at a distance of 1 m; it grows with the "
+                  "square of the distance. Covariances count half of it as a standard deviation.")
           .number("scale_sigma", &PlaneOptions::scale_sigma, {0, 1}, kScaleHelp)
           .integer("min_pixels", &PlaneOptions::min_pixels, {1, 1e9}, "Planes with fewer pixels are left out.")
           .integer("min_hole_pixels", &PlaneOptions::min_hole_pixels, {1, 1e9},
-                   "Holes of fewer pixels in a plane are not outlined.");
+                   "Holes in a plane that have fewer pixels than this are not outlined.");
   return table;
 }
 

@@ -8,10 +8,9 @@
 namespace omnimapper::perception {
 
 const base::OptionTable<RoadPoseOptions>& RoadPoseOptions::table() {
-  static const auto table =
-      base::OptionTable<RoadPoseOptions>().number("ground_height_m", &RoadPoseOptions::ground_height, {},
-                                                  "Height of the ground that the wheels stand on, in the base's "
-                                                  "frame.");
+  static const auto table = base::OptionTable<RoadPoseOptions>().number(
+      "ground_height_m", &RoadPoseOptions::ground_height, {},
+      "Height of the ground on which the wheels stand, as z in the frame of the base.");
   return table;
 }
 

@@ -18,25 +18,28 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
       depthSensorTable<RoadOptions>()
           .number("scale_sigma", &RoadOptions::scale_sigma, {0, 1}, kScaleHelp)
           .integer("window_radius_px", &RoadOptions::window_radius, {1, 7},
-                   "Radius of the window from which a normal is estimated, which has 2 radius + 1 pixels a side.")
-          .number("max_tilt_deg", &RoadOptions::max_tilt, {0, 89},
-                  "Largest angle between the ground's normal and that of the expected ground.")
+                   "Radius r of the square window around a pixel from which the pixel's normal is estimated. The "
+                   "window has 2 r + 1 pixels a side.")
+          .number(
+              "max_tilt_deg", &RoadOptions::max_tilt, {0, 89},
+              "Largest angle between the ground's normal and the normal of the ground that the camera's pose predicts.")
           .number("max_turn_deg", &RoadOptions::max_turn, {0, 89},
                   "Largest angle between the normals of neighbouring ground pixels.")
           .number("max_off_m", &RoadOptions::max_off, Range::notNegative(),
-                  "Largest distance of the ground above or below the expected ground, near the sensor.")
+                  "Largest distance of the ground above or below the ground that the camera's pose predicts, near the "
+                  "sensor. With the depth, this limit grows at the slope max_slope_deg.")
           .number("max_slope_deg", &RoadOptions::max_slope, {0, 45},
-                  "Angle at which the tolerated distance above or below the expected ground widens with the "
-                  "depth.")
+                  "Slope at which max_off_m, the largest distance of the ground from the one that the camera's pose "
+                  "predicts, grows with the depth.")
           .number("grow_sigmas", &RoadOptions::grow_sigmas, {1, 100},
-                  "A pixel without a known normal is ground if it is within this many standard deviations of the "
-                  "ground around it.")
+                  "A pixel without a known normal belongs to the ground if it is within this many standard deviations "
+                  "of the ground around it.")
           .number("step_sigmas", &RoadOptions::step_sigmas, {1, 100},
-                  "A step in the height of the ground, such as a kerb, is not ground if it exceeds this many "
-                  "standard deviations.")
+                  "A step in the height of the ground, such as a kerb, does not belong to the ground if it is higher "
+                  "than this many standard deviations.")
           .integer("min_pixels", &RoadOptions::min_pixels, {1, 1e9}, "Ground regions with fewer pixels are left out.")
           .integer("min_hole_pixels", &RoadOptions::min_hole_pixels, {1, 1e9},
-                   "Holes of fewer pixels in the ground are not outlined.");
+                   "Holes in the ground that have fewer pixels than this are not outlined.");
   return table;
 }
 

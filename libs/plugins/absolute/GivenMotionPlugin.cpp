@@ -12,9 +12,10 @@ const base::OptionTable<GivenMotionOptions>& GivenMotionOptions::table() {
   using Options = GivenMotionOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the poses; empty for the first one observed.")
+          .text("label", &Options::label,
+                "Sensor label of the poses; empty for the label of the first pose in the log.")
           .number("max_gap_s", &Options::max_gap, base::Range::positive(),
-                  "Longest time between two poses across which the motion counts as known.")
+                  "Longest time between two poses at which the motion from one to the other counts as known.")
           .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
                   "Standard deviation of each coordinate of the motion after 1 s; it grows "
                   "with the root of time.")

@@ -12,17 +12,18 @@
 namespace omnimapper::plugins {
 
 struct GivenMotionOptions {
-  std::string label;                                                ///< empty: the first that comes
-  double max_gap = 1;                                               ///< [s] between poses
+  std::string label;  ///< of the poses; empty: that of the first pose
+  double max_gap = 1;  ///< [s] largest, from one pose to the next
   double position_sigma = 0.05;                                     ///< [m] after 1 s; grows with the root of time
   double angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with the root of time
 
   static const base::OptionTable<GivenMotionOptions>& table();
 };
 
-/// External poses, as of motion capture (CObservationRobotPose), as a continuous pose source (thesis 5.2.2.1): the
-/// motion from one pose to the next. Beside a RobotPosePlugin, which places the poses in the map, it places
-/// observations between key frames. Its noise is wide, because the same poses count there already.
+/// A continuous pose source (thesis 5.2.2.1) from external poses, such as those of motion capture
+/// (CObservationRobotPose): it gives the motion from one pose to the next. It is meant to run beside a RobotPosePlugin,
+/// which places the key frames by the same poses; this plugin places the observations between key frames. The noise of
+/// its motions is wide, because the poses already count in RobotPosePlugin.
 class GivenMotionPlugin : public mapper::PosePlugin {
  public:
   explicit GivenMotionPlugin(const GivenMotionOptions& options) : options_(options) {}
@@ -40,9 +41,9 @@ class GivenMotionPlugin : public mapper::PosePlugin {
   void addMotion(const Poses::value_type& begin, const Poses::value_type& end);
 
   GivenMotionOptions options_;
-  std::optional<std::string> label_;  // of the first that came
+  std::optional<std::string> label_;  // of the first pose that came
   Poses poses_;                       // reference_from_base
-  bool forgotten_ = false;            // poses before the first one were dropped
+  bool forgotten_ = false;  // true: poses before the first of poses_ were dropped
   std::optional<Span> news_;
   matching::PoseTimeline timeline_;
 };

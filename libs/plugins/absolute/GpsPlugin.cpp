@@ -25,29 +25,35 @@ const base::OptionTable<GpsOptions>& GpsOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the GPS receiver; empty for every GPS observation.")
-          .number("sigma_m", &Options::sigma, positive, "Horizontal standard deviation of a plain fix at HDOP 1.")
+          .number("sigma_m", &Options::sigma, positive,
+                  "Horizontal standard deviation of a fix without RTK (real-time kinematics) at an HDOP of 1. A larger "
+                  "HDOP (horizontal dilution of precision) multiplies this value.")
           .number("sigma_rtk_float_m", &Options::sigma_rtk_float, positive,
-                  "Horizontal standard deviation of an RTK fix with float solution, whatever its HDOP is.")
+                  "Horizontal standard deviation of an RTK fix with float solution, at any HDOP (RTK: real-time "
+                  "kinematics; HDOP: horizontal dilution of precision).")
           .number("sigma_rtk_m", &Options::sigma_rtk, positive,
-                  "Horizontal standard deviation of an RTK fix with fixed solution, whatever its HDOP is.")
+                  "Horizontal standard deviation of an RTK fix with fixed solution, at any HDOP (RTK: real-time "
+                  "kinematics; HDOP: horizontal dilution of precision).")
           .number("up_factor", &Options::up_factor, positive,
                   "Ratio of the vertical to the horizontal standard deviation of a fix.")
           .number("max_hdop", &Options::max_hdop, positive,
-                  "Largest HDOP of a fix that is used; fixes of worse geometry are rejected.")
+                  "Largest HDOP (horizontal dilution of precision) of a fix that is used. Fixes with a larger HDOP are "
+                  "rejected, because the geometry of their satellites is poor.")
           .number("min_spread_m", &Options::min_spread, positive,
-                  "Extent that the fixes must cover for the map's heading to be determined; until then they wait.")
+                  "Distance over which the fixes must extend before they are used, because fixes at one place do not "
+                  "determine the map's heading.")
           .number("loss_scale", &Options::loss_scale, positive,
                   "Number of standard deviations beyond which a measurement that disagrees loses influence (scale of "
                   "the Cauchy loss).")
           .flag("map_is_enu", &Options::map_is_enu,
-                "The map frame is the east-north-up frame at the origin given by latitude, longitude and altitude; "
-                "otherwise its pose there is estimated.")
+                "true: the map frame is the east-north-up frame at origin_latitude, origin_longitude and "
+                "origin_altitude_m. false: the pose of the map on the earth is estimated.")
           .number("origin_latitude", &Options::origin_latitude, base::Range{-90, 90},
-                  "Latitude of the origin of the east-north-up frame [degrees north].")
+                  "With map_is_enu = true, latitude of the map's origin [degrees north].")
           .number("origin_longitude", &Options::origin_longitude, base::Range{-180, 180},
-                  "Longitude of the origin of the east-north-up frame [degrees east].")
+                  "With map_is_enu = true, longitude of the map's origin [degrees east].")
           .number("origin_altitude_m", &Options::origin_altitude, {},
-                  "Altitude of the origin of the east-north-up frame above the ellipsoid.");
+                  "With map_is_enu = true, altitude of the map's origin above the ellipsoid (WGS84).");
   return table;
 }
 

@@ -16,7 +16,7 @@ struct GpsOptions {
   double sigma = 3.0;            ///< [m] horizontal, of a plain fix at HDOP 1
   double sigma_rtk_float = 0.4;  ///< [m]
   double sigma_rtk = 0.03;       ///< [m]
-  double up_factor = 2.0;        ///< vertical sigma over horizontal
+  double up_factor = 2.0;        ///< vertical sigma divided by the horizontal one
   double max_hdop = 10;
   double min_spread = 5.0;  ///< [m]
   double loss_scale = 3;    ///< [sigma] of the Cauchy loss
@@ -28,8 +28,9 @@ struct GpsOptions {
 };
 
 /// GPS fixes (thesis 5.2.2.2) of an antenna whose position on the base (the lever arm) is the observation's sensorPose.
-/// The pose of the local east-north-up frame in the map is a variable, which is created once the fixes spread wide
-/// enough to determine its heading. With map_is_enu the map is that frame, around a given origin.
+/// The pose of the local east-north-up frame in the map is a variable, which is created once the fixes spread widely
+/// enough to determine the heading of that frame. With map_is_enu the map frame is the east-north-up frame at a given
+/// origin.
 class GpsPlugin : public mapper::MeasurementPlugin {
  public:
   GpsPlugin(const GpsOptions& options, const mapper::PluginContext& context);
@@ -39,7 +40,7 @@ class GpsPlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
-  /// The origin and the variable map_from_enu.
+  /// Saves the origin and the variable map_from_enu.
   std::optional<map::MapSection> save() const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 
@@ -61,7 +62,7 @@ class GpsPlugin : public mapper::MeasurementPlugin {
   GpsOptions options_;
   mapper::PluginContext context_;
   std::optional<Origin> origin_;
-  std::vector<Fix> waiting_;  // until map_from_enu exists
+  std::vector<Fix> waiting_;  // wait until map_from_enu exists
   std::optional<base::VariableId> map_from_enu_;
 };
 
@@ -70,7 +71,7 @@ class GpsPluginFactory : public mapper::MeasurementPluginFactory {
  public:
   std::string name() const override { return "GpsPlugin"; }
   std::string summary() const override {
-    return "GPS fixes; estimates where the map is on the earth, or uses a given origin.";
+    return "Uses GPS fixes. Estimates where the map is on the earth, or places the map at a given origin.";
   }
   const std::vector<base::OptionSpec>& options() const override { return GpsOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;

@@ -32,14 +32,15 @@ const base::OptionTable<RobotPoseOptions>& RobotPoseOptions::table() {
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the pose observations; empty for all of them.")
           .flag("reference_is_map", &Options::reference_is_map,
-                "The poses are given in the map frame; otherwise the pose of their frame in the map is estimated.")
+                "true: the poses are given in the map frame. false: they are given in another frame, whose pose in the "
+                "map is estimated.")
           .number("position_sigma_m", &Options::position_sigma, base::Range::positive(),
                   "Standard deviation of each coordinate where an observation reports no covariance.")
           .number("angle_sigma_deg", &Options::angle_sigma, base::Range::positive(),
                   "Standard deviation of each angle where an observation reports no covariance.")
           .number("loss_scale", &Options::loss_scale, base::Range::notNegative(),
-                  "Scale of the Cauchy loss, in standard deviations, for poses of which some are wrong, so that "
-                  "other measurements may overrule them; 0 uses no loss.");
+                  "Number of standard deviations beyond which a pose that disagrees loses influence (scale of the "
+                  "Cauchy loss), so that other measurements can overrule wrong poses. With 0 no pose loses influence.");
   return table;
 }
 

@@ -10,7 +10,7 @@
 namespace omnimapper::plugins {
 
 struct RobotPoseOptions {
-  std::string label;  ///< empty: every such observation
+  std::string label;  ///< empty: every CObservationRobotPose
   bool reference_is_map = true;
   double position_sigma = 0.02;                                     ///< [m]
   double angle_sigma = 1.0 * base::option_text::kRadiansPerDegree;  ///< [rad]
@@ -19,10 +19,10 @@ struct RobotPoseOptions {
   static const base::OptionTable<RobotPoseOptions>& table();
 };
 
-/// External absolute poses, as of motion capture (thesis 5.2.2.2), as CObservationRobotPose. They are trusted: without
-/// a loss no other measurement overrules them beyond what their covariance allows. A pose is that of the tracked body,
-/// whose pose on the base is the observation's sensorPose. It is given in the map frame, or in a frame whose pose in
-/// the map is a variable.
+/// External absolute poses (CObservationRobotPose), such as those of motion capture (thesis 5.2.2.2). They are trusted:
+/// unless loss_scale is set, they have no robust loss, so that no other measurement overrules them beyond what their
+/// covariance allows. Each pose is that of a tracked body, and the observation's sensorPose is the pose of this body on
+/// the base. The poses are given in the map frame, or in a reference frame whose pose in the map is a variable.
 class RobotPosePlugin : public mapper::MeasurementPlugin {
  public:
   RobotPosePlugin(const RobotPoseOptions& options, const mapper::PluginContext& context)
@@ -33,7 +33,7 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
-  /// The variable map_from_reference.
+  /// Saves the variable map_from_reference.
   std::optional<map::MapSection> save() const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
   /// The largest deviation of the map from the given poses.
@@ -48,7 +48,7 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
   RobotPoseOptions options_;
   mapper::PluginContext context_;
   std::optional<base::VariableId> map_from_reference_;
-  std::vector<Given> given_;  // in this session
+  std::vector<Given> given_;  // of this session
 };
 
 class RobotPosePluginFactory : public mapper::MeasurementPluginFactory {

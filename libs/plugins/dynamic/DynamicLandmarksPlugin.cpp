@@ -25,22 +25,24 @@ const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table
   static const auto table =
       base::OptionTable<Options>()
           .list("landmarks", &Options::landmarks,
-                "INI sections whose landmarks may have been moved; empty for all sections.")
+                "INI sections of the plugins whose landmarks may have been moved; empty for all plugins.")
           .integer("every_solves", &Options::every_solves, Range::notNegative(),
                    "Number of solves after which moved landmarks are searched for, in addition to the end of the "
                    "log; 0 searches only at the end.")
-          .number(
-              "max_weight", &Options::max_weight, Range{0, 1},
-              "Each landmark gets a weight, 1 if its measurements fit one place and 0 if not at all. Below this weight "
-              "it is examined for having moved; a landmark that has not moved has 0.9 or more in 99 of 100 cases.")
+          .number("max_weight", &Options::max_weight, Range{0, 1},
+                  "Each landmark gets a weight between 0 and 1. It is 1 if all measurements fit one place, and 0 if "
+                  "they fit none. A landmark with a smaller weight than this is examined for having moved. A landmark "
+                  "that has not moved has a weight of 0.9 or more in 99 of 100 cases.")
           .integer("min_measurements", &Options::min_measurements, Range{1, 1e6},
-                   "Smallest number of measurements at a place for a landmark to have been there; fewer are taken "
-                   "as errors.")
-          .number("min_move_m", &Options::min_move, Range::notNegative(), "Smallest displacement that counts as moved.")
+                   "A landmark counts as having been at a place only if at least this many measurements put it there; "
+                   "fewer are taken as errors.")
+          .number("min_move_m", &Options::min_move, Range::notNegative(),
+                  "A landmark counts as moved only if it was measured at places that are at least this far apart.")
           .number("visit_gap_s", &Options::visit_gap, Range::positive(),
                   "A landmark that was out of sight for longer than this may have been moved in the meantime.")
           .number("confidence", &Options::confidence, Range{0.5, 0.999999999},
-                  "Probability with which measurements at one place are recognized as such.");
+                  "Probability with which measurements of a landmark that did not move are recognized as being of one "
+                  "place.");
   return table;
 }
 

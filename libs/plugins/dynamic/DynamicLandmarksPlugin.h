@@ -10,10 +10,10 @@
 namespace omnimapper::plugins {
 
 struct DynamicLandmarksOptions {
-  std::vector<std::string> landmarks;  ///< INI sections of their plugins; empty: all sections
+  std::vector<std::string> landmarks;  ///< INI sections whose landmarks are examined; empty: all
   int every_solves = 0;                ///< number of solves between two searches; 0: only at the end
   double max_weight = 0.8;             ///< landmarks with a smaller weight are examined
-  int min_measurements = 2;            ///< at one place; fewer are errors
+  int min_measurements = 2;  ///< at one place; fewer count as errors
   double min_move = 0.15;              ///< [m] smallest displacement that counts as moved
   double visit_gap = 5;                ///< [s] after a longer gap, the landmark may have been moved
   double confidence = 0.999;           ///< probability that measurements at one place are recognized as such
@@ -21,12 +21,12 @@ struct DynamicLandmarksOptions {
   static const base::OptionTable<DynamicLandmarksOptions>& table();
 };
 
-/// Finds the landmarks that were moved (thesis 4.6): expectation maximization over one weight per landmark, on a copy
-/// of the graph; then the measurements of each landmark with a small weight are clustered by the places where it was
-/// seen. Moved landmarks are retired and no longer affect the map; a landmark of kind "moved thing" records the places
-/// of each. A landmark with a small weight whose measurements at no place determine it is retired without a record. The
-/// first key frame throws Error(unknown_key) if `landmarks` has a name that is neither a plugin's section nor the owner
-/// of a landmark.
+/// Finds the landmarks that were moved (thesis 4.6). Expectation maximization on a copy of the graph estimates one
+/// weight per landmark. The measurements of each landmark with a small weight are then clustered by the places where it
+/// was seen. Moved landmarks are retired and no longer affect the map; for each of them, a landmark of kind "moved
+/// thing" records the places. If the measurements at no single place determine a landmark with a small weight, it is
+/// retired without a record. At the first key frame, Error(unknown_key) is thrown if `landmarks` has a name that is
+/// neither a plugin's section nor the owner of a landmark.
 class DynamicLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   DynamicLandmarksPlugin(const DynamicLandmarksOptions& options, const mapper::PluginContext& context);

@@ -29,14 +29,15 @@ struct MeasuredPlace {
 
 /// Clusters the measurements of each landmark by the places where it was. Consecutive measurements that agree are a
 /// visit. In a copy of `graph`, each visit gets its own copy of the landmark, which is estimated together with the
-/// trajectory; two visits are at one place if they differ by no more than their covariance allows, or by less than
-/// `min_move`. Factors on the landmark alone apply to each visit, relations to other landmarks to none. None if some
-/// direction of another variable is undetermined.
+/// trajectory. Two visits are at one place if their copies differ by no more than their covariance allows, or by less
+/// than `min_move`. Factors on the landmark alone apply to the copy of each visit; relations to other landmarks are
+/// left out. None if some direction of another variable, such as a pose, is undetermined.
 std::optional<std::vector<std::vector<MeasuredPlace>>> clusterMeasurements(
     const map::Map& map, const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks,
     const DynamicLandmarksOptions& options);
 
-/// The values of a landmark's variables by these measurements alone, with the poses fixed at their values in `graph`.
+/// The values of a landmark's variables that follow from these measurements and from the factors on the landmark alone,
+/// with all other variables fixed at their values in `graph`.
 std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& measurements,
                                           const WeighedLandmark& landmark, const graph::Graph& graph);
 
@@ -44,8 +45,9 @@ std::vector<Eigen::VectorXd> valuesSeenBy(const std::vector<base::FactorId>& mea
 bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::FactorId>& measurements,
                   const graph::Graph& graph);
 
-/// The middle of a landmark with these values [m], by the part of its surface that was seen from these key frames, or
-/// by its whole surface if its payload has no such part (LandmarkPayload::seenFrom()); none if it has no shape.
+/// The middle [m] of a landmark whose variables have these values: that of the part of its surface that was seen from
+/// the key frames `seen_from`, or, if its payload has no such part (LandmarkPayload::seenFrom()), that of the whole
+/// surface. None if the landmark has no shape.
 std::optional<Eigen::Vector3d> middleOf(const map::Landmark& landmark, const std::vector<Eigen::VectorXd>& values,
                                         const map::KeyFrames& key_frames,
                                         const std::set<base::KeyFrameId>& seen_from = {});

@@ -11,9 +11,9 @@ namespace omnimapper::plugins {
 struct WeighedLandmark {
   base::LandmarkId id;
   std::vector<base::VariableId> variables;
-  std::vector<base::FactorId> measurements;  ///< factors that bind it and other variables, in the order of ids
-  int degrees_of_freedom = 0;                ///< rows of its factors beyond those that determine it
-  double chi2 = 0;                           ///< of the measurements, with their losses applied
+  std::vector<base::FactorId> measurements;  ///< factors that bind the landmark and other variables, in the order of ids
+  int degrees_of_freedom = 0;  ///< rows of the landmark's factors minus its dimensions
+  double chi2 = 0;  ///< of the measurements at full weight, with their losses applied
   double weight = 1;
 };
 
@@ -21,8 +21,9 @@ struct WeighedLandmark {
 struct Weighing {
   graph::Graph graph;  ///< each measurement has the weight of its landmark
   std::vector<WeighedLandmark> landmarks;
-  double cost =
-      0;  ///< chi-square of the graph; a landmark without weight costs as much as two, one at each of two places
+  /// Chi-square of the graph, plus for each landmark (1 - weight) times what two landmarks would cost, one at each of
+  /// two places.
+  double cost = 0;
   int rounds = 0;
 };
 
@@ -34,11 +35,11 @@ std::vector<WeighedLandmark> landmarksToWeigh(const mapper::State& state, const 
 std::vector<base::FactorId> factorsOfItself(const WeighedLandmark& landmark, const graph::Graph& graph);
 
 /// Expectation maximization over one weight for each landmark (thesis 4.6.2.2). It minimizes
-///   chi2 of all else + sum over landmarks of weight chi2 + lambda (1 - weight)^2
+///   chi2 of all other factors + sum over landmarks of (weight * chi2 + lambda * (1 - weight)^2)
 /// alternately over the map and the weights. lambda depends on a landmark's degrees of freedom, so that 99 of 100
-/// static landmarks keep a weight of at least 0.9. The first run starts from the current map. If landmarks lose weight
-/// in it, a second run starts from the map in which all landmarks have full weight, and lowers lambda step by step
-/// (graduated non-convexity); the result with the lower cost is returned.
+/// static landmarks keep a weight of at least 0.9. The first run starts from the current map. If the weight of a
+/// landmark falls to 0.5 or less in the first run, a second run starts from the map in which all landmarks have full
+/// weight, and lowers lambda step by step (graduated non-convexity); the result with the lower cost is returned.
 Weighing weighLandmarks(const graph::Graph& graph, const std::vector<WeighedLandmark>& landmarks);
 
 }  // namespace omnimapper::plugins

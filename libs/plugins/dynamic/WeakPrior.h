@@ -9,8 +9,9 @@
 
 namespace omnimapper::plugins {
 
-/// A weak prior on a variable of any kind, at a given value. Variable: of that kind. Residual: the tangent from the
-/// given value to the current one [rad, m]. It is used only in copies of a graph and never written to a file.
+/// A weak prior on a variable of any kind, at a given value. Variable: one of that kind. Residual: the tangent from the
+/// given value to the current one [rad, m]. The factor is used only in copies of a graph and is never written to a
+/// file.
 class WeakPrior : public graph::Factor {
  public:
   WeakPrior(std::shared_ptr<const graph::Variable> variable, const Eigen::VectorXd& value);

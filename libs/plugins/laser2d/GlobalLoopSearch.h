@@ -10,14 +10,15 @@
 namespace omnimapper::plugins {
 
 /// A job that searches the whole earlier map for loops outside the windows of LoopSearch. It searches if the estimate
-/// is less certain than those windows are large, or if the newest scans do not fit the map at the estimated pose. A
-/// match becomes a hypothesis, but within the windows it is left to LoopSearch, which matches single passes of the
-/// robot and is more exact.
+/// is less certain than those windows are large, or if the newest scan does not fit the map at the estimated pose. A
+/// match within a window of LoopSearch is left to LoopSearch, which matches single passes of the robot and is more
+/// exact; any other match becomes a hypothesis.
 class GlobalLoopSearch {
  public:
-  /// `newest`: the scans of the last metres, the newest last. `earlier`: all scans that are old enough for a loop.
-  /// `places`: placesToLoopTo() of these scans or of somewhat fewer. All are clouds of `label`.
-  /// `on_new_ground`: searches even if, by the estimate, the robot is certainly where nothing was seen before.
+  /// `newest`: the scans along the last metres travelled, the newest last. `earlier`: all scans that are old enough for
+  /// a loop. `places`: the result of placesToLoopTo() for these earlier scans, or for a somewhat smaller, older set of
+  /// them. All scans are from clouds with the label `label`. `on_new_ground`: if true, searches even where, by the
+  /// estimate, certainly nothing was seen before.
   GlobalLoopSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
                    std::shared_ptr<const matching::ScanMatcher> matcher, std::shared_ptr<const ScanDatabase> places,
                    std::string label, std::vector<LoopSearch::KeyScan> newest, std::vector<LoopSearch::KeyScan> earlier,
@@ -30,7 +31,7 @@ class GlobalLoopSearch {
   /// How reliable the estimated pose of the robot is.
   struct Estimate {
     double uncertainty;  // [m] three standard deviations
-    bool is_lost;        // a global search is needed: the pose is too uncertain, or the scans do not fit the map there
+    bool is_lost;  // a global search is needed: the pose is too uncertain, or the newest scan does not fit the map
   };
   std::optional<Estimate> judged(const mapper::State& state, mapper::Decision& decision) const;
 

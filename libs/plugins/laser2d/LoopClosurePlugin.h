@@ -19,16 +19,16 @@
 
 namespace omnimapper::plugins {
 
-/// Closes loops with 2D scans (thesis 5.3.3.2): the newest scans are matched with those of places that were seen long
-/// ago and may be near, by the covariance of the estimate. A session that no measurement ties to the saved map is
-/// searched for in the whole map. Scans are matched in the plane of the base; in a spatial map a closure leaves z, roll
-/// and pitch nearly unconstrained. The motion between consecutive key frames is measured by ScanOdometryPlugin.
+/// Closes loops with 2D scans (thesis 5.3.3.2): the newest scans are matched with the scans of places that were seen
+/// long ago and that, by the covariance of the estimate, may be near. A session that no measurement ties to the saved
+/// map is searched for in the whole map. Scans are matched in the plane of the base; in a spatial map a closure leaves
+/// z, roll and pitch nearly unconstrained. The motion between consecutive key frames is measured by ScanOdometryPlugin.
 class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::SeeksSession {
  public:
   LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
                     const mapper::PluginContext& context);
 
-  /// True in a map that is continued while scans arrive: without them it cannot search.
+  /// True while scans arrive in a run that continues a map; without scans the plugin cannot search.
   bool isSeeking() const override;
   bool wants(const mrpt::obs::CObservation& observation) const override;
   std::unique_ptr<const mapper::Prepared> prepare(const mrpt::obs::CObservation& observation) const override;
@@ -51,16 +51,16 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   };
   /// The last search in the whole saved map.
   struct LastMapSearch {
-    double travel, answered;        // [m] in the session, then and when an answer last moved it
-    mrpt::math::TPoint3D begun_at;  // estimated start of the session at that time
+    double travel, answered;  // [m] travelled in the session: at this search, at the last answer that moved it
+    mrpt::math::TPoint3D begun_at;  // start of the session as estimated at this search
   };
   /// The last global search for loops, and the database that is searched.
   struct LastGlobalSearch {
-    double travel = 0, on_new_ground = 0;  // [m] travelled then, and at the last search on new ground
+    double travel = 0, on_new_ground = 0;  // [m] travelled at this search, at the last on new ground
     std::shared_ptr<const ScanDatabase> places;
     std::size_t size = 0;             // number of scans in `places`
-    std::optional<base::Stamp> tied;  // newest tied stamp of TestedClosures when `places` was made
-    std::size_t corrections = 0;      // of TestedClosures when `places` was made
+    std::optional<base::Stamp> tied;  // TestedClosures::newestTied() when `places` was made
+    std::size_t corrections = 0;  // TestedClosures::corrections() when `places` was made
   };
   using History = std::vector<StampedScan>;  // in order of session, then stamp
   using Scan = std::shared_ptr<const matching::ScanWithNormals>;
@@ -74,7 +74,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   void seekInMap(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
-  /// The scans of the same session within `before` and `after` [m] of travel around the one at `centre`.
+  /// The scan at `centre` and the scans of the same session that are up to `before` [m] of travel before it and up to
+  /// `after` [m] after it; only a part of them if they are very many.
   static std::vector<LoopSearch::KeyScan> keyScans(const History& history, std::size_t centre, double before,
                                                    double after);
 
@@ -90,7 +91,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   std::map<std::string, LastGlobalSearch> last_global_search_;  // by label
   std::vector<GlobalLoopSearch> global_searches_;               // of the key frame being measured
   std::shared_ptr<const ScanDatabase> places_;                  // of the map that is continued
-  int frames_without_scan_ = 0;                                 // since the last scan, or the start
+  int frames_without_scan_ = 0;  // key frames since the last scan, or since the start
   std::map<std::string, LastMapSearch> last_map_search_;        // by label
   std::vector<GlobalRelocalization> map_searches_;              // of the key frame being measured
 };

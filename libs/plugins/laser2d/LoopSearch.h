@@ -47,8 +47,8 @@ class LoopSearch {
     double position, yaw;
   };
   SearchUncertainty uncertaintyAt(const Place& place, const mapper::State& state) const;
-  /// The local map of a place, and the scans to match with it. Both are longer the less certain the estimate is, so
-  /// that they determine the position along a corridor, too.
+  /// The local map of a place, and the scans to match with it. The less certain the estimate is, the longer both are,
+  /// so that they determine the position along a corridor, too.
   matching::ScanWithNormals localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                        const mapper::State& state) const;
   matching::ScanWithNormals query(const SearchUncertainty& uncertainty, const mapper::State& state) const;
@@ -75,7 +75,7 @@ class LoopSearch {
   std::vector<Place> places_;
 };
 
-/// Note of the factors of closures that were found by a search of the whole map.
+/// The note by which factors of closures that a search of the whole map found are recognized.
 inline constexpr char kGlobalClosure[] = "global loop closure";
 
 /// Joins the scans of key frames, in the frame of `centre`, at their poses in `state`.

@@ -17,7 +17,8 @@ struct PoseDistance {
   bool within(double most_metres, double most_radians) const {
     return metres <= most_metres && radians <= most_radians;
   }
-  /// Both in one number [m], to compare views of a laser: views with different headings share little of a place.
+  /// Distance and angle combined in one number [m], by which the views of a laser at two poses are compared: views with
+  /// different headings share little of a place.
   double ofViews() const { return metres + 2 * radians; }
 };
 PoseDistance distanceBetween(const mrpt::math::TPose2D& a, const mrpt::math::TPose2D& b);

@@ -16,7 +16,7 @@
 namespace omnimapper::plugins {
 
 /// The scans of key frames of a map, at the poses they had when the database was made, and a relocalizer over all of
-/// them, which the first thread that needs it builds. It is otherwise immutable, so threads may share it.
+/// them. The first thread that needs the relocalizer builds it. All else is immutable, so threads may share a database.
 class ScanDatabase {
  public:
   struct Place {
@@ -24,21 +24,23 @@ class ScanDatabase {
     mrpt::math::TPose2D map_from_base;
   };
 
-  /// Takes the `key_scans`, by the label of their clouds, whose sessions are joined. `map` has at least one key frame.
+  /// `key_scans`: by the label of their clouds. Those of sessions that are not joined to the map (map::Session::joined)
+  /// are left out. `map` has at least one key frame.
   ScanDatabase(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::KeyScan>>& key_scans,
                std::shared_ptr<const matching::ScanMatcher> matcher, const matching::RelocalizerOptions& options = {});
 
   bool empty() const { return places_.empty(); }
-  /// The `count` places with the most similar views, by distance and heading; the nearest first.
+  /// The `count` places with the most similar views, judged by distance and heading, the most similar first.
   std::vector<Place> nearest(const mrpt::math::TPose2D& map_from_base, std::size_t count) const;
   /// The start of a session that may lie anywhere in the map.
   const mapper::SessionStart& anywhere() const { return anywhere_; }
-  /// Throws Error(out_of_range) for a map too large for its grids.
+  /// Throws Error(out_of_range) if the map is too large for the grids of the relocalizer.
   const matching::Relocalizer& relocalizer() const;
 
  private:
   std::vector<Place> places_;
-  std::vector<map::KeyFrame> frames_;  // of each place; the engine would have to destroy a copy of the map
+  // The key frame of each place. A copy of the map would not do, because only the engine may destroy one.
+  std::vector<map::KeyFrame> frames_;
   std::vector<std::string> labels_;    // of the cloud, for each place
   std::shared_ptr<const matching::ScanMatcher> matcher_;
   matching::RelocalizerOptions options_;

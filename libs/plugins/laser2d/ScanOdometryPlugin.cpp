@@ -50,38 +50,39 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
   const auto zero_or_more = base::Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the laser; empty for the first one observed.")
+          .text("label", &Options::label, "Sensor label of the laser; empty for the first laser in the log.")
           .text("odometry_label", &Options::odometry_label,
-                "Sensor label of the odometry used for prediction; empty for the one that agrees best with the scan "
-                "matches.")
-          .number("sweep_s", &Options::sweep, zero_or_more,
-                  "Duration of a scan, whose stamp is the time of its first beam. The scan is corrected for the motion "
-                  "during it. 0 if all beams are simultaneous.")
+                "Sensor label of the odometry by which motions are predicted; empty for the one that agrees best with "
+                "the matches of scans.")
+          .number(
+              "sweep_s", &Options::sweep, zero_or_more,
+              "Time from a scan's first beam to its last one; 0 if all beams are simultaneous. The stamp of the scan "
+              "is the time of its first beam, and the scan is corrected for the motion of the base during this time.")
           .number("max_gap_s", &Options::max_gap, base::Range::positive(),
-                  "Longest time without a match; after it scan matching starts anew and other sources give the "
-                  "motion.")
+                  "If no scan could be matched for longer than this, scan matching starts anew, and other sources give "
+                  "the motion in between.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
-                  "Largest speed of a prediction; faster predictions are rejected.")
+                  "A prediction of the motion that is faster than this is rejected.")
           .number("prediction_sigma_m", &Options::prediction_sigma, base::Range::positive(),
-                  "Standard deviation of a predicted position, which matters where the walls leave a direction "
-                  "unconstrained.")
+                  "Standard deviation of a predicted position. It matters where the walls leave a direction of the "
+                  "motion unconstrained.")
           .number("prediction_sigma_deg", &Options::guess_angle_sigma, base::Range::positive(),
                   "Standard deviation of a predicted heading.")
           .number("prediction_sigma_per_m", &Options::prediction_sigma_per_m, zero_or_more,
                   "Additional standard deviation of the predicted position per metre moved, and of the predicted "
                   "heading per radian turned.")
           .number("point_sigma_m", &Options::point_sigma, base::Range::positive(),
-                  "Smallest standard deviation of the distance of a point from the wall it lies on; a match may "
-                  "yield a larger one.")
+                  "Smallest standard deviation that is assumed for the distance of a point from the wall it lies on. A "
+                  "match may yield a larger one.")
           .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
-                  "Additional standard deviation of the position after 1 m of distance travelled [m], beside that "
-                  "of the scan matches.")
+                  "Standard deviation of the position after 1 m of distance travelled [m], in addition to that of the "
+                  "scan matches; it grows with the square root of the distance.")
           .number("yaw_noise_per_root_m_deg", &Options::yaw_noise_per_root_m, zero_or_more,
-                  "Additional standard deviation of the heading after 1 m of distance travelled, beside that of the "
-                  "scan matches.")
+                  "Standard deviation of the heading after 1 m of distance travelled, in addition to that of the scan "
+                  "matches; it grows with the square root of the distance.")
           .number("yaw_noise_per_root_turn", &Options::yaw_noise_per_root_turn, zero_or_more,
-                  "Additional standard deviation of the heading after 1 rad of rotation [rad], beside that of the "
-                  "scan matches.");
+                  "Standard deviation of the heading after 1 rad of rotation [rad], in addition to that of the scan "
+                  "matches; it grows with the square root of the angle.");
   return table;
 }
 

@@ -18,15 +18,15 @@
 namespace omnimapper::plugins {
 
 struct ScanOdometryOptions {
-  std::string label;               ///< of the laser; empty: the first that comes
-  std::string odometry_label;      ///< of the odometry used for prediction; empty: the best one
-  double sweep = 0;                ///< [s] from the first beam of a scan, when it is stamped, to the last
-  double max_gap = 1.0;            ///< [s] between scans that are matched
-  double max_speed = 10.0;         ///< [m/s] of a prediction
+  std::string label;  ///< of the laser; empty: the first one observed
+  std::string odometry_label;  ///< of the odometry used for prediction; empty: the one that fits the matches best
+  double sweep = 0;  ///< [s] from the first beam of a scan, measured at its stamp, to the last
+  double max_gap = 1.0;  ///< [s] longest time without a match; then matching starts anew
+  double max_speed = 10.0;  ///< [m/s] largest of a prediction that is used
   double prediction_sigma = 0.01;  ///< [m]
   double guess_angle_sigma = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double prediction_sigma_per_m = 0.1;
-  double point_sigma = 0.02;                                                 ///< [m] at least
+  double point_sigma = 0.02;  ///< [m] smallest deviation of points from walls
   double position_noise_per_root_m = 0.01;                                   ///< [m / sqrt(m)]
   double yaw_noise_per_root_m = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
   double yaw_noise_per_root_turn = 0.005;                                    ///< [rad / sqrt(rad)]
@@ -39,14 +39,15 @@ struct ScanOdometryOptions {
 /// matched with a local map of the scans before it. Scans are processed in the order of their stamps; a scan that
 /// arrives after a later one was processed is left out.
 ///
-/// A match starts at a predicted motion: that of the odometry which recently agreed best with the matches, or constant
-/// velocity if that is better or there is no odometry. The prediction also determines directions that the walls leave
-/// unconstrained, so an odometry plugin beside this one should be a fallback. The systematic errors of each odometry
-/// are estimated from the matches and corrected in its predictions.
+/// A match starts at a predicted motion. The prediction is that of the odometry which has recently agreed best with the
+/// matches; it is a motion at constant velocity if that has agreed much better or if there is no odometry. The
+/// prediction also determines directions that the walls leave unconstrained, so an odometry plugin beside this one
+/// should be a fallback. The systematic errors of each odometry are estimated from the matches and corrected in its
+/// predictions.
 ///
-/// A scan that takes time (`sweep`) is deskewed with the predicted motion. It is stamped at its first beam, and its
-/// match is for the middle of the sweep, half of it later. Only the scans matched here are deskewed: the clouds that
-/// loop closures and maps use stay as they were measured.
+/// A scan that takes time (`sweep`) is deskewed with the predicted motion. Its stamp is the time of its first beam, but
+/// its match gives the pose at the middle of the sweep, half a sweep later. Only the scans matched here are deskewed:
+/// the clouds that loop closures and maps use stay as they were measured.
 ///
 /// The plane of the laser must be nearly level (matching::kLargestTilt), either side up; other scans are left out.
 class ScanOdometryPlugin : public mapper::PosePlugin {
@@ -61,8 +62,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   }
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
-  /// Gaps across which neither laser nor odometry measured the motion, and the share of time in which neither did along
-  /// one direction; empty if there are none.
+  /// Gaps across which neither laser nor odometry measured the motion, and, if it is large, the share of the time in
+  /// which neither of them measured the motion along one direction.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 
@@ -118,12 +119,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;   // middle of the scan that was matched last
   std::optional<base::Stamp> begun_;  // middle of the first scan of all
   Gaps gaps_;
-  double blind_seconds_ = 0;      // in which the walls left a direction unconstrained, without odometry
+  // Time in which the walls left a direction unconstrained and no odometry measured the motion.
+  double blind_seconds_ = 0;
   double seeing_seconds_ = 0;     // all other time in which scans were matched
   bool is_first_ = true;          // no scan was matched since the last restart
   mrpt::math::TPose2D velocity_;  // [m/s] [rad/s] in the base
   Predictor by_velocity_;
-  double noise_;  // [m] of points from the walls they lie on, by recent matches
+  double noise_;  // [m] deviation of points from their walls, in recent matches
   matching::PoseTimeline timeline_;
 };
 

@@ -8,21 +8,22 @@
 
 namespace omnimapper::plugins {
 
-/// A job that searches for the span of the trajectory in which the odometry slipped. Refused closures that agree with
-/// one another, but not with the map, determine the error at the end of the trajectory. From it follows the motion that
-/// each span must have had if only that span was wrong. The span whose scans gain most overlap at that motion gets it.
-/// If scans confirm no span, but those of exactly one span do not fit its odometry either, that span gets the motion
-/// that follows from the closures, with the uncertainty of the map between them.
+/// A job that searches for the span of the trajectory, from one key frame to the next, in which the odometry slipped.
+/// Refused closures that agree with one another, but not with the map, determine the error at the end of the
+/// trajectory. From this error follows the motion that each span must have had if only that span was wrong. If the
+/// scans before and after some span fit better at that motion, the span whose scans gain most overlap gets it.
+/// Otherwise, if there is exactly one span whose scans do not fit at its present motion either, this span gets the
+/// motion that follows from the closures, with a fixed uncertainty for the errors of the map.
 class SlipSearch {
  public:
-  /// `refused`: refused closures by scans. `trajectory`: the scan of each key frame of the map, in order; an empty one
-  /// where there is none.
+  /// `refused`: the closures found by global searches that the consistency test refused. `trajectory`: the scan of each
+  /// key frame of the map, in order; for a key frame without a scan, an empty one.
   SlipSearch(const LoopClosureOptions& options, const mapper::PluginContext& context,
              std::shared_ptr<const matching::ScanMatcher> matcher, std::vector<base::FactorId> refused,
              std::vector<LoopSearch::KeyScan> trajectory);
 
-  /// Empty if no two closures agree; else a decision of kind kSlip, with the new motion if it is accepted. The decision
-  /// is of another kind if no slip can explain the closures.
+  /// Empty if no two closures agree. Otherwise a decision of kind kSlip, with the new motion if the decision is
+  /// accepted; the decision is of another kind if no slip can explain the closures.
   mapper::Batch operator()(const mapper::State& state) const;
 
  private:

@@ -23,9 +23,10 @@ class TestedClosures {
   /// called once for each key frame.
   void noteSolves(std::size_t solves);
 
-  /// Stamp of the newest key frame that an accepted closure ties to the map; for newestWithNote() that of a closure
-  /// with the given note, accepted or not. None without such a closure.
+  /// Stamp of the newest key frame that an accepted closure ties to the map; none without an accepted closure.
   std::optional<base::Stamp> newestTied(const graph::Graph& graph) const;
+  /// Stamp of the newest key frame at which a closure with this note ends, whether the closure was accepted or not;
+  /// none without such a closure.
   std::optional<base::Stamp> newestWithNote(const graph::Graph& graph, const std::string& note) const;
   /// Closures of global searches that were tested and refused.
   std::vector<base::FactorId> refusedGlobally(const graph::Graph& graph) const;
@@ -38,7 +39,7 @@ class TestedClosures {
   struct Closure {
     base::FactorId id;
     bool is_tested;
-    bool is_settled;  // of a corrected motion: the refused closures have been proposed again
+    bool is_settled;  // for the factor of a corrected motion: the refused closures were proposed again
   };
   std::optional<base::Stamp> stampOf(const graph::FactorRecord& record) const;
 

@@ -22,9 +22,9 @@ class LevelSurfaces {
   const std::vector<surfaces::Surface>& all() const { return surfaces_; }
   /// The class of each surface; "surface" for all if it is not known which way is up.
   std::vector<surfaces::Judgement> judged(PlaneLandmarksOptions::Ground ground, const map::KeyFrames& key_frames) const;
-  /// Height of the floor that people walk on, in the level frame [m]: 0 with Ground::map in a level map; that of the
-  /// first base if the base stands on the floor; else that of the lowest large level surface or, without one, the
-  /// lowest corner.
+  /// Height of the floor that people walk on, in the level frame [m]. It is 0 with Ground::map in a level map.
+  /// Otherwise it is the height of the first base if the base stands on the floor. If it does not, it is the height of
+  /// the lowest large level surface or, without such a surface, of the lowest corner.
   double floor(PlaneLandmarksOptions::Ground ground, const map::KeyFrames& key_frames) const;
 
  private:

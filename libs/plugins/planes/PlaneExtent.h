@@ -12,22 +12,24 @@
 
 namespace omnimapper::plugins {
 
-constexpr double kSeenCell = 0.05;  ///< [m] side of the cells that a surface is counted in
-/// [m] largest extent of a surface that is counted in cells; of a larger one, such as a field, only the hull is known.
+constexpr double kSeenCell = 0.05;  ///< [m] side of the cells in which the area of a surface is counted
+/// [m] Largest extent of a surface that is counted in cells. Of a larger surface, such as a field, only the hull is
+/// known.
 constexpr double kLargestCounted = 100;
 
-/// The convex hull of points, projected on a plane [m, PlaneAxes].
+/// The convex hull of points that are projected on a plane, in the PlaneAxes of the plane [m].
 std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points);
 
-/// The union of the patches of planes, projected on a plane [m, PlaneAxes]; lines cover no area.
+/// The union of patches that are projected on a plane, in the PlaneAxes of the plane [m]. Patches of laser lines cover
+/// no area.
 geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
                         const map::KeyFrames& key_frames);
 
-/// The diagonal of the box around points [m]; 0 of none.
+/// The diagonal of the box around points [m]; 0 without points.
 double extentOf(const std::vector<Eigen::Vector3d>& points);
 
-/// Sets the cells that the patches of planes cover, projected on a plane; the grid grows as far as they reach. Coarser
-/// and much faster than seenOn(). Does nothing if the extent would exceed kLargestCounted.
+/// Sets the cells that patches cover when they are projected on a plane. The grid grows as far as the patches reach.
+/// This is coarser and much faster than seenOn(). Does nothing if the extent would exceed kLargestCounted.
 void addSeen(surfaces::CellGrid& cells, const geometry::Plane3& plane, const std::vector<SurfacePatch>& patches,
              const map::KeyFrames& key_frames);
 

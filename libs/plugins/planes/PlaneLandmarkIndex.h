@@ -13,8 +13,8 @@
 
 namespace omnimapper::plugins {
 
-/// The plane landmarks of a map with their current extents, to find those that a measurement may be of. All of it is
-/// derived from the map, and computed again where key frames have moved.
+/// The plane landmarks of a map with their current extents, in which the landmarks are found that a measurement may be
+/// of. All data are derived from the map, and computed again where key frames have moved.
 class PlaneLandmarkIndex {
  public:
   /// Whether the vertical extent of a surface is known: lines of a laser do not measure it.
@@ -24,13 +24,13 @@ class PlaneLandmarkIndex {
     base::LandmarkId id;
     base::VariableId variable;
     geometry::Plane3 plane;
-    std::vector<Eigen::Vector2d> hull;                 ///< [m, PlaneAxes of the plane]
+    std::vector<Eigen::Vector2d> hull;  ///< [m] in the PlaneAxes of the plane
     surfaces::CellGrid seen;                           ///< cells of kSeenCell; empty if the surface is too large
     surfaces::CellGrid well_seen;                      ///< those cells that were seen from near and not too obliquely
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] of the hull
     double radius = 0;                                 ///< [m] of the hull about the middle
     Heights heights = Heights::unknown;
-    double lowest = 0, highest = 0;  ///< [m] z in the map of its measured parts
+    double lowest = 0, highest = 0;  ///< [m] z in the map of the measured parts
     base::KeyFrameId last_seen_from;
     std::size_t patches = 0;  ///< number of the payload's patches that are in hull and seen
     std::size_t solve = 0;    ///< number of solves when this was computed, plus 1
@@ -42,11 +42,11 @@ class PlaneLandmarkIndex {
 
   const landmarks::PlaneParametrization& form() const { return landmarks::PlaneParametrization::of(empty_.form); }
   const PlanePayload& emptyPayload() const { return empty_; }
-  /// Adds the landmarks of the section. Throws Error(out_of_range) if they are no surfaces of the form of
+  /// Adds the landmarks of the section. Throws Error(out_of_range) if they are not plane landmarks of the same form as
   /// emptyPayload().
   void restore(const mapper::State& state);
   void add(base::LandmarkId id) { surfaces_[id].id = id; }
-  /// Computes what has changed in the map; drops landmarks that were retired or merged.
+  /// Computes anew what has changed in the map; drops landmarks that were retired or merged.
   void update(const mapper::View& view);
   const std::map<base::LandmarkId, Surface>& all() const { return surfaces_; }
 
@@ -59,8 +59,9 @@ class PlaneLandmarkIndex {
 /// Lowest and highest z of points [m].
 std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points);
 
-/// Gap between a surface and points of another, both projected on the plane of the first [m]; 0 if they overlap. If the
-/// surface is upright and the vertical extent of one of them is unknown, only the gap along the floor counts.
+/// Gap between a surface and the points of another surface, both projected on the plane of the first one [m]; 0 if they
+/// overlap. If the first surface is upright and the vertical extent of either surface is unknown, only the gap along
+/// the floor counts.
 double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   PlaneLandmarkIndex::Heights of_points);
 /// A cheap lower bound of gapBetween() [m]; below 0 it has no meaning. `middle`: the mean of the points in the map.

@@ -15,7 +15,8 @@ namespace omnimapper::plugins {
 struct PlaneLandmarksOptions : mapper::AssociationOptions {
   enum class Form { plane, wall };
   Form form = Form::plane;
-  /// Height from which tables and floors are distinguished: that of the base at the first key frame, or z = 0.
+  /// Height of the floor, above which a level surface can be a table: that of the base at the first key frame (start),
+  /// or z = 0 of the map (map).
   enum class Ground : std::uint8_t { start = 0, map = 1 };
   Ground ground = Ground::start;
   /// How the measured parts of a surface become its boundary in the map.
@@ -26,15 +27,17 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
   Boundary boundary = Boundary::seen;
   bool planes = true;       ///< measure CObservationPlanes
   bool lines = true;        ///< measure CObservationLaserLines
-  double min_area = 0.25;   ///< [m^2] of a new landmark, seen as a plane
-  double min_length = 0.8;  ///< [m] of a new landmark, seen as a line
-  double max_gap = 0.5;     ///< [m] between stretches of one wall: for lines, and for surfaces higher than furniture
-  double max_plane_gap = 0.15;  ///< [m] between other surfaces of one landmark
+  double min_area = 0.25;   ///< [m^2] of a plane measurement that creates a landmark
+  double min_length = 0.8;  ///< [m] of a line measurement that creates a landmark
+  /// [m] Largest gap between stretches of one wall, for lines and for surfaces that are higher than furniture.
+  double max_gap = 0.5;
+  /// [m] Largest gap between other surfaces of one landmark.
+  double max_plane_gap = 0.15;
   /// Parts of a surface that are measured from farther away or more obliquely are drawn only where nothing better is
   /// known: depth noise grows with the square of the distance, and mixed pixels at edges reach far along a grazing ray.
   double well_seen_within = 4;                                         ///< [m]
   double well_seen_under = 75 * base::option_text::kRadiansPerDegree;  ///< [rad] between the ray and the normal
-  double plane_sigma = 0.01;                                           ///< [m] of a surface from flat
+  double plane_sigma = 0.01;                                           ///< [m] deviation of a surface from flat
   double plane_angle_sigma = base::option_text::kRadiansPerDegree;     ///< [rad]
   double line_sigma = 0.01;                                            ///< [m]
   double line_angle_sigma = base::option_text::kRadiansPerDegree / 2;  ///< [rad]
@@ -46,8 +49,9 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
 
 /// Planes of walls, tables and floors as landmarks (thesis 4.2), measured by the planes of depth images and clouds
 /// (CObservationPlanes) and by the lines of 2D lasers (CObservationLaserLines): a wall is one landmark for all sensors.
-/// A landmark that only lines at one height have measured is held upright by a weak prior. Coplanar surfaces with a gap
-/// between them are separate landmarks; landmarks that turn out to be one are merged. Opposite faces of a wall are two.
+/// A landmark that only lines at one height have measured is held upright by a prior with upright_sigma. Coplanar
+/// surfaces with a large gap between them are separate landmarks, and so are the two faces of a wall. Landmarks that
+/// turn out to be one surface are merged.
 class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::LeavesSeeking {
  public:
   PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context);
@@ -67,14 +71,16 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::Le
   mapper::PluginContext context_;
   std::unique_ptr<class PlaneLandmarkIndex> known_;
   std::size_t merged_at_solve_ = 0;
-  bool others_seek_ = false;  // for the pose of the newest session in the map
+  bool others_seek_ = false;  // other plugins seek the pose of the newest session in the map
 };
 
 class PlaneLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "PlaneLandmarksPlugin"; }
-  std::string summary() const override { return "Walls, tables and floors, seen as planes and as lines of a laser."; }
+  std::string summary() const override {
+    return "Walls, tables and floors as landmarks, measured as planes and as the lines of a laser.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return PlaneLandmarksOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

@@ -11,17 +11,18 @@
 
 namespace omnimapper::plugins {
 
-/// Merges landmarks that turn out to be one: they overlap, and their planes differ by no more than the covariance of
-/// the map allows; or their measured parts cover each other, whatever the covariance is.
+/// Merges landmarks that turn out to be one surface. Either they overlap, and their planes differ by no more than the
+/// covariance of the map allows; or their measured parts cover each other, whatever the covariance is.
 mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                          const mapper::View& view);
 
-/// The same at the end of a run; also merges parts of one wall, and classifies each surface in the whole map.
+/// As mergeAlike(), but for the end of a run: also merges parts of one wall, and classifies each surface among all
+/// surfaces of the map.
 mapper::Batch mergeAndJudge(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
                             const mapper::View& view);
 
-/// Whether two surfaces lie on one plane within 10 deg and 0.15 m: beyond that they look like two, whatever the
-/// covariance allows.
+/// Whether two surfaces lie on one plane within 10 deg and 0.15 m. If they differ more, they are taken for two
+/// surfaces, whatever the covariance allows.
 bool onOnePlane(const PlaneLandmarkIndex::Surface& a, const PlaneLandmarkIndex::Surface& b);
 
 /// The factor that holds a plane upright, if there is one.

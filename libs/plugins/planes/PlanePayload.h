@@ -34,7 +34,7 @@ class SurfacePatch {
 
   base::KeyFrameId frame;
   bool is_well_seen;  ///< from near and not too obliquely
-  /// [m] a polygon, or the two ends of a laser line; and the holes in it.
+  /// [m] A polygon with its holes (holesInBase()), or the two ends of a laser line.
   const std::vector<Eigen::Vector3d>& outlineInBase() const { return in_base_->outline; }
   const std::vector<std::vector<Eigen::Vector3d>>& holesInBase() const { return in_base_->holes; }
 
@@ -50,24 +50,24 @@ struct SensorCounts {
 
 /// Whether a measurement adds to the known extent of a surface.
 struct News {
-  bool of_extent = false;     ///< with all its parts
-  bool of_well_seen = false;  ///< with its well seen parts
+  bool of_extent = false;  ///< if all parts of the measurement count
+  bool of_well_seen = false;  ///< if only its well seen parts count
 };
 
 /// Scatter of the measured points about their planes, as a multiple of the sensor's noise.
 struct Roughness {
   double sum = 0;
-  std::uint32_t count = 0;  ///< of the measurements that reported it
+  std::uint32_t count = 0;  ///< number of measurements that reported a roughness
   double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
-/// The area that patches cover together, as it was computed last. A copied payload that got more patches notices by
-/// `frames` that the copied entry is not for them.
+/// A cache of the area that the patches of a payload cover together. If a copy of the payload gets more patches,
+/// `frames` shows that the copied entry no longer holds.
 class CoveredMemo {
  public:
   struct Entry {
-    Eigen::VectorXd value;              ///< of the plane
-    std::vector<geometry::Se3> frames;  ///< map_from_base of the patches
+    Eigen::VectorXd value;  ///< value of the variable of the plane
+    std::vector<geometry::Se3> frames;  ///< map_from_base of the key frame of each patch
     geometry::Areas2 areas;
   };
   CoveredMemo() = default;
@@ -84,19 +84,20 @@ class CoveredMemo {
 };
 
 /// What is known of a plane landmark beside its plane (thesis 4.2.2.1). Its patches are attached to the key frames that
-/// measured them and are projected on the optimized plane on request, so that a loop closure moves them at no cost.
+/// measured them and are projected on the optimized plane on request, so that a loop closure moves the patches at no
+/// cost.
 struct PlanePayload : map::LandmarkPayload {
   using Ground = PlaneLandmarksOptions::Ground;
   using Boundary = PlaneLandmarksOptions::Boundary;
 
   landmarks::PlaneParametrization::Kind form = landmarks::PlaneParametrization::Kind::plane;
-  Ground ground = Ground::start;  ///< for its class
+  Ground ground = Ground::start;  ///< from whose height the class follows
   Boundary boundary = Boundary::hull;
   std::vector<SurfacePatch> patches;            ///< each adds to the extent of the others
-  std::map<std::string, SensorCounts> seen_by;  ///< sensor label
+  std::map<std::string, SensorCounts> seen_by;  ///< by sensor label
   Roughness roughness;
   base::KeyFrameId last_seen_from;
-  /// Its class in the whole map, determined at the end of a run; none before.
+  /// The class of the surface in the whole map, which is determined at the end of a run; none before.
   std::optional<surfaces::Judgement> judgement;
   bool is_candidate = false;  ///< measured too rarely or too roughly to be drawn
 
@@ -109,26 +110,26 @@ struct PlanePayload : map::LandmarkPayload {
   static void addTo(map::PayloadRegistry& registry);
 
   bool wasSeenAsPlane() const;
-  /// How often it was measured, by all sensors, as plane or line.
+  /// How often the surface was measured, by all sensors, as plane or line.
   std::uint32_t measurements() const;
   /// z of the floor that people walk on, in the map [m].
   double groundIn(const map::KeyFrames& key_frames) const;
-  /// How often it was measured as a plane.
+  /// How often the surface was measured as a plane.
   std::uint32_t planeMeasurements() const;
-  /// A copy with one more measurement; its outline is added only where `news` is set.
+  /// A copy with one more measurement. The measured outline is added only if `news` says that it adds to the extent.
   std::shared_ptr<const PlanePayload> with(base::KeyFrameId frame, const struct PlaneMeasurement& measurement,
                                            const News& news) const;
   /// A copy that is merged with another payload.
   std::shared_ptr<const PlanePayload> with(const PlanePayload& other) const;
 
-  /// Whether the end of a run found it good enough to be drawn. It stays so: growth of the map elsewhere is no argument
-  /// against it.
+  /// Whether the surface was found good enough to be drawn at the end of a run. It stays accepted from then on, because
+  /// growth of the map elsewhere is no argument against it.
   bool isAccepted() const { return judgement && !is_candidate; }
 
  private:
   // After a new measurement, a surface that is not accepted is drawn until the next end of a run judges it again.
   void resetJudgement();
-  // The area that is drawn [m, PlaneAxes of the plane with that value].
+  // The area that is drawn, in the PlaneAxes of the plane that has this value [m].
   geometry::Areas2 coveredOn(const Eigen::VectorXd& value, const map::KeyFrames& key_frames) const;
 
   mutable CoveredMemo memo_;

@@ -21,9 +21,9 @@ struct PointLandmarksOptions : mapper::AssociationOptions {
 
 /// Points as landmarks, measured by ranges and bearings (mrpt::obs::CObservationBearingRange, thesis 4.6.2.1): points
 /// of the plane by range and yaw in a planar map, points in space by range, yaw and pitch in a spatial one. A
-/// measurement that reports a number is of the landmark with that number; if it does not fit, it is kept in the graph
-/// with weight 0, so that the search for moved landmarks finds it. A measurement without a number (id -1) is
-/// associated, and landmarks that turn out to be the same point are merged.
+/// measurement that reports a number is of the landmark with that number. If it does not fit this landmark, the
+/// measurement is kept in the graph with weight 0, so that the search for moved landmarks finds it. A measurement
+/// without a number (id -1) is associated, and landmarks that turn out to be the same point are merged.
 class PointLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   PointLandmarksPlugin(const PointLandmarksOptions& options, const mapper::PluginContext& context);
@@ -50,7 +50,9 @@ class PointLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(PointLandmarksPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "PointLandmarksPlugin"; }
-  std::string summary() const override { return "Points and markers, from ranges and bearings."; }
+  std::string summary() const override {
+    return "Points and markers as landmarks, measured by their ranges and bearings.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return PointLandmarksOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

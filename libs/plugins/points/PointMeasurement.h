@@ -32,7 +32,7 @@ struct PointMeasurement {
   std::string why_useless;  ///< the reason, if there is no constraint
 };
 
-/// All measurements of an observation, in its order.
+/// All measurements of an observation, in the observation's order.
 std::vector<PointMeasurement> pointMeasurements(const mrpt::obs::CObservationBearingRange& observation,
                                                 mapper::Motion motion, const PointLandmarksOptions& options);
 

@@ -9,13 +9,15 @@
 
 namespace omnimapper::plugins {
 
-/// The factors measure a point of the map with a range-bearing sensor. Derivation: doc/derivations/range_bearing.md.
+/// The factors of measurements of a point of the map by a range-bearing sensor. Derivation:
+/// doc/derivations/range_bearing.md.
 
-/// In a planar map (thesis 4.6.2.1, equation 10). Variables: map_from_base (se2), point in map (point2). Residual:
+/// For a planar map (thesis 4.6.2.1, equation 10). Variables: map_from_base (se2), point in map (point2). Residual:
 /// horizontal range [m], bearing [rad, in (-pi, pi]], each predicted - measured.
 class RangeBearingFactor2 : public graph::SizedFactor<2, graph::Se2Kind, graph::Point2Kind> {
  public:
-  /// `sensor_in_base`: position on the floor [m]. `bearing`: horizontal angle at the sensor, from the base's x axis.
+  /// `sensor_in_base`: position on the floor [m]. `range`: horizontal [m]. `bearing`: horizontal angle of the point at
+  /// the sensor, from the direction of the base's x axis [rad].
   RangeBearingFactor2(const Eigen::Vector2d& sensor_in_base, double range, double bearing)
       : sensor_in_base_(sensor_in_base), range_(range), bearing_(bearing) {}
 
@@ -29,8 +31,8 @@ class RangeBearingFactor2 : public graph::SizedFactor<2, graph::Se2Kind, graph::
   double range_, bearing_;
 };
 
-/// In space. Variables: map_from_base (se3), point in map (point3). Residual: range [m], yaw and pitch [rad], each
-/// predicted - measured, the angles in (-pi, pi]; MRPT's sense: yaw to the left, pitch down.
+/// For a spatial map. Variables: map_from_base (se3), point in map (point3). Residual: range [m], yaw and pitch [rad],
+/// each predicted - measured. The angles are in (-pi, pi] and have MRPT's sense: yaw to the left, pitch down.
 class RangeBearingFactor3 : public graph::SizedFactor<3, graph::Se3Kind, graph::Point3Kind> {
  public:
   RangeBearingFactor3(const geometry::Se3& base_from_sensor, const Eigen::Vector3d& range_yaw_pitch)

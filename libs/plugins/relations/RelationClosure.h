@@ -12,7 +12,7 @@ namespace omnimapper::plugins {
 /// Disjoint groups of landmarks, which are identified by their variables.
 class VariableGroups {
  public:
-  /// A member that represents the group: the same for all of its members.
+  /// The member that represents the group of `id`: the same one for all members of a group.
   base::VariableId representativeOf(base::VariableId id) const;
   bool inOneGroup(base::VariableId a, base::VariableId b) const { return representativeOf(a) == representativeOf(b); }
   void join(base::VariableId a, base::VariableId b);
@@ -21,8 +21,8 @@ class VariableGroups {
   std::map<base::VariableId, base::VariableId> parents_;
 };
 
-/// The accepted relations and all that follows from them, so that no relation is stated twice. Lines are kept apart
-/// from directions, because parallel walls may lie on one line or not.
+/// The accepted relations and all that follows from them, so that no relation is stated twice. Which walls lie on one
+/// line is recorded apart from which are parallel, because parallel walls may lie on different lines.
 class RelationClosure {
  public:
   explicit RelationClosure(const KnownRelations& known);

@@ -13,7 +13,8 @@ namespace omnimapper::plugins {
 /// Virtual measurements (thesis 4.5): factors that state a regularity of buildings about two landmarks. Derivations:
 /// doc/derivations/relations.md.
 
-/// A point lies on a wall. Variables: point2, wall. Residual: its distance [m], positive on the free side.
+/// A point lies on a wall. Variables: point2, wall. Residual: the distance of the point from the wall [m], positive on
+/// the free side.
 class PointOnWallFactor : public graph::SizedFactor<1, graph::Point2Kind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "point_on_wall"; }
@@ -21,7 +22,8 @@ class PointOnWallFactor : public graph::SizedFactor<1, graph::Point2Kind, landma
   void write(std::ostream& out) const override;
 };
 
-/// A point of space lies above or below the line of a wall. Variables: point3, wall. Residual as PointOnWallFactor.
+/// A point in space lies above or below the line of a wall on the floor. Variables: point3, wall. Residual: as that of
+/// PointOnWallFactor.
 class Point3OnWallFactor : public graph::SizedFactor<1, graph::Point3Kind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "point3_on_wall"; }
@@ -29,7 +31,8 @@ class Point3OnWallFactor : public graph::SizedFactor<1, graph::Point3Kind, landm
   void write(std::ostream& out) const override;
 };
 
-/// A point lies on a plane. Variables: point3, plane. Residual: its distance [m], positive on the free side.
+/// A point lies on a plane. Variables: point3, plane. Residual: the distance of the point from the plane [m], positive
+/// on the free side.
 class PointOnPlaneFactor : public graph::SizedFactor<1, graph::Point3Kind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "point_on_plane"; }
@@ -52,7 +55,7 @@ class WallTurnFactor : public graph::SizedFactor<1, landmarks::WallKind, landmar
 };
 
 /// Two walls on one line, with the same free side. Variables: wall a, wall b. Residual: b's direction - a's direction
-/// [rad], then the distance of b's middle from a [m].
+/// [rad], then the signed distance of b's middle from a [m].
 class WallsAlignedFactor : public graph::SizedFactor<2, landmarks::WallKind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "walls_aligned"; }
@@ -60,8 +63,8 @@ class WallsAlignedFactor : public graph::SizedFactor<2, landmarks::WallKind, lan
   void write(std::ostream& out) const override;
 };
 
-/// The second half of WallsAlignedFactor, for two walls whose angle is determined by other relations. Variables: wall
-/// a, wall b. Residual: the distance of b's middle from a [m].
+/// The second row of WallsAlignedFactor, for two walls whose angle is determined by other relations. Variables: wall a,
+/// wall b. Residual: the signed distance of b's middle from a [m].
 class WallShiftFactor : public graph::SizedFactor<1, landmarks::WallKind, landmarks::WallKind> {
  public:
   std::string_view kind() const override { return "wall_shift"; }
@@ -70,7 +73,8 @@ class WallShiftFactor : public graph::SizedFactor<1, landmarks::WallKind, landma
 };
 
 /// Two parallel planes, with normals in the same or in opposite directions. Variables: plane a, plane b. Residual: the
-/// components of b's normal across a's, in the axes of geometry::tangentBasis(a) [rad to first order].
+/// components of b's normal that are perpendicular to a's normal, along the axes of geometry::tangentBasis() of a's
+/// normal [rad to first order].
 class PlanesParallelFactor : public graph::SizedFactor<2, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   std::string_view kind() const override { return "planes_parallel"; }
@@ -87,9 +91,9 @@ class PlanesSquareFactor : public graph::SizedFactor<1, landmarks::PlaneKind, la
   void write(std::ostream& out) const override;
 };
 
-/// Two surfaces on one plane, with the same free side. Variables: plane a, plane b. Residual: as PlanesParallelFactor,
-/// then the signed distance of the point `near` from b - that from a [m]. `near` is a point in the map near both
-/// surfaces.
+/// Two surfaces on one plane, with the same free side. Variables: plane a, plane b. Residual: the two rows of
+/// PlanesParallelFactor, then the signed distance of the point `near` from b minus its signed distance from a [m].
+/// `near` is a point in the map near both surfaces.
 class PlanesAlignedFactor : public graph::SizedFactor<3, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   explicit PlanesAlignedFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}
@@ -103,7 +107,7 @@ class PlanesAlignedFactor : public graph::SizedFactor<3, landmarks::PlaneKind, l
 };
 
 /// The last row of PlanesAlignedFactor, for two planes that other relations hold parallel. Variables: plane a, plane b.
-/// Residual: the signed distance of `near` from b - that from a [m].
+/// Residual: the signed distance of the point `near` from b minus its signed distance from a [m].
 class PlaneShiftFactor : public graph::SizedFactor<1, landmarks::PlaneKind, landmarks::PlaneKind> {
  public:
   explicit PlaneShiftFactor(const Eigen::Vector3d& near_in_map) : near_(near_in_map) {}

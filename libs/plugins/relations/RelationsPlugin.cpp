@@ -20,20 +20,21 @@ const base::OptionTable<RelationsOptions>& RelationsOptions::table() {
           .flag("perpendicular", &Options::perpendicular, "Relates walls and planes that are at right angles.")
           .flag("aligned", &Options::aligned, "Relates walls that lie on one line and surfaces that lie on one plane.")
           .number("distance_sigma_m", &Options::distance_sigma, Range::positive(),
-                  "Standard deviation of the distance of a point from its wall or table, and of walls from a common "
-                  "line.")
+                  "Standard deviation of the distance of a point from the wall or table that it lies on, and of a wall "
+                  "from the line that it shares with another wall.")
           .number("angle_sigma_deg", &Options::angle_sigma, Range::positive(),
-                  "Standard deviation of the angle by which related walls deviate from parallel or perpendicular.")
+                  "Standard deviation of the angle by which related walls deviate from parallel or from a right angle.")
           .number("max_distance_m", &Options::max_distance, Range::positive(),
-                  "Largest distance of a point from a surface, and of walls from a common line, at which a relation "
-                  "is considered.")
+                  "Largest distance of a point from a surface, or of a wall from the line of another wall, at which a "
+                  "relation is considered.")
           .number("max_angle_deg", &Options::max_angle, Range::positive(),
-                  "Largest deviation of two walls from parallel or perpendicular at which a relation is considered.")
+                  "A relation between two walls is considered only if they deviate from parallel or from a right angle "
+                  "by at most this.")
           .number("min_likelihood_ratio", &Options::min_likelihood_ratio, Range::positive(),
-                  "Ratio by which the estimate must be likelier if a relation holds than if its two landmarks are "
-                  "unrelated, for the relation to be proposed.")
+                  "A relation is proposed only if the estimate is at least this many times likelier if the relation "
+                  "holds than if the two landmarks are unrelated.")
           .integer("min_measurements", &Options::min_measurements, Range{1, 1e9},
-                   "Smallest number of measurements that each of the two landmarks of a relation must have.");
+                   "A relation is considered only if each of its two landmarks has at least this many measurements.");
   return table;
 }
 

@@ -11,9 +11,9 @@ namespace omnimapper::plugins {
 
 struct RelationsOptions {
   bool point_on_wall = true, parallel = true, perpendicular = true, aligned = true;
-  double distance_sigma = 0.02;  ///< [m] of a point from its surface, of walls from one line
+  double distance_sigma = 0.02;  ///< [m] of points from their surface, and of walls from their common line
   double angle_sigma = 1 * base::option_text::kRadiansPerDegree;  ///< [rad]
-  double max_distance = 1;                                        ///< [m] beyond it, no relation is considered
+  double max_distance = 1;                                        ///< [m] largest at which a relation is considered
   double max_angle = 15 * base::option_text::kRadiansPerDegree;   ///< [rad]
   double min_likelihood_ratio = 2;
   int min_measurements = 3;  ///< of each landmark
@@ -22,10 +22,10 @@ struct RelationsOptions {
 };
 
 /// Relations between landmarks as virtual measurements (thesis 4.5): points that lie within the outline of a surface,
-/// such as a sign on its wall or an object on its table; walls that are perpendicular, parallel or on one line. They
-/// are proposed by their likelihood after each solve, for the landmarks of all plugins (a landmark with a single point
-/// as its variable counts as a point). They are hypotheses: the consistency test refuses those that do not fit, and
-/// takes back those that no longer fit. Landmarks of a session that is not joined to the map get no relations with
+/// such as a sign on its wall or an object on its table, and walls that are perpendicular, parallel or on one line.
+/// Relations that are likely are proposed after each solve, for the landmarks of all plugins (a landmark with a single
+/// point as its variable counts as a point). They are hypotheses: the consistency test refuses those that do not fit,
+/// and takes back those that no longer fit. Landmarks of a session that is not joined to the map get no relations with
 /// those of other sessions.
 class RelationsPlugin : public mapper::MeasurementPlugin {
  public:
@@ -51,7 +51,7 @@ class RelationsPluginFactory : public mapper::MeasurementPluginFactory {
  public:
   std::string name() const override { return "RelationsPlugin"; }
   std::string summary() const override {
-    return "Relations of landmarks as in buildings: points on walls, right angles, walls on one line.";
+    return "Relates landmarks as is usual in buildings: points on walls, right angles, walls on one line.";
   }
   const std::vector<base::OptionSpec>& options() const override { return RelationsOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;

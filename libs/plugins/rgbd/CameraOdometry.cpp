@@ -21,19 +21,19 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
   const auto zero_or_more = base::Range::notNegative();
   static const auto table =
       base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the camera; empty for the first one observed.")
+          .text("label", &Options::label, "Sensor label of the camera; empty for the first camera in the log.")
           .text("odometry_label", &Options::odometry_label,
-                "Sensor label of the wheel odometry used for prediction; empty for the first one observed, if any. "
-                "An odometry plugin for the wheels then needs fallback = true.")
+                "Sensor label of the wheel odometry by which motions are predicted; empty for the first one in the "
+                "log, if there is one. An OdometryPlugin for the same wheels needs fallback = true.")
           .text("imu_label", &Options::imu_label,
-                "Sensor label of the inertial sensor whose turn rates are used for prediction; empty for the first "
-                "one observed, if any.")
+                "Sensor label of the inertial sensor by whose turn rates rotations are predicted; empty for the first "
+                "one in the log, if there is one.")
           .number("turn_rate_noise_per_root_s_deg", &Options::turn_rate_noise, base::Range::positive(),
                   "Standard deviation of the rotation that the inertial sensor measures in 1 s; it grows with the "
                   "root of time.")
           .number("turn_rate_bias_per_s_deg", &Options::turn_rate_bias, zero_or_more,
-                  "Standard deviation of the inertial sensor's turn rate bias, its reading at rest, which is "
-                  "estimated.")
+                  "Standard deviation of the inertial sensor's bias before the bias is estimated. The bias is the turn "
+                  "rate that the sensor reports at rest.")
           .number("max_speed_m_per_s", &Options::max_speed, base::Range::positive(),
                   "Largest plausible speed of a camera that a hand or a robot moves; a map with faster motions is "
                   "reported as suspicious.")
@@ -44,13 +44,17 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
                   "Standard deviation of each angle of the measured motion from one image to the next while the camera "
                   "rests.")
           .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
-                  "Additional standard deviation of each coordinate after 1 m of distance travelled [m].")
+                  "Additional standard deviation of each coordinate after 1 m of distance travelled [m]; it grows with "
+                  "the square root of the distance.")
           .number("position_noise_per_root_turn", &Options::position_noise_per_root_turn, zero_or_more,
-                  "Additional standard deviation of each coordinate after 1 rad of rotation [m].")
+                  "Additional standard deviation of each coordinate after 1 rad of rotation [m]; it grows with the "
+                  "square root of the angle.")
           .number("angle_noise_per_root_m_deg", &Options::angle_noise_per_root_m, zero_or_more,
-                  "Additional standard deviation of each angle after 1 m of distance travelled.")
+                  "Additional standard deviation of each angle after 1 m of distance travelled; it grows with the "
+                  "square root of the distance.")
           .number("angle_noise_per_root_turn", &Options::angle_noise_per_root_turn, zero_or_more,
-                  "Additional standard deviation of each angle after 1 rad of rotation [rad].");
+                  "Additional standard deviation of each angle after 1 rad of rotation [rad]; it grows with the square "
+                  "root of the angle.");
   return table;
 }
 

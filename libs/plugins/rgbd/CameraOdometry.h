@@ -23,9 +23,9 @@
 namespace omnimapper::plugins {
 
 struct CameraOdometryOptions {
-  std::string label;           ///< of the camera; empty: the first that comes
-  std::string odometry_label;  ///< of the wheel odometry used for prediction; empty: the first that comes
-  std::string imu_label;       ///< of the gyroscope used for prediction; empty: the first that comes
+  std::string label;  ///< of the camera; empty: the first one observed
+  std::string odometry_label;  ///< of the wheel odometry used for prediction; empty: the first one observed
+  std::string imu_label;  ///< of the gyroscope used for prediction; empty: the first one observed
   double turn_rate_noise = matching::GyroscopeOptions{}.noise_per_root_s;  ///< [rad / sqrt(s)]
   double turn_rate_bias = matching::GyroscopeOptions{}.bias_sigma;         ///< [rad/s]
   double max_speed = 1.5;                                            ///< [m/s] of a camera; faster motions are errors
@@ -44,27 +44,27 @@ struct ImageMotion {
   enum class How {
     begun,
     tracked,
-    found,  ///< again after a loss: the motion spans the images that were lost
+    found,  ///< found again after a loss: the motion spans the images that were lost
     lost,
   };
   How how = How::lost;
   geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before, optical frames
-  base::Stamp last;                ///< of that image
-  /// Projector onto the directions that the image leaves unconstrained, in the camera's frame, tangent as in
-  /// geometry::Se3; zero if there are none.
+  base::Stamp last;  ///< stamp of that image
+  /// Projector onto the directions of motion that the image leaves unconstrained, in the camera's frame and the tangent
+  /// of geometry::Se3; zero if there are none.
   geometry::Matrix6d open = geometry::Matrix6d::Zero();
-  std::optional<base::Stamp> seen_before;  ///< stamp of an old key frame whose view it shows again
+  std::optional<base::Stamp> seen_before;  ///< stamp of an old key frame whose view the image shows again
 };
 
 /// A depth camera's motion from its images as a continuous pose source (thesis 5.3.3.1, 5.3.4.2). Images are tracked in
 /// the order of their stamps; an image that arrives after a later one was processed is left out. While tracking is
-/// lost, as with a covered lens or a view without features, there is no motion; if the view is found again, there is
-/// one across the gap. After a long gap tracking starts anew, and the motion in between is that of the wheels or is
+/// lost, as with a covered lens or a view without features, there is no motion; if the view is found again, there is a
+/// motion across the gap. After a long gap tracking starts anew, and the motion in between is that of the wheels or is
 /// left to other pose plugins.
 ///
 /// If the base has wheels, their odometry predicts where a match starts, and determines directions that an image leaves
-/// unconstrained, so an odometry plugin beside this one should be a fallback. If there is a gyroscope, it replaces the
-/// wheels' rotation.
+/// unconstrained, so an odometry plugin beside this one should be a fallback. If there is a gyroscope, its rotation
+/// replaces that of the wheels.
 class CameraOdometry : public mapper::PosePlugin {
  public:
   /// `what`: the name of the method in evidence and warnings.
@@ -77,9 +77,10 @@ class CameraOdometry : public mapper::PosePlugin {
   }
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
-  /// Gaps across which no motion was measured; shares of images that were lost or left a direction unconstrained;
-  /// implausible speeds; how often only the view showed where the camera was after a loss without wheels; and, if the
-  /// method looks for them, returns to earlier views, which would reveal drift.
+  /// Evidence of several kinds: gaps across which no motion was measured; the shares of images that were lost and of
+  /// images that left a direction unconstrained; implausible speeds; how often, after a loss without wheels, only the
+  /// view showed where the camera was; and returns to earlier views, which would reveal drift, if the method looks for
+  /// such returns.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
 
@@ -95,7 +96,7 @@ class CameraOdometry : public mapper::PosePlugin {
     bool only_turn = false;  // no wheels: the translation is not known
   };
   std::optional<BaseMotion> measuredBetween(base::Stamp begin, base::Stamp end) const;
-  /// Adds a motion to the timeline that images measured from `begin` to `end`.
+  /// Adds to the timeline a motion that images measured from `begin` to `end`.
   void addMotion(base::Stamp begin, base::Stamp end, const mapper::RelativeMotion& motion);
   void learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera);
   void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
@@ -107,13 +108,13 @@ class CameraOdometry : public mapper::PosePlugin {
 
   CameraOdometryOptions options_;
   std::string what_;
-  std::optional<std::string> label_;                                           // of the first that came
+  std::optional<std::string> label_;  // of the first camera that came
   std::map<base::Stamp, mrpt::obs::CObservation3DRangeScan::ConstPtr> queue_;  // not yet processed
   std::optional<base::Stamp> reached_, begun_;  // stamps of the last processed and the first image
   std::optional<base::Stamp> last_;             // stamp of the last tracked image
   matching::WheelOdometry wheels_;
   matching::Gyroscope gyroscope_;
-  std::optional<base::Stamp> turn_begun_;  // first of the latest images that were all tracked in all directions
+  std::optional<base::Stamp> turn_begun_;  // since then all images were tracked in all directions
   Eigen::Quaterniond turned_;              // rotation of the base since turn_begun_
   perception::LensStraightener lens_;
   std::vector<base::Stamp> lost_images_;  // stamps since the last tracked image

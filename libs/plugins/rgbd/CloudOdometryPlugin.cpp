@@ -14,7 +14,7 @@ const base::OptionTable<CloudLibraryOptions>& CloudLibraryOptions::table() {
   using Options = CloudLibraryOptions;
   static const auto table = base::OptionTable<Options>().choice(
       "library", &Options::library, {{"omnimapper", Library::omnimapper}, {"pcl", Library::pcl}},
-      "Implementation of the registration: OmniMapper's own, or that of PCL, which is slower.");
+      "Implementation of the matching: OmniMapper's own, or that of PCL (Point Cloud Library), which is slower.");
   return table;
 }
 

@@ -40,7 +40,7 @@ class CloudOdometryPluginFactory : public mapper::PosePluginFactory {
  public:
   std::string name() const override { return "CloudOdometryPlugin"; }
   std::string summary() const override {
-    return "Odometry of a depth camera by edges, voxels or points of its images.";
+    return "Measures the motion of a depth camera by matching edges, voxels or all points of its images.";
   }
   const std::vector<base::OptionSpec>& options() const override;
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,

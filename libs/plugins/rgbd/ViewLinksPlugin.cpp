@@ -37,18 +37,20 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("odometry", &Options::odometry,
-                "INI section of the camera odometry whose label, matching and shutter settings are used here, too.")
+                "INI section of the camera odometry plugin. Its label and its settings for matching and shutter are "
+                "used here, too.")
           .integer("key_frames_back", &Options::key_frames_back, base::Range{0, 20},
-                   "A key frame is linked to the second, third, and so on, up to this many key frames before it. "
-                   "Odometry links it to the first.")
+                   "Number of preceding key frames to which each key frame is linked. The nearest of these is left "
+                   "out, because odometry gives the link to it.")
           .integer("old_views", &Options::old_views, base::Range{0, 20},
                    "Largest number of older key frames to which a key frame is linked, because the camera sees again "
                    "what they show.")
           .integer("stored_views", &Options::stored_views, base::Range{1, 100000},
-                   "Largest number of older key frames whose images are stored before the oldest is dropped; a "
-                   "thousand take 250 MB at most.")
+                   "Largest number of older key frames whose images are stored; beyond it the oldest images are "
+                   "dropped. A thousand images take 250 MB at most.")
           .number("overlap", &Options::overlap, base::Range{0.1, 1},
-                  "Smallest share of an older key frame's image that the camera must see again for a link.")
+                  "A key frame is linked to an older one only if its image shows at least this share of what the older "
+                  "one's image shows.")
           .number("loss_scale", &Options::loss_scale, base::Range::positive(),
                   "Number of standard deviations beyond which a link that disagrees loses influence (scale of the "
                   "Cauchy loss).");

@@ -16,7 +16,7 @@ namespace omnimapper::plugins {
 
 struct ViewLinksOptions {
   std::string odometry = "visual_odometry";  ///< section whose camera, matching and shutters are used here, too
-  int key_frames_back = 3;                   ///< links from the second key frame before one to this one
+  int key_frames_back = 3;  ///< a key frame is linked to the second to this one before it
   int old_views = 2;                         ///< largest number of links of a key frame to older views
   int stored_views = 500;                    ///< largest number of older views; the oldest is dropped first
   double overlap = 0.5;                      ///< smallest share of an older view that is still visible
@@ -25,17 +25,17 @@ struct ViewLinksOptions {
   static const base::OptionTable<ViewLinksOptions>& table();
 };
 
-/// Registers the image of each key frame with those of earlier key frames: with the second, third, ... before it
-/// (thesis 4.1.2: links to x-1, x-2 and x-3; the link to x-1 is the odometry's), and with older ones whose view it
-/// should show again by the estimate, which closes loops while drift is small. The graph then distributes drift over
-/// the trajectory, where odometry alone corrects it at once.
+/// Registers the image of each key frame with images of earlier key frames: with that of the second, third, ... key
+/// frame before it (thesis 4.1.2: links to x-1, x-2 and x-3; odometry makes the link to x-1), and with older ones whose
+/// views the image should show again, by the estimate. The links to older key frames close loops while drift is small.
+/// The graph then distributes drift over the trajectory, whereas odometry alone corrects it at once.
 ///
-/// An image that cannot be read is left out. Links of one key frame share its image and are not independent: each of n
-/// links gets n times its covariance, so that together they count as one. Links to older views act once the consistency
-/// test has accepted them.
+/// An image that cannot be read is left out. The links of one key frame share its image, so they are not independent:
+/// the covariance of each of n links is multiplied by n, so that together they count as one. Links to older views are
+/// hypotheses, which act once the consistency test has accepted them.
 class ViewLinksPlugin : public mapper::MeasurementPlugin {
  public:
-  /// `camera`: its label; empty for the first that comes.
+  /// `camera`: label of the camera; empty for the first one observed.
   ViewLinksPlugin(const ViewLinksOptions& options, const std::string& camera,
                   const matching::RgbdTrackerOptions& tracking, const matching::DenseMatcherOptions& matching,
                   const mapper::PluginContext& context);
@@ -44,9 +44,10 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void retired(const map::KeyFrame& frame) override;
-  /// The share of the time between two views of one place, where drift would show, instead of that of the odometry,
-  /// which only compares its own key frames; how many returns the finished map has elsewhere than the images; and how
-  /// often the estimate had the camera at a view that the image did not show.
+  /// The share of the time that lies between two views of one place, where drift would show; it stands in for the share
+  /// that the odometry reports, which only compares images with its own key frames. Also, how many returns to a view
+  /// lie elsewhere in the finished map than by the images, and how often the camera was, by the estimate, back at a
+  /// view that the image did not show.
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
 
  private:
@@ -63,7 +64,7 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
     const KeyImage* to;
     matching::DenseMatch match;
     bool is_old = false;     // to an older view
-    bool is_return = false;  // to a view that the camera left in between
+    bool is_return = false;  // to a view that the camera had left in between
   };
   /// A return to a view that the camera had left, as measured by the images.
   struct Return {
@@ -77,7 +78,8 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
                              const matching::CameraMotion& motion, const mapper::State& state) const;
   std::vector<const KeyImage*> viewsSeenAgain(const KeyImage& image, const mapper::State& state) const;
   double viewDistance(const KeyImage& from, const KeyImage& to, const mapper::State& state) const;
-  /// Length of a motion in multiples of that at which visual odometry takes another key frame; `depth` of the view [m].
+  /// Length of a motion in multiples of the length at which visual odometry takes another key frame. `depth`: median
+  /// depth of the view [m].
   double viewDistance(const geometry::Se3& motion, double depth) const;
   bool wasLeft(const KeyImage& old, const map::KeyFrame& frame, const mapper::State& state) const;
   geometry::Se3 between(const KeyImage& from, const KeyImage& to, const mapper::State& state) const;
@@ -90,14 +92,14 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   mapper::Evidence missedEvidence() const;
 
   ViewLinksOptions options_;
-  std::string camera_;  // label; empty: the first that comes
+  std::string camera_;  // label from the options; empty: the first one observed
   matching::RgbdTrackerOptions tracking_;
   matching::DenseMatcher matcher_;
   mapper::PluginContext context_;
   perception::LensStraightener lens_;
-  std::string label_;             // empty until the first comes
+  std::string label_;  // of the camera; empty until its first image
   std::vector<KeyImage> recent_;  // in order of arrival, the newest last
-  std::vector<KeyImage> views_;   // older ones, each of a different view
+  std::vector<KeyImage> views_;  // older images, each of a different view
   std::vector<Return> returns_;
   // How often the estimate had the camera back at a view that it had left, and how often the image did not fit then.
   std::size_t expected_ = 0, missed_ = 0;

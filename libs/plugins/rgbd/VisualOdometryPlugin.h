@@ -32,7 +32,7 @@ class VisualOdometryPluginFactory : public mapper::PosePluginFactory {
  public:
   std::string name() const override { return "VisualOdometryPlugin"; }
   std::string summary() const override {
-    return "Visual odometry: every depth image and its picture against key frames.";
+    return "Measures the motion of a depth camera by matching each depth image and its picture with earlier ones.";
   }
   const std::vector<base::OptionSpec>& options() const override;
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,

@@ -25,21 +25,22 @@ class SessionBySigns {
     std::string reason;
   };
 
-  /// Takes the measurements at a key frame of the newest session, which must be free to move (whyFixed()). `offsets`:
-  /// the known pan-tilt offsets of the camera. Returns the place of the session once it is known, or guessed for the
-  /// first time.
+  /// Takes the measurements at a key frame of the newest session; the session must be free to move (whyFixed()).
+  /// `offsets`: the known pan-tilt offsets of the camera. Returns the place of the session when it becomes known, or
+  /// when it is guessed for the first time.
   std::optional<Placement> take(const std::vector<SignMeasurement>& measurements, const map::KeyFrame& frame,
                                 const SignTracks& tracks, const mapper::View& view, const KnownOffsets& offsets,
                                 double recent_travel);
-  /// The place of the session is unknown, so that positions do not show which sign of the map a measurement is of.
+  /// True if the place of the session is unknown, so that positions do not show which sign of the map a measurement is
+  /// of.
   bool isLost() const { return is_lost_; }
-  /// Signs have located the session, and no factor connects it to the map yet.
+  /// True if signs have located the session, and no factor connects it to the map yet.
   bool isPlaced() const { return placed_at_.has_value(); }
 
  private:
   struct RecentBearing {
     base::KeyFrameId frame;
-    KnownSignBearing known;  // all but the pose of the base in the session
+    KnownSignBearing known;  // valid but for the pose of the base in the session
     double travelled;        // [m]
   };
 
@@ -48,7 +49,7 @@ class SessionBySigns {
   std::optional<SessionFit> fit(const mapper::View& view) const;
 
   bool is_known_whether_lost_ = false, is_lost_ = false, is_guessed_ = false;
-  std::optional<double> placed_at_;  // [m] of the distance travelled
+  std::optional<double> placed_at_;  // [m] distance travelled when signs located the session
   std::deque<RecentBearing> seen_;
 };
 

@@ -12,15 +12,15 @@ namespace omnimapper::plugins {
 /// A measured direction from a camera to a point. Derivation: doc/derivations/bearing.md.
 class MeasuredDirection {
  public:
-  /// Both in the base: position of the camera [m], and the direction, a unit vector that is not vertical.
+  /// `camera`: its position [m]. `direction`: a unit vector that is not vertical. Both are in the base.
   MeasuredDirection(const Eigen::Vector3d& camera, const Eigen::Vector3d& direction);
 
   const Eigen::Vector3d& camera() const { return camera_; }
   const Eigen::Vector3d& direction() const { return direction_; }
 
-  /// The rotation vector from the direction to a point, across the direction [rad]: first to the left about the
-  /// vertical of the base, as a pan turns, then down, as a tilt does. `seen`: vector from the camera to the point, in
-  /// the axes of the base [m]. The derivative by `seen` is written to `by_seen` if that is not null.
+  /// The angle from the measured direction to a point [rad], in two components: the first to the left about the
+  /// vertical of the base, as a pan turns, the second down, as a tilt turns. `seen`: vector from the camera to the
+  /// point, in the axes of the base [m]. The derivative by `seen` is written to `by_seen` if `by_seen` is not null.
   Eigen::Vector2d angleTo(const Eigen::Vector3d& seen, Eigen::Matrix<double, 2, 3>* by_seen) const;
 
   void write(std::ostream& out) const;
@@ -46,8 +46,9 @@ class SignBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Po
   MeasuredDirection direction_;
 };
 
-/// The same for a camera on a pan-tilt unit with unknown zero offsets (thesis 4.3.2.5). Variables: map_from_base (se3,
-/// or se2), point in map (point3), offsets of the unit (pan_tilt). The axes of the unit pass through the camera.
+/// As SignBearingFactor, for a camera on a pan-tilt unit with unknown zero offsets (thesis 4.3.2.5). Variables:
+/// map_from_base (se3, or se2), point in map (point3), offsets of the unit (pan_tilt). The axes of the unit pass
+/// through the camera.
 class PanTiltBearingFactor : public graph::SizedFactor<2, graph::Se3Kind, graph::Point3Kind, graph::PanTiltKind> {
  public:
   /// `tilt_axis`: level unit vector to the left of the panned camera, in the base.

@@ -11,8 +11,8 @@
 namespace omnimapper::plugins {
 
 /// For each new sign, adds the hypothesis that it is the same as another sign if exactly one other sign has its text
-/// and was not seen recently. If two others have the text, or the same text is seen at another place at the same time,
-/// the signs are marked as repeated and no hypothesis is added.
+/// and was not seen recently. If two others have the text, or if another sign with the text was recently seen at
+/// another place, the signs are marked as repeated and no hypothesis is added.
 mapper::Batch proposeSameSigns(SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
                                const mapper::View& view);
 

@@ -34,25 +34,27 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
             .text("label", &Options::label,
                   "Sensor label of the sign observations, such as \"camera.signs\"; empty for those of every camera.")
             .number("min_confidence", &Options::min_confidence, {0, 1},
-                    "Smallest confidence of a line of text that is used.")
+                    "Lines of text with a lower confidence than this are not used.")
             .number("pixel_sigma_deg", &Options::pixel_sigma, Range{0.001, 45},
-                    "Standard deviation of the direction to the middle of a sign in the image, whatever the "
-                    "camera's pan and tilt are.")
+                    "Standard deviation of the direction to the middle of a sign in the image, apart from the errors "
+                    "of the camera's pan and tilt angles.")
             .number("pan_sigma_deg", &Options::pan_sigma, Range{0, 45},
-                    "Standard deviation of the pan angle that a camera reports, independent in each image.")
+                    "Standard deviation of the error of the pan angle that a camera reports. The error differs from "
+                    "image to image.")
             .number("tilt_sigma_deg", &Options::tilt_sigma, Range{0, 45},
-                    "Standard deviation of the tilt angle that a camera reports, independent in each image.")
+                    "Standard deviation of the error of the tilt angle that a camera reports. The error differs from "
+                    "image to image.")
             .number("pan_tilt_offset_sigma_deg", &Options::pan_tilt_offset_sigma, Range{0, 45},
-                    "Standard deviation of the camera's pan and tilt offsets, which are constant in a run and are "
-                    "estimated; 0 assumes no offsets.")
+                    "Standard deviation of the constant offsets of the camera's pan and tilt angles, which are "
+                    "estimated; 0 assumes that there are no offsets.")
             .number("max_sigma_m", &Options::max_sigma, Range{0.001, 100},
-                    "Largest standard deviation of the position at which a new sign is added; until then its "
-                    "measured directions are kept.")
+                    "A new sign is added to the map once the standard deviation of its position is at most this. Until "
+                    "then only the directions to the sign are kept.")
             .number("recent_m", &Options::recent_travel, Range::positive(),
-                    "Distance travelled without a measurement after which a sign is matched only through a loop "
-                    "closure hypothesis.")
+                    "If a sign was not measured along this distance travelled, new measurements of it make another "
+                    "sign and the hypothesis that both are the same one, which can close a loop.")
             .number("same_sigma_m", &Options::same_sigma, Range{0.001, 10},
-                    "Standard deviation of the middle of a sign between measurements on two visits.")
+                    "Standard deviation of the difference between the positions of one sign as measured on two visits.")
             .number("loss_scale", &Options::loss_scale, Range{0.1, 100},
                     "Number of standard deviations beyond which a measurement that disagrees loses influence (scale of "
                     "the Cauchy loss).");

@@ -18,8 +18,8 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;            ///< [rad] of the camera's reported pan
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;           ///< [rad] of the camera's reported tilt
   double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zero offsets
-  double max_sigma = 2;       ///< [m] of the position of a new sign, at most
-  double recent_travel = 10;  ///< [m] distance travelled; until then a sign counts as seen recently
+  double max_sigma = 2;       ///< [m] largest of the position of a new sign
+  double recent_travel = 10;  ///< [m] distance travelled during which a sign counts as seen recently
   double same_sigma = 0.03;   ///< [m] between two estimates of the centre of one sign
   double loss_scale = 2;      ///< [sigma] of the Cauchy loss
 
@@ -30,9 +30,9 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
 /// see them (obs::CObservationDoorSigns). A new sign is added once three directions with the same text meet. A
 /// measurement is associated by its text first and by its position second.
 ///
-/// A sign that was not seen for `recent_travel` is not associated directly. A new landmark is made instead, and a
-/// hypothesis that both are the same sign goes to the consistency test, which so closes loops. A text that is seen at
-/// two places yields no such hypothesis. Landmarks that turn out to be the same sign are merged at the end.
+/// A sign that was not seen for `recent_travel` is not associated directly. A new landmark is made instead, and the
+/// consistency test gets the hypothesis that both are the same sign; if it accepts this, a loop is closed. A text that
+/// is seen at two places yields no such hypothesis. Landmarks that turn out to be the same sign are merged at the end.
 class SignLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
   SignLandmarksPlugin(const SignLandmarksOptions& options, const mapper::PluginContext& context);
@@ -61,7 +61,9 @@ class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
   DEFINE_MRPT_OBJECT(SignLandmarksPluginFactory, omnimapper::plugins)
  public:
   std::string name() const override { return "SignLandmarksPlugin"; }
-  std::string summary() const override { return "Door signs with their texts, from the directions they are seen in."; }
+  std::string summary() const override {
+    return "Door signs with their texts as landmarks, measured by the directions in which cameras see them.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return SignLandmarksOptions::table().specs(); }
   void registerKinds(mapper::Kinds& kinds) const override;
   std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,

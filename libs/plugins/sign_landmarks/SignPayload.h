@@ -28,7 +28,7 @@ struct SignPayload : map::LandmarkPayload {
   std::map<std::string, double> words;           ///< the same for the other lines of text
   bool is_repeated = false;                      ///< another sign elsewhere has the same text
   std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: number of measurements
-  std::optional<SignLook> best_look;             ///< the one with the largest area; none in maps of older versions
+  std::optional<SignLook> best_look;  ///< the look with the largest area; none in maps of older versions
 
   std::string_view kind() const override { return "door_sign"; }
   void write(std::ostream& out) const override;
@@ -37,7 +37,8 @@ struct SignPayload : map::LandmarkPayload {
   map::LandmarkShape shape(const std::vector<Eigen::VectorXd>& values, const map::KeyFrames& key_frames) const override;
   static void addTo(map::PayloadRegistry& registry);
 
-  /// The number with the most votes, and the words with at least half as many votes as the most frequent word.
+  /// The number with the largest sum of confidences, and the words whose sum is at least half of the largest sum of a
+  /// word.
   SignText text() const;
   /// The number, such as "213", or the words if there is no number.
   std::string title() const;

@@ -9,7 +9,7 @@ namespace omnimapper::plugins {
 
 /// The text on a sign, in the form in which signs are compared.
 struct SignText {
-  std::string number;              ///< the first line with a digit, without blanks, in capitals; empty if none has one
+  std::string number;  ///< the first line with a digit, without blanks, in capitals; empty if no line has a digit
   std::vector<std::string> words;  ///< the other lines, in capitals, from the top
   double confidence = 0;           ///< of the number, or, without a number, of the most certain line
 
@@ -19,15 +19,16 @@ struct SignText {
 /// The text of a sign, without lines whose confidence is below `min_confidence`.
 SignText textOf(const obs::ObservedDoorSign& sign, double min_confidence);
 
-/// Length of the longest common subsequence over that of the longer text, 0 to 1, in UTF-8 bytes (thesis 3.5.3.3).
+/// Length of the longest common subsequence of two texts, divided by the length of the longer text, both in UTF-8
+/// bytes: 0 to 1 (thesis 3.5.3.3).
 double likeness(const std::string& a, const std::string& b);
 
 /// Whether two texts can be of the same sign.
 enum class Agreement {
   contradicts,  ///< different numbers, or words that are not similar
-  unknown,      ///< one has a number only, the other words only: one sign may have both
+  unknown,  ///< one has only a number, the other only words: one sign may have both
   partly,       ///< one has a number that the other lacks; their words are similar
-  agrees        ///< same number, or, if neither has one, words with a likeness above 60 %
+  agrees  ///< same number, or, if neither has a number, words with a likeness above 60 %
 };
 Agreement agreementOf(const SignText& a, const SignText& b);
 
@@ -38,8 +39,8 @@ bool mayBeMisread(const SignText& a, const SignText& b);
 bool isOfOneSign(const SignText& text);
 
 /// Prior odds that two signs whose texts agree are the same sign, before their positions are considered. A number of
-/// three digits is on another sign by chance once in 1000, one of four digits once in 10000. Words, times, dates and
-/// other numbers below 100 are often on several signs.
+/// three digits is on another sign by chance once in 1000, a number of four digits once in 10000. Words, times and
+/// numbers with fewer than three digits are often on several signs.
 double oddsOfOneSign(const SignText& a, const SignText& b);
 
 }  // namespace omnimapper::plugins

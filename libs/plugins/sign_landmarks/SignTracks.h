@@ -32,7 +32,7 @@ class SignTracks {
 
   struct Known {
     base::VariableId variable;
-    std::optional<double> last_seen;  ///< [m] distance travelled then; none if not seen in this session
+    std::optional<double> last_seen;  ///< [m] distance travelled then; none if the sign was not seen in this session
   };
   double travelled() const { return travelled_; }
   const std::map<base::LandmarkId, Known>& known() const { return known_; }
@@ -40,7 +40,8 @@ class SignTracks {
     return known.last_seen && travelled_ - *known.last_seen <= recent_travel;
   }
 
-  /// Adds a view to the waiting views with the same text, and returns those not older than `recent_travel` [m].
+  /// Adds a view to the waiting views with the same text, and returns those that are not older than `recent_travel` [m]
+  /// of travel.
   std::vector<SignView>& waitingWith(const SignView& view, double recent_travel);
   /// Removes the views with these indices, in ascending order, from those that waitingWith() returned last.
   void forget(const std::vector<std::size_t>& which);

@@ -24,15 +24,15 @@ struct SignView {
 struct Triangulation {
   Eigen::Vector3d point;           ///< [m] in the map
   double sigma;                    ///< [m] along the least certain axis, with the poses taken as exact
-  std::vector<std::size_t> views;  ///< indices of the views that pass within three standard deviations
+  std::vector<std::size_t> views;  ///< indices of the views that pass the point within three standard deviations
 };
 /// Estimate of the offsets of the pan-tilt unit that turned the camera.
 struct KnownOffsets {
   Eigen::Vector2d pan_tilt = Eigen::Vector2d::Zero();  ///< [rad]
   double sigma = 0;                                    ///< [rad] of the less certain angle
 };
-/// The point where the last view and the largest number of others meet, with the current poses; the remaining views may
-/// be of another sign. None if fewer than `min_views` meet, or if the point's sigma is above `max_sigma` [m].
+/// The point at which the last view meets the largest number of other views, given the current poses; the remaining
+/// views may be of another sign. None if fewer than `min_views` meet, or if the point's sigma is above `max_sigma` [m].
 std::optional<Triangulation> triangulate(const std::vector<SignView>& views, const graph::Graph& graph,
                                          const KnownOffsets& offsets, double max_sigma, std::size_t min_views);
 

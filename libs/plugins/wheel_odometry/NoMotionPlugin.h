@@ -33,7 +33,7 @@ class NoMotionPluginFactory : public mapper::PosePluginFactory {
  public:
   std::string name() const override { return "NoMotionPlugin"; }
   std::string summary() const override {
-    return "Weak assumption that nothing moved where no odometry measures the motion.";
+    return "Assumes, with a large uncertainty, that the base did not move where no odometry measures its motion.";
   }
   const std::vector<base::OptionSpec>& options() const override { return NoMotionOptions::table().specs(); }
   std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,

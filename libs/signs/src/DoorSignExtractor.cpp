@@ -33,37 +33,40 @@ const base::OptionTable<DoorSignOptions>& DoorSignOptions::table() {
       base::OptionTable<Options>()
           .choice<Detector>("detector", &Options::detector,
                             {{"text", Detector::text}, {"saliency", Detector::saliency}},
-                            "How signs are detected: by lines of text, or, as in the thesis, by saliency and a "
-                            "classifier that was trained on signs. Both need the networks, which read the signs.")
+                            "How signs are detected. text: by lines of text. saliency: by salient regions of the image "
+                            "and a classifier that was trained on signs, as in the thesis. Both need the networks, "
+                            "because these read the signs.")
           .text("model", &Options::model,
                 "With detector = saliency, the classifier file written by omnimapper-train-doorsigns; empty uses "
                 "the model that is shipped.")
           .number("min_score", &Options::min_score, {0, 1},
-                  "With detector = saliency, the smallest probability of a region that is accepted as a sign.")
+                  "With detector = saliency, smallest probability of being a sign at which a region of the image is "
+                  "accepted.")
           .text("models", &Options::models,
-                "Folder of the networks made by scripts/models; empty: omnimapper/models in $XDG_DATA_HOME or "
-                "~/.local/share. The ONNX Runtime library is taken only from that default folder, because it is "
+                "Folder of the networks that scripts/models makes; empty for omnimapper/models in $XDG_DATA_HOME or "
+                "~/.local/share. The ONNX Runtime library is always taken from this default folder, because it is "
                 "executable code.")
           .choice<Backend>("backend", &Options::backend,
                            {{"opencv", Backend::opencv}, {"onnx_runtime", Backend::onnx_runtime}},
-                           "Library that runs the networks: OpenCV, or ONNX Runtime, which is twice as fast and "
-                           "which scripts/models --onnxruntime fetches.")
+                           "Library that runs the networks: OpenCV, or ONNX Runtime. ONNX Runtime is twice as fast; "
+                           "scripts/models --onnxruntime fetches it.")
           .choice<Options::Reader>(
               "reader", &Options::reader,
               {{"network", Options::Reader::network}, {"tesseract", Options::Reader::tesseract}},
               "How the detected lines of text are read: by a network, or by Tesseract, which takes a tenth of "
               "the time and needs larger letters.")
           .text("letters", &Options::letters,
-                "Characters that texts consist of; empty: the English alphabet, digits and -.,:/&'(). A middle "
-                "dot is read as a hyphen, and a line with a character outside this set is uncertain.")
+                "Characters that texts consist of; empty for the English alphabet, digits and -.,:/&'(). A middle dot "
+                "is read as a hyphen, and a line with a character outside this set is uncertain.")
           .number("min_confidence", &Options::min_confidence, {0, 1},
                   "Lines of text with a lower confidence are left out.")
           .number("min_height_px", &Options::min_height, {4, 1000},
                   "Lines of text whose letters are less high than this in the image are left out.")
           .number("least_change", &Options::least_change, {0, 255},
-                  "Images are reduced to 64 columns and compared with the camera's last examined image. If the grey "
-                  "value of every pixel has changed by less than this (of 255), apart from the mean change of the "
-                  "whole image, omnimapper-perceive reuses the signs of that image. 0 examines every image.");
+                  "Each image is reduced to 64 columns and compared with the last image of the same camera that was "
+                  "examined. It is examined only if the grey value (0 to 255) of some pixel has changed by more than "
+                  "this, apart from the mean change of all pixels. Otherwise omnimapper-perceive reuses the signs of "
+                  "that last image. 0 examines every image.");
   return table;
 }
 

@@ -64,7 +64,8 @@ std::string iniReference() {
   std::ostringstream out;
   out << "# Keys of the simulator's INI files\n\n"
          "Written by `omnimapper-simulate --ini-reference` from the option tables in the code; a test keeps it so.\n"
-         "A number is in the unit its key ends with. Unknown keys, wrong types and values out of range are errors.\n"
+         "A number is in the unit with which its key ends (such as _m or _deg), or in the unit that its text has in "
+         "brackets. Unknown keys, wrong types and values out of range are errors.\n"
          "Comments start with `;`, `#` or `//`. Examples: the INI files of [rawlogs](../rawlogs/README.md).\n\n"
       << "## [simulation]\n\n"
       << base::optionsAsMarkdown(SimulationOptions::table().specs()) << "## [robot]\n\n"

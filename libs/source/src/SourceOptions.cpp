@@ -17,19 +17,20 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
                   "Time from which start_s and end_s are counted: the first stamp of the earliest log, or the Unix "
                   "epoch (1970).")
           .number("step_s", &SourceOptions::step, base::Range{0, 1e6},
-                  "Time between the steps of a log whose stamps do not advance; 0 uses the log's own stamps. A new "
-                  "step begins when a sensor, or an action, appears for the second time, so the fastest sensor "
-                  "determines the steps.")
+                  "Time from one step of the log to the next, for a log whose own stamps do not advance; 0 uses the "
+                  "log's own stamps. A step ends when a sensor, or an action, occurs in it for the second time, so the "
+                  "fastest sensor determines the steps.")
           .choice("action_span", &SourceOptions::action_span,
                   {{"automatic", ActionSpan::automatic}, {"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
-                  "Time span of a rawlog's action, which is a motion without a span: from the observations before it "
-                  "to those after it (frames), or from the stamp of the previous action to its own (own). automatic "
-                  "means own if the actions have stamps, else frames.")
+                  "Time span that the motion of a rawlog's action gets, because the action states none. frames: from "
+                  "the observations before the action to those after it. own: from the stamp of the previous action to "
+                  "the action's own stamp. automatic: own if the actions have stamps, else frames.")
           .text("action_label", &SourceOptions::action_label,
-                "Sensor label given to the motions that actions are converted to.")
+                "Sensor label of the motions that a rawlog's actions are converted to.")
           .text("images_folder", &SourceOptions::images_folder,
-                "Folder of external images; empty for the folder beside the rawlog that has its name with _Images "
-                "appended, as MRPT uses it.");
+                "Folder of the images that a rawlog refers to as separate files. Empty for MRPT's usual folder beside "
+                "the rawlog: the one with the rawlog's name and _Images in place of the extension, or else the one "
+                "called Images.");
   return table;
 }
 

@@ -99,8 +99,8 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
                   "Inverse depth that corresponds to the raw value 0.")
           .number("inverse_depth_step_per_m", &Options::inverse_depth_step, {-1, -1e-6},
                   "Change of the inverse depth for one step of the raw value.")
-          .number("depth_fx_px", &Options::depth_fx, focal, "Focal length of the depth camera, along the columns.")
-          .number("depth_fy_px", &Options::depth_fy, focal, "Focal length of the depth camera, along the rows.")
+          .number("depth_fx_px", &Options::depth_fx, focal, "Horizontal focal length of the depth camera.")
+          .number("depth_fy_px", &Options::depth_fy, focal, "Vertical focal length of the depth camera.")
           .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
           .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
           .number("depth_k1", &Options::depth_k1, lens,

@@ -16,16 +16,15 @@ namespace omnimapper::exports {
 
 const base::OptionTable<GridOptions>& GridOptions::table() {
   using Options = GridOptions;
-  static const auto table =
-      base::OptionTable<Options>()
-          .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a grid cell.")
-          .number("max_range_m", &Options::max_range, {0.1, 1000},
-                  "Length up to which beams are entered into the grid.")
-          .number("margin_m", &Options::margin, {0, 1000},
-                  "Width of the margin of unknown cells around the observed area.")
-          .integer("max_megacells", &Options::max_megacells, {1, 2000},
-                   "Memory limit in millions of cells; a larger map gets coarser cells, whose side grid.yaml "
-                   "reports.");
+  static const auto table = base::OptionTable<Options>()
+                                .number("resolution_m", &Options::resolution, {0.005, 10}, "Side of a grid cell.")
+                                .number("max_range_m", &Options::max_range, {0.1, 1000},
+                                        "Length up to which beams are entered into the grid.")
+                                .number("margin_m", &Options::margin, {0, 1000},
+                                        "Width of the margin of unknown cells around the observed area.")
+                                .integer("max_megacells", &Options::max_megacells, {1, 2000},
+                                         "Memory limit of the grid in millions of cells. If the map needs more, the "
+                                         "cells are made larger; grid.yaml states their side.");
   return table;
 }
 

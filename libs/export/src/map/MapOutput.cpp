@@ -14,8 +14,8 @@ const base::OptionTable<MapOutputOptions>& MapOutputOptions::table() {
   static const auto table = base::OptionTable<MapOutputOptions>().choice(
       "keep_raw", &MapOutputOptions::keep_raw,
       {{"none", RawImages::none}, {"depth", RawImages::depth}, {"all", RawImages::all}},
-      "What key frames keep of the images in the log: none (a thinned coloured cloud stays), depth images, or all. "
-      "What is not kept cannot be recovered from the map later.");
+      "Which images of the log are kept with the key frames. none: none of them; a thinned coloured cloud stays. "
+      "depth: the depth images. all: all images. What is not kept cannot be recovered from the map later.");
   return table;
 }
 

@@ -11,7 +11,7 @@ const base::OptionTable<GeoJsonOptions>& GeoJsonOptions::table() {
   using Options = GeoJsonOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .flag("metres", &Options::metres, "Writes x and y of the map even where GPS provides longitude and latitude.")
+          .flag("metres", &Options::metres, "Writes x and y in metres even where GPS provides longitude and latitude.")
           .flag("trajectory", &Options::trajectory, "Writes the trajectory of each session, too.");
   return table;
 }

@@ -34,7 +34,9 @@ class GeoJsonOutputFactory : public mapper::OutputPluginFactory {
   DEFINE_MRPT_OBJECT(GeoJsonOutputFactory, omnimapper::exports)
  public:
   std::string name() const override { return "GeoJsonOutput"; }
-  std::string summary() const override { return "Writes floorplan.geojson: walls, tables and points for any GIS."; }
+  std::string summary() const override {
+    return "Writes floorplan.geojson: walls, tables and points for any GIS (geographic information system).";
+  }
   const std::vector<base::OptionSpec>& options() const override { return GeoJsonOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
                                              const mapper::PluginContext& context) const override;

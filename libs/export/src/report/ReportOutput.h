@@ -32,7 +32,9 @@ class ReportOutputFactory : public mapper::OutputPluginFactory {
   DEFINE_MRPT_OBJECT(ReportOutputFactory, omnimapper::exports)
  public:
   std::string name() const override { return "ReportOutput"; }
-  std::string summary() const override { return "Writes report.html, the run explained, and map.png, its picture."; }
+  std::string summary() const override {
+    return "Writes report.html, which explains the run, and map.png, a picture of the map.";
+  }
   const std::vector<base::OptionSpec>& options() const override { return ReportOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
                                              const mapper::PluginContext& context) const override;

@@ -28,8 +28,8 @@ class LocalizationOutputFactory : public mapper::OutputPluginFactory {
  public:
   std::string name() const override { return "LocalizationOutput"; }
   std::string summary() const override {
-    return "Writes localization.csv: with --localize, the pose of each key frame with its standard deviations, as "
-           "estimated when the key frame was made.";
+    return "With --localize, writes localization.csv: the pose of each key frame as estimated when the key frame was "
+           "made, with its standard deviations.";
   }
   const std::vector<base::OptionSpec>& options() const override { return LocalizationOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,

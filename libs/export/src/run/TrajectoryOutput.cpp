@@ -12,8 +12,9 @@ IMPLEMENTS_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::mapper::OutputPlugin
 namespace omnimapper::exports {
 
 const base::OptionTable<TrajectoryOptions>& TrajectoryOptions::table() {
-  static const auto table = base::OptionTable<TrajectoryOptions>().flag(
-      "key_frames_only", &TrajectoryOptions::key_frames_only, "Leaves out the observations between key frames.");
+  static const auto table =
+      base::OptionTable<TrajectoryOptions>().flag("key_frames_only", &TrajectoryOptions::key_frames_only,
+                                                  "Writes the key frames only, without the observations between them.");
   return table;
 }
 

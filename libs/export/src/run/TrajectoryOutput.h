@@ -30,7 +30,7 @@ class TrajectoryOutputFactory : public mapper::OutputPluginFactory {
  public:
   std::string name() const override { return "TrajectoryOutput"; }
   std::string summary() const override {
-    return "Writes trajectory.tum, one line per observation of the reference sensor.";
+    return "Writes trajectory.tum, with one line for each observation of the reference sensor.";
   }
   const std::vector<base::OptionSpec>& options() const override { return TrajectoryOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,

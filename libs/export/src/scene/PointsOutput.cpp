@@ -17,10 +17,11 @@ const base::OptionTable<PointsOptions>& PointsOptions::table() {
                   "Side of the cubes in each of which one point is kept; 0 keeps all points.")
           .number("max_range_m", &Options::max_range, {0.1, 1000},
                   "Distance from the sensor beyond which points are left out.")
-          .choice("colour", &Options::colour,
-                  {{"auto", PointColour::automatic}, {"height", PointColour::height}, {"time", PointColour::time}},
-                  "Meaning of the point colours; auto uses the camera's colours where there are depth images, else "
-                  "height where the map has any, else time.");
+          .choice(
+              "colour", &Options::colour,
+              {{"auto", PointColour::automatic}, {"height", PointColour::height}, {"time", PointColour::time}},
+              "What the colours of the points show: the height or the time of each point. auto: the camera's colours "
+              "if there are depth images, else the height if the points are not all at one height, else the time.");
   return table;
 }
 

@@ -22,7 +22,7 @@ const base::OptionTable<SceneOptions>& SceneOptions::table() {
           .number("max_range_m", &Options::max_range, {0.1, 1000},
                   "Distance from the sensor beyond which points are left out.")
           .number("corner_spacing_m", &Options::corner_spacing, base::Range::notNegative(),
-                  "Distance travelled between two key frames whose axes are drawn.")
+                  "Distance travelled from one key frame whose axes are drawn to the next.")
           .flag("refused_closures", &Options::refused_closures, "Draws the loop closures that were rejected, too.")
           .flag("names", &Options::names, "Writes the names of landmarks beside them.");
   return table;

@@ -35,7 +35,7 @@ class SceneOutputFactory : public mapper::OutputPluginFactory {
   DEFINE_MRPT_OBJECT(SceneOutputFactory, omnimapper::exports)
  public:
   std::string name() const override { return "SceneOutput"; }
-  std::string summary() const override { return "Writes scene.3Dscene for SceneViewer3D."; }
+  std::string summary() const override { return "Writes scene.3Dscene for MRPT's program SceneViewer3D."; }
   const std::vector<base::OptionSpec>& options() const override { return SceneOptions::table().specs(); }
   std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
                                              const mapper::PluginContext& context) const override;

@@ -63,9 +63,14 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the observations that this section applies to.")
           .number("pose_x_m", &Options::x, {},
-                  "Position of the sensor in the frame of the base, whose motion odometry measures: x, forward.")
-          .number("pose_y_m", &Options::y, {}, "Position of the sensor in the frame of the base, whose motion odometry measures: y, to the left.")
-          .number("pose_z_m", &Options::z, {}, "Position of the sensor in the frame of the base, whose motion odometry measures: z, up.")
+                  "x coordinate of the sensor in the base's frame (x forward, y left, z up). The frame's origin is the "
+                  "point on the robot whose motion the odometry states.")
+          .number("pose_y_m", &Options::y, {},
+                  "y coordinate of the sensor in the base's frame (x forward, y left, z up). The frame's origin is the "
+                  "point on the robot whose motion the odometry states.")
+          .number("pose_z_m", &Options::z, {},
+                  "z coordinate of the sensor in the base's frame (x forward, y left, z up). The frame's origin is the "
+                  "point on the robot whose motion the odometry states.")
           .number("pose_yaw_deg", &Options::yaw, {}, "Orientation of the sensor in the base frame: yaw, about z.")
           .number("pose_pitch_deg", &Options::pitch, {}, "Orientation of the sensor in the base frame: pitch, about y.")
           .number("pose_roll_deg", &Options::roll, {},
@@ -74,8 +79,8 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
                   "Angle between the first and the last beam of the sensor's 2D scans; 0 keeps the aperture that the "
                   "scans report.")
           .text("pose_file", &Options::file,
-                "File with the sensor's poses on the base over time, for a sensor that moves on the base. Each line "
-                "has stamp [s], x y z [m] and quaternion qx qy qz qw (TUM format).");
+                "File of the sensor's poses on the base over time, for a sensor that moves on the base. Each line has "
+                "a stamp [s], a position x y z [m] and a quaternion qx qy qz qw (TUM format).");
   return table;
 }
 

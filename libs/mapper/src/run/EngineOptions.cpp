@@ -12,38 +12,40 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                 "INI sections of the pose plugins, which measure the motion between two times, such as odometry.")
           .list("measurement_plugins", &Options::measurement_plugins,
                 "INI sections of the measurement plugins, in processing order: a pose measured by one plugin is "
-                "available to those after it.")
+                "available to the plugins after it.")
           .list("output_plugins", &Options::output_plugins, "INI sections of the output plugins.")
-          .list("sensors", &Options::sensors, "INI sections that give the pose of a sensor on the base.")
+          .list("sensors", &Options::sensors, "INI sections that each give the pose of one sensor on the robot's base.")
           .list("plugin_libraries", &Options::plugin_libraries, "Shared libraries that contain further plugin classes.")
           .text("reference_sensor", &Options::reference_sensor,
-                "Label of the sensor whose observations each get a line in the trajectory; empty for the first "
-                "sensor that triggers a key frame.")
+                "Label of the reference sensor, whose observations each get a line in the trajectory. Empty for the "
+                "first sensor that triggers a key frame.")
           .number("window_s", &Options::window, base::Range::notNegative(),
                   "Time for which observations wait for slower sensors before they are processed.")
           .number("horizon_s", &Options::horizon, base::Range::notNegative(),
-                  "Largest age up to which observations that come later than window_s are still placed in the "
-                  "trajectory; older ones are rejected.")
+                  "An observation that comes later than window_s allows is still placed in the trajectory if its stamp "
+                  "is at most this much older than the newest pose; older observations are rejected.")
           .integer("queue_limit", &Options::queue_limit, base::Range{1, 1e9},
-                   "Largest number of stamps that wait in the queue. If more wait, the oldest is processed before "
-                   "window_s is over, so that a sensor whose stamps hardly advance cannot fill the memory.")
+                   "Largest number of different stamps whose observations wait in the queue. If more wait, the oldest "
+                   "observations are processed before window_s is over, so that a sensor whose stamps hardly advance "
+                   "cannot fill the memory.")
           .integer("job_delay", &Options::job_delay, base::Range{0, 1e6},
-                   "Number of key frames after which the result of a job, such as a loop closure search, is "
-                   "applied, counted from the key frame that started it.")
+                   "The result of a job, such as a search for loop closures, is applied this many key frames after the "
+                   "key frame that started the job.")
           .integer("solve_every", &Options::solve_every, base::Range{1, 1e9},
-                   "Number of new key frames after which the graph is solved.")
+                   "The graph is solved after this many new key frames, even without a loop closure, but not before "
+                   "solve_growth allows it.")
           .integer("solve_after_closure", &Options::solve_after_closure, base::Range{1, 1e9},
-                   "Smallest number of key frames since the last solve at which a loop closure triggers another "
-                   "solve.")
+                   "After a loop closure, the graph is solved once this many key frames were made since the last "
+                   "solve, but not before solve_growth allows it.")
           .number("solve_growth", &Options::solve_growth, base::Range{0, 1},
-                  "Smallest number of key frames between solves as a share of all key frames, so that the cost per "
-                  "key frame does not grow with the map. A quarter of it suffices where a closure contradicts the "
-                  "estimate.")
+                  "Smallest number of key frames between two solves, as a share of all key frames, so that the cost "
+                  "per key frame does not grow with the map. A quarter of this number suffices if a loop closure "
+                  "contradicts the estimate.")
           .number("cloud_voxel_m", &Options::cloud_voxel, base::Range{0, 10},
-                  "Side of the cubes in each of which the map keeps one coloured point of the depth images; 0 keeps "
-                  "none.")
+                  "Side of the cubes in each of which the map keeps one coloured point of the depth images; 0 keeps no "
+                  "points.")
           .number("cloud_max_range_m", &Options::cloud_max_range, base::Range::positive(),
-                  "Largest distance from the camera of the coloured points that the map keeps of the depth images.");
+                  "Largest distance from the camera at which the map keeps coloured points of the depth images.");
   return table;
 }
 
@@ -54,18 +56,18 @@ const base::OptionTable<HypothesisOptions>& HypothesisOptions::table() {
       base::OptionTable<Options>()
           .choice("test", &Options::test,
                   {{"none", Method::none}, {"pairwise", Method::pairwise}, {"graduated", Method::graduated}},
-                  "Consistency test of loop closures and other hypotheses: none accepts all; pairwise accepts one "
-                  "after the other, the most certain first; graduated weighs all together and lowers the weights of "
-                  "outliers (graduated non-convexity).")
+                  "Consistency test of loop closures and other hypotheses. none: all are accepted. pairwise: they are "
+                  "accepted one after the other, the most certain first. graduated: all are weighed together, and "
+                  "those that do not fit lose their weight step by step (graduated non-convexity).")
           .number("confidence", &Options::confidence, base::Range{0.5, 0.999999999},
-                  "Probability with which a true hypothesis passes a gate.")
+                  "Probability with which a true hypothesis passes the gates of the consistency test.")
           .number("min_likelihood_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
-                  "A hypothesis is accepted by itself only if its measurement is at least this many times likelier "
-                  "than if the hypothesis were false and its measurement lay anywhere in the map. Otherwise it waits "
-                  "until another hypothesis confirms it; with 1 it never waits.")
+                  "A hypothesis is accepted by itself only if its measurement is at least this many times likelier if "
+                  "the hypothesis is true than if it is false and the measurement could lie anywhere in the map. "
+                  "Otherwise the hypothesis waits until another one confirms it.")
           .number("inflation", &Options::inflation, base::Range{1, 100},
-                  "Factor on the standard deviations that the map predicts, in the consistency test alone, because "
-                  "odometry and laser odometry are overconfident.");
+                  "In the consistency test, the standard deviations that the map predicts are multiplied by this, "
+                  "because odometry and laser odometry report smaller ones than they should.");
   return table;
 }
 
@@ -90,17 +92,19 @@ const base::OptionTable<SolverOptions>& SolverOptions::table() {
   using Method = graph::SolveOptions::Method;
   static const auto table =
       base::OptionTable<Options>()
-          .choice("method", &Options::method,
-                  {{"levenberg_marquardt", Method::levenberg_marquardt}, {"dogleg", Method::dogleg}},
-                  "Optimization method by which the graph is solved.")
+          .choice(
+              "method", &Options::method,
+              {{"levenberg_marquardt", Method::levenberg_marquardt}, {"dogleg", Method::dogleg}},
+              "Method of nonlinear least squares by which the graph is solved: Levenberg-Marquardt or Powell's dogleg.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1e6},
                    "Largest number of iterations of a solve while the map grows.")
           .number("tolerance", &Options::tolerance, base::Range{0, 1},
                   "While the map grows, a solve ends after a step that lowers the cost by less than this share of it.")
           .integer("final_max_iterations", &Options::final_max_iterations, base::Range{1, 1e6},
-                   "Largest number of iterations of the last solve.")
+                   "Largest number of iterations of the last solve, at the end of the log.")
           .number("final_tolerance", &Options::final_tolerance, base::Range{0, 1},
-                  "The last solve ends after a step that lowers the cost by less than this share of it.");
+                  "At the end of the log, the last solve stops after a step that lowers the cost by less than this "
+                  "share of it.");
   return table;
 }
 

@@ -47,13 +47,14 @@ std::string iniReference(const FixedSections& fixed) {
   std::ostringstream out;
   out << "# Keys of the INI files\n\n"
          "Written by `omnimapper-graphslam --ini-reference` from the option tables in the code; a test keeps it so.\n"
-         "A number is in the unit its key ends with. Unknown keys, wrong types and values out of range are errors.\n"
+         "A number is in the unit with which its key ends (such as _m or _deg), or in the unit that its text has in "
+         "brackets. Unknown keys, wrong types and values out of range are errors.\n"
          "Comments start with `;`, `#` or `//`.\n\n";
   for (const auto& [name, specs] : fixed) {
     out << "## [" << name << "]\n\n" << base::optionsAsMarkdown(specs);
   }
-  out << "# Plugin classes\n\nEach plugin has a section of its own, named in `[mapper]` or `[perception]`, with a line "
-         "`class = ...`.\n\n";
+  out << "# Plugin classes\n\nEach plugin has a section of its own, whose name is free and is listed in `[mapper]` or "
+         "`[perception]`. In the section, `class = ...` names one of these classes.\n\n";
   for (const auto& factory : registeredFactories()) {
     out << "## " << factory->name() << " (" << toString(factory->kind()) << ")\n\n"
         << factory->summary() << "\n\n"

@@ -11,9 +11,9 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
                    {"origin", Options::Start::origin},
                    {"pose", Options::Start::pose},
                    {"anywhere", Options::Start::anywhere}},
-                  "Start of a session that continues a map or is localized in one: where the last one ended, the "
-                  "origin of the map, the pose start_x_m, start_y_m, start_yaw_deg, or anywhere, by a search of the "
-                  "whole map.")
+                  "Start of a session that continues a map or is localized in one. end: where the previous session "
+                  "ended. origin: at the origin of the map. pose: at start_x_m, start_y_m and start_yaw_deg. anywhere: "
+                  "at an unknown place, for which the whole map is searched.")
           .number("start_x_m", &Options::start_x, {},
                   "x coordinate in the map at which the session starts, for start = pose.")
           .number("start_y_m", &Options::start_y, {},
@@ -21,13 +21,13 @@ const base::OptionTable<SessionOptions>& SessionOptions::table() {
           .number("start_yaw_deg", &Options::start_yaw, {},
                   "Heading in the map at which the session starts, for start = pose.")
           .number("start_sigma_m", &Options::start_sigma, base::Range::positive(),
-                  "Standard deviation of the session's start position, which also sets how far away loop closures "
-                  "are searched for.")
+                  "Standard deviation of each coordinate of the session's start position. The larger it is, the "
+                  "farther away loop closures are searched for.")
           .number("start_sigma_deg", &Options::start_angle_sigma, base::Range::positive(),
                   "Standard deviation of the angles of the session's start pose.")
           .integer("window_key_frames", &Options::window_key_frames, base::Range{5, 1e6},
-                   "With --localize, number of the newest key frames that are estimated; older ones are held "
-                   "fixed.");
+                   "With --localize, number of the newest key frames whose poses are estimated; the poses of older key "
+                   "frames are held fixed.");
   return table;
 }
 

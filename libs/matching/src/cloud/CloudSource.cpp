@@ -22,11 +22,14 @@ const base::OptionTable<CloudSourceOptions>& CloudSourceOptions::table() {
                    {"high_curvature_edges", CloudSource::high_curvature_edges},
                    {"voxels", CloudSource::voxels},
                    {"all_points", CloudSource::all_points}},
-                  "Kind of points of a depth image that are registered.")
-          .number("voxel_m", &Options::voxel, base::Range{0.001, 10}, "Side of a voxel, with source = voxels.")
+                  "Points of a depth image that are matched: those at edges of one kind (occluding: at depth "
+                  "discontinuities; rgb: in the picture; high_curvature: where surfaces meet at an angle), one for "
+                  "each voxel, or all.")
+          .number("voxel_m", &Options::voxel, base::Range{0.001, 10},
+                  "With source = voxels, side of the cubes (voxels) in each of which the points are averaged.")
           .number("max_depth_m", &Options::max_depth, base::Range{0.3, 100}, "Points with a larger depth are left out.")
           .number("point_sigma_px", &Options::pixel_noise, base::Range::positive(),
-                  "Standard deviation of a point across its ray.");
+                  "Standard deviation of a point's position in the image.");
   return table;
 }
 

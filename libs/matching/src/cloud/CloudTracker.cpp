@@ -11,16 +11,16 @@ const base::OptionTable<CloudTrackerOptions>& CloudTrackerOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .number("key_angle_deg", &Options::key_angle, base::Range::positive(),
-                  "Later images are matched with a reference image. Once the camera has rotated by more than this from "
-                  "the reference image, the newest image becomes the reference.")
+                  "Each image is matched with an earlier one, the reference image. An image that is rotated by more "
+                  "than this from the reference image becomes the next reference image.")
           .number("key_distance_m", &Options::key_distance, base::Range::positive(),
-                  "Later images are matched with a reference image. Once the camera is farther than this from where "
-                  "the reference image was taken, the newest image becomes the reference.")
+                  "Each image is matched with an earlier one, the reference image. An image that was taken farther "
+                  "than this from where the reference image was taken becomes the next reference image.")
           .number("key_overlap", &Options::key_overlap, base::Range{0, 1},
-                  "An image becomes the reference that later ones are matched with if less than "
-                  "this share of its points is near points of the last reference.")
+                  "Each image is matched with an earlier one, the reference image. An image becomes the next reference "
+                  "image if less than this share of its points are near points of the reference image.")
           .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
-                  "Tracking starts anew if the camera has been lost for longer than this.");
+                  "Tracking starts anew if no image could be matched for longer than this.");
   return table;
 }
 

@@ -21,31 +21,32 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
                   {{"point_to_point", CloudMethod::point_to_point},
                    {"point_to_plane", CloudMethod::point_to_plane},
                    {"gicp", CloudMethod::gicp}},
-                  "Residual that is minimized: the distance between points, the distance of a point from the other "
-                  "surface along its normal, "
-                  "or their distance in standard deviations (gicp).")
+                  "Distance that a match minimizes. point_to_point: between two points. point_to_plane: from a point "
+                  "to the surface at the other point. gicp: between two points, in standard deviations.")
           .number("max_distance_m", &Options::max_distance, base::Range::positive(),
-                  "Largest distance between corresponding points on the finest level of a match.")
+                  "Largest distance between corresponding points on the finest level of a match, the one with the most "
+                  "points.")
           .number("coarse_distance_m", &Options::coarse_distance, base::Range::positive(),
-                  "Largest distance between corresponding points on the coarsest level of a match.")
+                  "Largest distance between corresponding points on the coarsest level of a match, the one with the "
+                  "fewest points. It is halved from level to level, down to max_distance_m.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000},
-                   "Largest number of iterations of a match on each level.")
+                   "Largest number of iterations on each level of a match, from the coarsest to the finest.")
           .number("tolerance", &Options::tolerance, base::Range::positive(),
-                  "The finest level of a match ends once a step is shorter than this [m] [rad], each coarser "
-                  "level once it is shorter than ten times this.")
+                  "The finest level of a match ends after a step that is shorter than this [m] [rad]. Each coarser "
+                  "level ends after a step that is shorter than ten times this.")
           .integer("coarse_points", &Options::coarse_points, base::Range{10, 1000000},
-                   "Number of points that are matched on the coarsest level; each further level has four times "
-                   "as many.")
+                   "Largest number of points that are matched on the coarsest level of a match. Each further level has "
+                   "about four times as many points, up to max_points.")
           .integer("max_points", &Options::max_points, base::Range{10, 1000000},
-                   "Number of points that are matched on the finest level.")
+                   "Largest number of points that are matched on the finest level of a match.")
           .number("normal_noise_deg", &Options::normal_noise, base::Range::notNegative(),
-                  "Standard deviation of surface normals. A direction of motion counts as unconstrained if normals "
-                  "with this noise would constrain it as much although the surfaces do not.")
+                  "Standard deviation of surface normals. Normals with such noise seem to constrain even the motion "
+                  "along a bare wall; this apparent constraint is not counted.")
           .number("alike", &Options::alike, base::Range{1, 10000},
-                  "Number of points whose errors are alike, so that they count as one.")
+                  "Number of neighbouring points that share their errors and therefore count as a single measurement.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Smallest share of a cloud's points that must have a point of the other cloud nearby for a "
-                  "match to be accepted.");
+                  "A match is accepted only if at least this share of the image's points have a corresponding point in "
+                  "the reference image.");
   return table;
 }
 

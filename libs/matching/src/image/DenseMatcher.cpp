@@ -270,22 +270,23 @@ const base::OptionTable<DenseMatcherOptions>& DenseMatcherOptions::table() {
   using Options = DenseMatcherOptions;
   static const auto table =
       base::OptionTable<Options>()
-          .flag("use_depth", &Options::use_depth, "Register images by their depths.")
-          .flag("use_brightness", &Options::use_grey, "Register images by the brightness of their pictures.")
+          .flag("use_depth", &Options::use_depth, "Matches images by their depths.")
+          .flag("use_brightness", &Options::use_grey, "Matches images by the brightness of their pictures.")
           .integer("finest_level", &Options::finest_level, base::Range{0, 3},
-                   "Finest pyramid level of a match, as the number of times that images are halved; 0 is the "
-                   "full resolution.")
+                   "Images are matched at several resolutions, from coarse to fine. Number of times that the images "
+                   "are halved at the finest resolution; 0 for the full resolution.")
           .integer("max_points", &Options::max_points, base::Range{50, 400000},
-                   "Largest number of points of a reference image on each pyramid level.")
+                   "Largest number of points of a reference image at each resolution at which images are matched.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 1000},
-                   "Largest number of iterations of a match on each pyramid level.")
-          .number("brightness_noise", &Options::grey_noise, base::Range::positive(),
-                  "Smallest standard deviation of brightness that is assumed, on a scale from 0 to 255.")
+                   "Largest number of iterations of a match at each resolution at which images are matched.")
+          .number(
+              "brightness_noise", &Options::grey_noise, base::Range::positive(),
+              "Smallest standard deviation that is assumed for the brightness of a pixel, on a scale from 0 to 255.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},
-                  "Smallest share of the reference image's points that an image must show for a match to be accepted.")
+                  "A match is accepted only if the image shows at least this share of the reference image's points.")
           .number("max_outlier_share", &Options::max_outlier_share, base::Range{0, 1},
-                  "Largest share of the reference image's visible points that may be outliers in depth for a match to "
-                  "be accepted.");
+                  "A match is accepted only if at most this share of the reference image's visible points have a depth "
+                  "that clearly differs from the expected one.");
   return table;
 }
 

@@ -197,10 +197,10 @@ const base::OptionTable<FeatureMatcherOptions>& FeatureMatcherOptions::table() {
           .integer("max_features", &Options::max_features, base::Range{10, 20000},
                    "Largest number of corners that are extracted from a picture.")
           .integer("min_feature_inliers", &Options::min_inliers, base::Range{6, 10000},
-                   "Smallest number of corner correspondences that must agree on a motion for it to be accepted.")
+                   "A motion is accepted only if at least this many pairs of corresponding corners agree with it.")
           .number("max_feature_ratio", &Options::max_ratio, base::Range{0.1, 1},
-                  "Two corners of images correspond only if the distance of their descriptors is at most this share of "
-                  "the distance to the second most similar corner.");
+                  "A corner corresponds to the most similar corner of another image only if the two differ by at most "
+                  "this share of the difference from the second most similar corner.");
   return table;
 }
 

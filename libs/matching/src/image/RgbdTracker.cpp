@@ -30,19 +30,21 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
   const auto any = base::Range{-0.1, 0.1};
   static const auto table =
       base::OptionTable<Options>()
-          .number("key_angle_deg", &Options::key_angle, base::Range{0.5, 90},
-                  "Images are matched with a reference image. Once the camera has rotated by more than this from the "
-                  "newest reference image, the next image becomes a reference, too.")
           .number(
-              "key_distance_share", &Options::key_distance, base::Range{0.005, 1},
-              "Images are matched with a reference image. Once the camera has moved from the newest reference image by "
-              "more than this share of that image's median depth, the next image becomes a reference, too.")
+              "key_angle_deg", &Options::key_angle, base::Range{0.5, 90},
+              "Each image is matched with an earlier one, its reference image. An image that is rotated by more than "
+              "this from its reference image becomes a reference image, too, unless another reference image is near.")
+          .number("key_distance_share", &Options::key_distance, base::Range{0.005, 1},
+                  "Each image is matched with an earlier one, its reference image. An image becomes a reference image, "
+                  "too, if the camera has moved from its reference image by more than this share of that image's "
+                  "median depth, unless another reference image is near.")
           .number("key_overlap", &Options::key_overlap, base::Range{0.3, 1},
-                  "Images are matched with a reference image. Once less than this share of the newest reference image "
-                  "is still visible, the next image becomes a reference, too.")
+                  "Each image is matched with an earlier one, its reference image. An image that shows less than this "
+                  "share of its reference image's points becomes a reference image, too, unless another reference "
+                  "image is near.")
           .integer("key_frames", &Options::key_frames, base::Range{1, 10000},
-                   "Largest number of reference images that are kept, to be matched again when the camera comes back "
-                   "to them.")
+                   "Largest number of reference images that are kept. Later images are matched with them again when "
+                   "the camera comes back to where they were taken.")
           .number("acceleration_m_per_s2", &Options::acceleration, base::Range::positive(),
                   "Standard deviation of the camera's linear acceleration, from which the uncertainty of a "
                   "motion prediction is computed.")
@@ -54,14 +56,15 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
           .number("picture_readout_s", &Options::picture_readout, any,
                   "Time from the first row of a picture to its last; 0 if all rows are taken at once.")
           .number("picture_delay_s", &Options::picture_delay, any,
-                  "Delay of a picture after its depth image, each taken at its middle row.")
+                  "Time from the middle row of a depth image to the middle row of its picture.")
           .number("picture_delay_sigma_s", &Options::picture_delay_sigma, base::Range{0, 0.1},
-                  "Standard deviation of the delay between depth image and picture, which each match estimates; "
-                  "0 if the delay is known exactly.")
+                  "Each match estimates the delay between depth image and picture. Standard deviation of this delay "
+                  "before the estimate; 0 if picture_delay_s is exact.")
           .number("longest_loss_s", &Options::longest_loss, base::Range::positive(),
-                  "Tracking starts anew if the camera has seen nothing known for longer than this.")
+                  "Tracking starts anew if no image could be matched for longer than this.")
           .flag("use_features", &Options::use_features,
-                "Match corner features where depths and brightness do not determine a fast motion.");
+                "Matches corners of the pictures, too, where depths and brightness give no sure match, for example in "
+                "a fast motion.");
   return table;
 }
 

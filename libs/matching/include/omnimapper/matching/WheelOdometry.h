@@ -77,7 +77,7 @@ class WheelOdometry {
 template <class Options>
 base::OptionTable<Options>& WheelOdometryOptions::declareIn(base::OptionTable<Options>& table) {
   const auto zero_or_more = base::Range::notNegative();
-  return table.text("label", &Options::label, "Sensor label of the odometry; empty for the first that comes.")
+  return table.text("label", &Options::label, "Sensor label of the odometry; empty for the first odometry in the log.")
       .number("position_noise_per_root_m", &Options::position_noise_per_root_m, zero_or_more,
               "Standard deviation of the position after 1 m of distance travelled [m]; it grows with the square root "
               "of the distance.")
@@ -92,8 +92,8 @@ base::OptionTable<Options>& WheelOdometryOptions::declareIn(base::OptionTable<Op
       .number("yaw_noise_per_root_s_deg", &Options::yaw_noise_per_root_s, zero_or_more,
               "Standard deviation of the heading after 1 s; it grows with the square root of the time.")
       .flag("use_reported_covariance", &Options::use_reported_covariance,
-            "Use the covariance that MRPT's actions carry instead of the one computed from the noise keys of this "
-            "section.");
+            "Uses the covariance that MRPT's actions carry in place of the one that is computed from the "
+            "..._noise_per_root_... keys of this section.");
 }
 
 }  // namespace omnimapper::matching

@@ -66,7 +66,8 @@ inline constexpr char kMarkersSuffix[] = ".markers";
 class ArucoMarkerExtractor : public Extractor {
  public:
   static constexpr const char* kName = "ArucoMarkerExtractor";
-  static constexpr const char* kSummary = "Square markers with numbers, from pictures, by range and bearing.";
+  static constexpr const char* kSummary =
+      "Finds square markers with numbers in pictures and measures their ranges and bearings.";
 
   explicit ArucoMarkerExtractor(const ArucoMarkerOptions& options) : options_(options) {}
 

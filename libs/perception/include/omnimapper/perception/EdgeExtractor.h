@@ -18,7 +18,7 @@ class EdgeExtractor : public Extractor {
  public:
   static constexpr const char* kName = "EdgeExtractor";
   static constexpr const char* kSummary =
-      "3D edges of depth images and their pictures, a cloud of points for each kind.";
+      "Finds edges in depth images and their pictures, and makes a cloud of 3D points for each kind of edge.";
 
   /// Throws as EdgeDetector.
   explicit EdgeExtractor(const EdgeOptions& options) : options_(options), detector_(options) {}

@@ -25,7 +25,7 @@ class ObjectExtractor : public Extractor {
  public:
   static constexpr const char* kName = "ObjectExtractor";
   static constexpr const char* kSummary =
-      "Planes of depth images as PlaneExtractor has them, and the objects that stand on them.";
+      "Finds planes in depth images, as PlaneExtractor does, and the objects that stand on these planes.";
 
   struct Options {
     PlaneOptions planes;

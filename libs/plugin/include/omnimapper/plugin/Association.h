@@ -91,18 +91,18 @@ base::OptionTable<Options>& AssociationOptions::declareIn(base::OptionTable<Opti
               "How measurements are assigned to landmarks: all measurements of an observation jointly, or each "
               "measurement separately to its nearest landmark.")
       .number("association_confidence", &Options::confidence, base::Range{0.5, 0.999999999},
-              "A true match passes a gate with this probability.")
-      .number(
-          "association_inflation", &Options::inflation, base::Range{1, 100},
-          "Factor on the standard deviations that the map predicts, because odometry usually reports smaller ones than "
-          "it should.")
+              "Probability with which a measurement passes the chi-square gate of its true landmark. A measurement is "
+              "assigned only to a landmark whose gate it passes.")
+      .number("association_inflation", &Options::inflation, base::Range{1, 100},
+              "The standard deviations that the map predicts for measurements are multiplied by this, because odometry "
+              "usually reports smaller ones than it should.")
       .number("association_min_ratio", &Options::min_likelihood_ratio, base::Range{1, 1e12},
-              "A measurement is used only if the best assignment of all measurements to landmarks is at least this "
-              "many times likelier than the best assignment that gives this measurement another landmark; 1 takes the "
-              "best match. Only for association = joint.")
+              "With association = joint, a measurement is used only if the best assignment of all measurements to "
+              "landmarks is at least this many times likelier than the best assignment that gives this measurement "
+              "another landmark. With 1 the best assignment is always used.")
       .integer("association_max_nodes", &Options::max_nodes, base::Range{1, 1e9},
-               "Largest number of assignments that are searched for association = joint; beyond it, the best so far is "
-               "taken.");
+               "With association = joint, largest number of assignments that are tried. After that, the best one so "
+               "far is taken.");
 }
 
 }  // namespace omnimapper::mapper
