@@ -9,7 +9,7 @@ namespace omnimapper::plugins {
 
 /// The position of an antenna, which is mounted on the base, in the local east-north-up frame. Variables: map_from_enu,
 /// map_from_base (se3). Residual: inverse(map_from_enu) * map_from_base * antenna_in_base - the measured
-/// antenna_in_enu, along the axes east, north and up [m]. Without `up`, for a planar map, it has only the first two
+/// antenna_in_enu, along the axes east, north and up [m]. Without `up`, for a planar map, there are only the first two
 /// rows. Source: thesis 5.2.2.2; derivation in doc/derivations/antenna.md.
 class AntennaFactor : public graph::Factor {
  public:

@@ -12,8 +12,8 @@
 namespace omnimapper::plugins {
 
 struct GivenMotionOptions {
-  std::string label;  ///< of the poses; empty: that of the first pose
-  double max_gap = 1;  ///< [s] largest, from one pose to the next
+  std::string label;                                                ///< of the poses; empty: that of the first pose
+  double max_gap = 1;                                               ///< [s] largest, from one pose to the next
   double position_sigma = 0.05;                                     ///< [m] after 1 s; grows with the root of time
   double angle_sigma = 2.0 * base::option_text::kRadiansPerDegree;  ///< [rad] after 1 s; grows with the root of time
 
@@ -43,7 +43,7 @@ class GivenMotionPlugin : public mapper::PosePlugin {
   GivenMotionOptions options_;
   std::optional<std::string> label_;  // of the first pose that came
   Poses poses_;                       // reference_from_base
-  bool forgotten_ = false;  // true: poses before the first of poses_ were dropped
+  bool forgotten_ = false;            // true: poses before the first of poses_ were dropped
   std::optional<Span> news_;
   matching::PoseTimeline timeline_;
 };

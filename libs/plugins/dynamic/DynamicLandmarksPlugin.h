@@ -13,7 +13,7 @@ struct DynamicLandmarksOptions {
   std::vector<std::string> landmarks;  ///< INI sections whose landmarks are examined; empty: all
   int every_solves = 0;                ///< number of solves between two searches; 0: only at the end
   double max_weight = 0.8;             ///< landmarks with a smaller weight are examined
-  int min_measurements = 2;  ///< at one place; fewer count as errors
+  int min_measurements = 2;            ///< at one place; fewer count as errors
   double min_move = 0.15;              ///< [m] smallest displacement that counts as moved
   double visit_gap = 5;                ///< [s] after a longer gap, the landmark may have been moved
   double confidence = 0.999;           ///< probability that measurements at one place are recognized as such

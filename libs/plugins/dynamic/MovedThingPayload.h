@@ -12,7 +12,7 @@ namespace omnimapper::plugins {
 
 /// A place where a landmark was seen for some time.
 struct ObservedPlace {
-  base::KeyFrameId seen_from;  ///< the last key frame from which the landmark was seen there
+  base::KeyFrameId seen_from;     ///< the last key frame from which the landmark was seen there
   Eigen::Vector3d point_in_base;  ///< [m] middle of the landmark, in the base of that key frame
   base::Stamp first_seen, last_seen;
   std::uint32_t measurements = 0;

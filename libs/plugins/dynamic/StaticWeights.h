@@ -11,9 +11,10 @@ namespace omnimapper::plugins {
 struct WeighedLandmark {
   base::LandmarkId id;
   std::vector<base::VariableId> variables;
-  std::vector<base::FactorId> measurements;  ///< factors that bind the landmark and other variables, in the order of ids
-  int degrees_of_freedom = 0;  ///< rows of the landmark's factors minus its dimensions
-  double chi2 = 0;  ///< of the measurements at full weight, with their losses applied
+  /// Factors that bind both the landmark and other variables, in the order of ids.
+  std::vector<base::FactorId> measurements;
+  int degrees_of_freedom = 0;  ///< rows of the landmark's factors minus the dimensions of its variables
+  double chi2 = 0;             ///< of the measurements at full weight, with their losses applied
   double weight = 1;
 };
 

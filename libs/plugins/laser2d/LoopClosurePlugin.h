@@ -51,7 +51,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   };
   /// The last search in the whole saved map.
   struct LastMapSearch {
-    double travel, answered;  // [m] travelled in the session: at this search, at the last answer that moved it
+    double travel, answered;        // [m] travelled in the session: at this search, at the last answer that moved it
     mrpt::math::TPoint3D begun_at;  // start of the session as estimated at this search
   };
   /// The last global search for loops, and the database that is searched.
@@ -60,7 +60,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
     std::shared_ptr<const ScanDatabase> places;
     std::size_t size = 0;             // number of scans in `places`
     std::optional<base::Stamp> tied;  // TestedClosures::newestTied() when `places` was made
-    std::size_t corrections = 0;  // TestedClosures::corrections() when `places` was made
+    std::size_t corrections = 0;      // TestedClosures::corrections() when `places` was made
   };
   using History = std::vector<StampedScan>;  // in order of session, then stamp
   using Scan = std::shared_ptr<const matching::ScanWithNormals>;
@@ -75,7 +75,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
   /// The scan at `centre` and the scans of the same session that are up to `before` [m] of travel before it and up to
-  /// `after` [m] after it; only a part of them if they are very many.
+  /// `after` [m] after it; of very many scans only a part.
   static std::vector<LoopSearch::KeyScan> keyScans(const History& history, std::size_t centre, double before,
                                                    double after);
 
@@ -91,7 +91,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   std::map<std::string, LastGlobalSearch> last_global_search_;  // by label
   std::vector<GlobalLoopSearch> global_searches_;               // of the key frame being measured
   std::shared_ptr<const ScanDatabase> places_;                  // of the map that is continued
-  int frames_without_scan_ = 0;  // key frames since the last scan, or since the start
+  int frames_without_scan_ = 0;                                 // key frames since the last scan, or since the start
   std::map<std::string, LastMapSearch> last_map_search_;        // by label
   std::vector<GlobalRelocalization> map_searches_;              // of the key frame being measured
 };

@@ -23,7 +23,7 @@ class LoopSearch {
     std::shared_ptr<const matching::ScanWithNormals> scan;
     double travel;  // [m] travelled until there
   };
-  /// A place to try: its key frame, and the scans before and after it that its local map is made of.
+  /// A place to try: its key frame, and the scans before and after it from which its local map is made.
   struct Place {
     KeyScan centre;
     std::vector<KeyScan> around;
@@ -75,15 +75,16 @@ class LoopSearch {
   std::vector<Place> places_;
 };
 
-/// The note by which factors of closures that a search of the whole map found are recognized.
+/// The note that marks the factors of closures found by a search of the whole map.
 inline constexpr char kGlobalClosure[] = "global loop closure";
 
 /// Joins the scans of key frames, in the frame of `centre`, at their poses in `state`.
 matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& key_scans, base::KeyFrameId centre,
                                    const mapper::State& state);
 
-/// Writes to `decision` whether the best match is accepted as a closure: it needs enough overlap, walls that constrain
-/// it in all directions, and no equally good match elsewhere. `matches`: best first. `guess`: the estimated pose.
+/// Writes to `decision` whether the best match is accepted as a closure: the match needs enough overlap, walls that
+/// constrain the pose in all directions, and no equally good match elsewhere. `matches`: best first. `guess`: the
+/// estimated pose.
 void judgeClosure(const LoopClosureOptions& options, const std::vector<matching::ScanMatch>& matches,
                   const mrpt::math::TPose2D& guess, mapper::Decision& decision);
 

@@ -14,7 +14,7 @@ namespace omnimapper::plugins {
 /// empty. All points are in one frame.
 double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<Eigen::Vector2f>& seen);
 
-/// Share of the 2D scans of which many beams pass through walls of the map. This happens where a stretch of the
+/// Share of the 2D scans in which many beams pass through walls of the map. This happens where a stretch of the
 /// trajectory is wrong. `labels`: those of the clouds that were made from the scans.
 mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels);
 

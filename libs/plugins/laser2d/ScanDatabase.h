@@ -39,9 +39,9 @@ class ScanDatabase {
 
  private:
   std::vector<Place> places_;
-  // The key frame of each place. A copy of the map would not do, because only the engine may destroy one.
+  // The key frame of each place. No copy of the map is kept, because only the engine's thread may destroy one.
   std::vector<map::KeyFrame> frames_;
-  std::vector<std::string> labels_;    // of the cloud, for each place
+  std::vector<std::string> labels_;  // of the cloud, for each place
   std::shared_ptr<const matching::ScanMatcher> matcher_;
   matching::RelocalizerOptions options_;
   mapper::SessionStart anywhere_;

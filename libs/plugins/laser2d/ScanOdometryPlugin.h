@@ -18,15 +18,15 @@
 namespace omnimapper::plugins {
 
 struct ScanOdometryOptions {
-  std::string label;  ///< of the laser; empty: the first one observed
-  std::string odometry_label;  ///< of the odometry used for prediction; empty: the one that fits the matches best
-  double sweep = 0;  ///< [s] from the first beam of a scan, measured at its stamp, to the last
-  double max_gap = 1.0;  ///< [s] longest time without a match; then matching starts anew
-  double max_speed = 10.0;  ///< [m/s] largest of a prediction that is used
+  std::string label;               ///< of the laser; empty: the first one observed
+  std::string odometry_label;      ///< of the odometry used for prediction; empty: the one that fits the matches best
+  double sweep = 0;                ///< [s] from the first beam of a scan, measured at its stamp, to the last
+  double max_gap = 1.0;            ///< [s] longest time without a match; then matching starts anew
+  double max_speed = 10.0;         ///< [m/s] largest of a prediction that is used
   double prediction_sigma = 0.01;  ///< [m]
   double guess_angle_sigma = 0.5 * base::option_text::kRadiansPerDegree;  ///< [rad]
   double prediction_sigma_per_m = 0.1;
-  double point_sigma = 0.02;  ///< [m] smallest deviation of points from walls
+  double point_sigma = 0.02;                                                 ///< [m] at least, of points from walls
   double position_noise_per_root_m = 0.01;                                   ///< [m / sqrt(m)]
   double yaw_noise_per_root_m = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
   double yaw_noise_per_root_turn = 0.005;                                    ///< [rad / sqrt(rad)]

@@ -11,9 +11,9 @@ namespace omnimapper::plugins {
 /// A job that searches for the span of the trajectory, from one key frame to the next, in which the odometry slipped.
 /// Refused closures that agree with one another, but not with the map, determine the error at the end of the
 /// trajectory. From this error follows the motion that each span must have had if only that span was wrong. If the
-/// scans before and after some span fit better at that motion, the span whose scans gain most overlap gets it.
-/// Otherwise, if there is exactly one span whose scans do not fit at its present motion either, this span gets the
-/// motion that follows from the closures, with a fixed uncertainty for the errors of the map.
+/// scans before and after a span fit better at such a motion, the span whose scans gain most overlap gets the motion at
+/// which they fit. Otherwise, if there is exactly one span whose scans do not fit at its present motion either, this
+/// span gets the motion that follows from the closures, with a fixed uncertainty for the errors of the map.
 class SlipSearch {
  public:
   /// `refused`: the closures found by global searches that the consistency test refused. `trajectory`: the scan of each

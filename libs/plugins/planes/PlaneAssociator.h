@@ -42,8 +42,8 @@ class PlaneAssociator {
   // both sides of a door. Either landmark is then a right choice.
   bool spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const;
   // How far a measurement is beyond the limits within which it may be of a surface [m], perpendicular to the surface's
-  // plane or along it; <= 0 within the limits. None if the normals disagree, or if it is farther than the uncertainty
-  // of the base's pose explains.
+  // plane or along it; <= 0 within the limits. None if the normals disagree, or if the measurement is farther away than
+  // the uncertainty of the base's pose explains.
   std::optional<double> missIfAlike(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
                                     const std::vector<Eigen::Vector3d>& points) const;
   // Standard deviation [m] of the position of a point at `range` [m] from the base, relative to the key frame `frame`.

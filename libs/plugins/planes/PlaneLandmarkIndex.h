@@ -13,8 +13,8 @@
 
 namespace omnimapper::plugins {
 
-/// The plane landmarks of a map with their current extents, in which the landmarks are found that a measurement may be
-/// of. All data are derived from the map, and computed again where key frames have moved.
+/// The plane landmarks of a map with their current extents, among which those that a measurement may be of are found.
+/// All data are derived from the map, and computed again where key frames have moved.
 class PlaneLandmarkIndex {
  public:
   /// Whether the vertical extent of a surface is known: lines of a laser do not measure it.
@@ -24,7 +24,7 @@ class PlaneLandmarkIndex {
     base::LandmarkId id;
     base::VariableId variable;
     geometry::Plane3 plane;
-    std::vector<Eigen::Vector2d> hull;  ///< [m] in the PlaneAxes of the plane
+    std::vector<Eigen::Vector2d> hull;                 ///< [m] in the PlaneAxes of the plane
     surfaces::CellGrid seen;                           ///< cells of kSeenCell; empty if the surface is too large
     surfaces::CellGrid well_seen;                      ///< those cells that were seen from near and not too obliquely
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< [m] of the hull

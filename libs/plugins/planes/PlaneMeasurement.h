@@ -29,7 +29,7 @@ struct PlaneMeasurement {
   std::vector<surfaces::FlatPart> well_seen_in_base;
   bool is_all_well_seen = true;
   double roughness = 0;  ///< as ObservedPlane::roughness
-  double size = 0;  ///< area of the hull [m^2]; for a line, its length [m]
+  double size = 0;       ///< area of the hull [m^2]; for a line, its length [m]
   std::shared_ptr<const graph::Factor> factor;
   graph::SquareRootInformation noise = graph::SquareRootInformation::identity(1);
   std::string why_useless;  ///< if not empty, only is_line, sensor_label and size are valid

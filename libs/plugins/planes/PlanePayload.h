@@ -50,7 +50,7 @@ struct SensorCounts {
 
 /// Whether a measurement adds to the known extent of a surface.
 struct News {
-  bool of_extent = false;  ///< if all parts of the measurement count
+  bool of_extent = false;     ///< if all parts of the measurement count
   bool of_well_seen = false;  ///< if only its well seen parts count
 };
 
@@ -66,7 +66,7 @@ struct Roughness {
 class CoveredMemo {
  public:
   struct Entry {
-    Eigen::VectorXd value;  ///< value of the variable of the plane
+    Eigen::VectorXd value;              ///< value of the variable of the plane
     std::vector<geometry::Se3> frames;  ///< map_from_base of the key frame of each patch
     geometry::Areas2 areas;
   };
@@ -91,7 +91,7 @@ struct PlanePayload : map::LandmarkPayload {
   using Boundary = PlaneLandmarksOptions::Boundary;
 
   landmarks::PlaneParametrization::Kind form = landmarks::PlaneParametrization::Kind::plane;
-  Ground ground = Ground::start;  ///< from whose height the class follows
+  Ground ground = Ground::start;  ///< height of the floor, on which the class depends
   Boundary boundary = Boundary::hull;
   std::vector<SurfacePatch> patches;            ///< each adds to the extent of the others
   std::map<std::string, SensorCounts> seen_by;  ///< by sensor label

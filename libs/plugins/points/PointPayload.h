@@ -11,7 +11,7 @@ namespace omnimapper::plugins {
 /// What the map knows about a point landmark in addition to its position.
 struct PointPayload : map::LandmarkPayload {
   std::int32_t number = -1;                      ///< reported by the sensor; -1: none
-  double height = 0;  ///< [m] above the base, the mean of all measurements; for planar maps
+  double height = 0;                             ///< [m] above the base, the mean of all measurements; for planar maps
   std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: number of measurements
 
   std::string_view kind() const override { return "point"; }

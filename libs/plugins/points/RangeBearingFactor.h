@@ -9,8 +9,7 @@
 
 namespace omnimapper::plugins {
 
-/// The factors of measurements of a point of the map by a range-bearing sensor. Derivation:
-/// doc/derivations/range_bearing.md.
+/// Factors for a point of the map that a range-bearing sensor measured. Derivation: doc/derivations/range_bearing.md.
 
 /// For a planar map (thesis 4.6.2.1, equation 10). Variables: map_from_base (se2), point in map (point2). Residual:
 /// horizontal range [m], bearing [rad, in (-pi, pi]], each predicted - measured.

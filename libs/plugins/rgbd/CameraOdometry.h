@@ -23,9 +23,9 @@
 namespace omnimapper::plugins {
 
 struct CameraOdometryOptions {
-  std::string label;  ///< of the camera; empty: the first one observed
+  std::string label;           ///< of the camera; empty: the first one observed
   std::string odometry_label;  ///< of the wheel odometry used for prediction; empty: the first one observed
-  std::string imu_label;  ///< of the gyroscope used for prediction; empty: the first one observed
+  std::string imu_label;       ///< of the gyroscope used for prediction; empty: the first one observed
   double turn_rate_noise = matching::GyroscopeOptions{}.noise_per_root_s;  ///< [rad / sqrt(s)]
   double turn_rate_bias = matching::GyroscopeOptions{}.bias_sigma;         ///< [rad/s]
   double max_speed = 1.5;                                            ///< [m/s] of a camera; faster motions are errors
@@ -49,7 +49,7 @@ struct ImageMotion {
   };
   How how = How::lost;
   geometry::Se3 last_from_camera;  ///< motion since the image that was tracked before, optical frames
-  base::Stamp last;  ///< stamp of that image
+  base::Stamp last;                ///< stamp of that image
   /// Projector onto the directions of motion that the image leaves unconstrained, in the camera's frame and the tangent
   /// of geometry::Se3; zero if there are none.
   geometry::Matrix6d open = geometry::Matrix6d::Zero();
@@ -108,7 +108,7 @@ class CameraOdometry : public mapper::PosePlugin {
 
   CameraOdometryOptions options_;
   std::string what_;
-  std::optional<std::string> label_;  // of the first camera that came
+  std::optional<std::string> label_;                                           // of the first camera that came
   std::map<base::Stamp, mrpt::obs::CObservation3DRangeScan::ConstPtr> queue_;  // not yet processed
   std::optional<base::Stamp> reached_, begun_;  // stamps of the last processed and the first image
   std::optional<base::Stamp> last_;             // stamp of the last tracked image

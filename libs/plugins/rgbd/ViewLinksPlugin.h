@@ -16,7 +16,7 @@ namespace omnimapper::plugins {
 
 struct ViewLinksOptions {
   std::string odometry = "visual_odometry";  ///< section whose camera, matching and shutters are used here, too
-  int key_frames_back = 3;  ///< a key frame is linked to the second to this one before it
+  int key_frames_back = 3;                   ///< links to the second, third, ... key frame before, up to this number
   int old_views = 2;                         ///< largest number of links of a key frame to older views
   int stored_views = 500;                    ///< largest number of older views; the oldest is dropped first
   double overlap = 0.5;                      ///< smallest share of an older view that is still visible
@@ -97,9 +97,9 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   matching::DenseMatcher matcher_;
   mapper::PluginContext context_;
   perception::LensStraightener lens_;
-  std::string label_;  // of the camera; empty until its first image
+  std::string label_;             // of the camera; empty until its first image
   std::vector<KeyImage> recent_;  // in order of arrival, the newest last
-  std::vector<KeyImage> views_;  // older images, each of a different view
+  std::vector<KeyImage> views_;   // older images, each of a different view
   std::vector<Return> returns_;
   // How often the estimate had the camera back at a view that it had left, and how often the image did not fit then.
   std::size_t expected_ = 0, missed_ = 0;

@@ -40,7 +40,7 @@ class SessionBySigns {
  private:
   struct RecentBearing {
     base::KeyFrameId frame;
-    KnownSignBearing known;  // valid but for the pose of the base in the session
+    KnownSignBearing known;  // all current except session_from_base
     double travelled;        // [m]
   };
 

@@ -18,7 +18,7 @@ struct SignLandmarksOptions : mapper::AssociationOptions {
   double pan_sigma = 0.5 * base::option_text::kRadiansPerDegree;            ///< [rad] of the camera's reported pan
   double tilt_sigma = 0.5 * base::option_text::kRadiansPerDegree;           ///< [rad] of the camera's reported tilt
   double pan_tilt_offset_sigma = 3 * base::option_text::kRadiansPerDegree;  ///< [rad] of the unit's zero offsets
-  double max_sigma = 2;       ///< [m] largest of the position of a new sign
+  double max_sigma = 2;       ///< [m] largest uncertainty of the position of a new sign
   double recent_travel = 10;  ///< [m] distance travelled during which a sign counts as seen recently
   double same_sigma = 0.03;   ///< [m] between two estimates of the centre of one sign
   double loss_scale = 2;      ///< [sigma] of the Cauchy loss

@@ -23,7 +23,7 @@ inline constexpr double kReadingDistance = 2.5;
 struct SignMeasurement {
   SignText text;
   MeasuredDirection seen;
-  Eigen::Vector3d tilt_axis;  ///< level unit vector to the left of the camera, in the base
+  Eigen::Vector3d tilt_axis;      ///< level unit vector to the left of the camera, in the base
   double sigma_left, sigma_down;  ///< [rad] of the direction
   std::optional<double> range;    ///< [m] if it was measured
   double range_sigma;             ///< [m]

@@ -28,7 +28,7 @@ struct SignPayload : map::LandmarkPayload {
   std::map<std::string, double> words;           ///< the same for the other lines of text
   bool is_repeated = false;                      ///< another sign elsewhere has the same text
   std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: number of measurements
-  std::optional<SignLook> best_look;  ///< the look with the largest area; none in maps of older versions
+  std::optional<SignLook> best_look;             ///< the look with the largest area; none in maps of older versions
 
   std::string_view kind() const override { return "door_sign"; }
   void write(std::ostream& out) const override;

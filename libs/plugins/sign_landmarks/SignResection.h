@@ -14,7 +14,7 @@ namespace omnimapper::plugins {
 /// The direction to a known sign of the map, measured in a session whose place in the map is unknown.
 struct KnownSignBearing {
   base::LandmarkId sign;
-  bool is_numbered;  ///< the sign has a number that is probably on this sign only
+  bool is_numbered;                 ///< the sign has a number that is probably on this sign only
   Eigen::Vector3d in_map;           ///< [m] position of the sign in the map
   Eigen::Vector3d normal;           ///< unit vector, towards the side from which the sign is read
   geometry::Se3 session_from_base;  ///< by odometry
@@ -30,7 +30,7 @@ struct SessionFit {
   geometry::Se3 map_from_session;  ///< a rotation about the vertical and a translation on the floor
   double position_sigma = 0;       ///< [m] of the newest base, along the direction that is known worst
   double angle_sigma = 0;          ///< [rad]
-  std::size_t fitting = 0;  ///< number of measurements that fit within three standard deviations
+  std::size_t fitting = 0;         ///< number of measurements that fit within three standard deviations
 };
 
 /// Resection: the pose of a session from which known signs are seen in these directions. `measurements`: the newest

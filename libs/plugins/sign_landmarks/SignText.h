@@ -9,7 +9,7 @@ namespace omnimapper::plugins {
 
 /// The text on a sign, in the form in which signs are compared.
 struct SignText {
-  std::string number;  ///< the first line with a digit, without blanks, in capitals; empty if no line has a digit
+  std::string number;              ///< the first line with a digit, without blanks, in capitals; empty if there is none
   std::vector<std::string> words;  ///< the other lines, in capitals, from the top
   double confidence = 0;           ///< of the number, or, without a number, of the most certain line
 
@@ -26,9 +26,9 @@ double likeness(const std::string& a, const std::string& b);
 /// Whether two texts can be of the same sign.
 enum class Agreement {
   contradicts,  ///< different numbers, or words that are not similar
-  unknown,  ///< one has only a number, the other only words: one sign may have both
+  unknown,      ///< one has only a number, the other only words: one sign may have both
   partly,       ///< one has a number that the other lacks; their words are similar
-  agrees  ///< same number, or, if neither has a number, words with a likeness above 60 %
+  agrees        ///< same number, or, if neither has a number, words with a likeness above 60 %
 };
 Agreement agreementOf(const SignText& a, const SignText& b);
 

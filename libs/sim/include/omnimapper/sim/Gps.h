@@ -12,7 +12,7 @@ struct GpsOptions {
   double origin_altitude = 60;        ///< above the ellipsoid [m]
   double east_from_map = 0;           ///< angle by which the map's x axis is turned from east towards north [rad]
   double sigma = 1.5;                 ///< horizontal standard deviation [m]
-  double up_factor = 2;               ///< vertical over horizontal standard deviation
+  double up_factor = 2;               ///< vertical standard deviation divided by the horizontal one
   double correlation = 30;  ///< time in which the correlation of errors falls to 1/e [s]; 0: errors are independent
   int fix_quality = 1;      ///< in the GGA message: 1 plain, 2 differential, 4 RTK fixed, 5 RTK float
   double hdop = 1;
@@ -23,8 +23,8 @@ struct GpsOptions {
 
 /// A satellite receiver: CObservationGPS with a GGA message (WGS84; altitude above the ellipsoid, geoid at 0). Its
 /// errors are a Gauss-Markov process in east, north and up, without multipath. If needs_sky is set, the fix quality is
-/// 0 where something is above the antenna. Truth, one line for each measurement: "antenna_in_map" [m], "error_enu" [m],
-/// and "fix", whether there is one.
+/// 0 where something is above the antenna. The truth has one line for each measurement, with "antenna_in_map" [m],
+/// "error_enu" [m] and "fix", which is true if there is a fix.
 class Gps : public Sensor {
  public:
   Gps(const GpsOptions& options, const SensorOptions& mount, const SensorContext& context);

@@ -26,11 +26,12 @@ struct Laser2dOptions : LaserOpticsOptions {
   static const base::OptionTable<Laser2dOptions>& table();
 };
 
-/// A 2D laser: CObservation2DRangeScan, with validRange false where no echo came back. Beam i is cast from the sensor's
-/// pose sweep * i / (beams - 1) after the stamp; sensorPose is the pose on the base. Truth, one line for each scan:
-/// "surfaces" [[number + 1, count], ...] that the beams met (0: none in reach); indices of beams that are "missed"
-/// (they met a surface but have no echo, which was too weak, too near or far, or lost), "mixed" and "mirrored"; and
-/// "ranges" [m] if truth_ranges is set.
+/// A 2D laser: CObservation2DRangeScan, with validRange false where no echo came back. Beam i is cast from the pose
+/// that the sensor has sweep * i / (beams - 1) after the stamp; sensorPose is the pose of the sensor on the base. The
+/// truth has one line for each scan. "surfaces" [[number + 1, count], ...] lists, in the order of the beams, the
+/// surfaces that were met (0: none in reach), each with the number of successive beams that met it. "missed", "mixed"
+/// and "mirrored" are indices of beams; a missed beam met a surface but has no echo, because the echo was too weak, too
+/// near, too far or lost. "ranges" [m] are there if truth_ranges is set.
 class Laser2d : public Sensor {
  public:
   Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context);

@@ -21,7 +21,7 @@ struct Pinhole {
   int count() const { return width * height; }
   /// The point at depth 1 that is seen at pixel (u, v), in the optical frame.
   Eigen::Vector3d through(double u, double v) const { return {(u - cx) / fx, (v - cy) / fy, 1.0}; }
-  /// The pixel at which a point is seen, which may lie outside the image; none behind the camera.
+  /// The pixel at which a point is seen; it may lie outside the image. None for a point behind the camera.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& in_optical) const {
     if (in_optical.z() < 1e-6) return std::nullopt;
     return Eigen::Vector2d(cx + fx * in_optical.x() / in_optical.z(), cy + fy * in_optical.y() / in_optical.z());

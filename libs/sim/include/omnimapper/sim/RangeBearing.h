@@ -9,9 +9,9 @@ namespace omnimapper::sim {
 
 struct RangeBearingOptions {
   bool points = true;                       ///< measures World::point_landmarks
-  bool markers = true;                      ///< measures the centres of World::markers, from in front of them
+  bool markers = true;                      ///< measures the centres of World::markers if it is in front of them
   bool known_ids = true;                    ///< measurements have the ids of their landmarks; otherwise -1
-  bool planar = false;                      ///< pitch is 0 and the range horizontal
+  bool planar = false;                      ///< pitch is 0, and the range is the horizontal one
   double min_range = 0.2;                   ///< [m]
   double max_range = 10;                    ///< [m]
   double fov_yaw = 3.14159265358979323846;  ///< whole field of view [rad]
@@ -25,8 +25,9 @@ struct RangeBearingOptions {
 };
 
 /// Ranges and bearings of landmarks: CObservationBearingRange, in MRPT's convention (yaw to the left, pitch down).
-/// There is no observation where nothing is seen. Measurements are in random order. Truth, one line for each
-/// observation: "landmarks", the names of the measured landmarks ("" for a false alarm), and "ids".
+/// There is no observation where nothing is seen. Measurements are in random order. The truth has one line for each
+/// observation: "landmarks" are the names of the measured landmarks ("" for a false alarm), and "ids" their ids (-1 for
+/// a false alarm).
 class RangeBearing : public Sensor {
  public:
   /// Throws base::Error(out_of_range) if known_ids is set and two landmarks have the same id.

@@ -24,7 +24,7 @@ struct SensorOptions {
   double rate = 10;                     ///< [1/s]
   double first = 0;                     ///< time of the first measurement [s]
   double latency = 0;                   ///< from stamp to arrival [s]
-  double jitter = 0;                    ///< standard deviation of the latency [s]; it is never below 0
+  double jitter = 0;                    ///< standard deviation of the latency [s]; the latency is never below 0
   double dropout = 0;                   ///< part of the measurements that never arrive
   static const base::OptionTable<SensorOptions>& table();
   geometry::Se3 baseFromSensor() const;
@@ -38,7 +38,7 @@ struct SensorContext {
   std::uint64_t number = 0;      ///< hash of the section's name, which identifies the random streams of the sensor
   base::Stamp start;             ///< the stamp of time 0
   double duration = 0;           ///< of the run [s]
-  const World* world = nullptr;  ///< these three must outlive the sensor
+  const World* world = nullptr;  ///< world, scenes and map_from_base must outlive the sensor
   const Scenes* scenes = nullptr;
   const Track* map_from_base = nullptr;  ///< the robot's true track
   /// The section as the beginning of a message about one of its options.
@@ -57,7 +57,8 @@ struct VisiblePoint {
   Eigen::Vector3f in_map;  ///< the true point, without noise [m]
 };
 
-/// Whether a measurement at this range [m] and cosine of incidence shows its surface well: within 4 m and 75 deg.
+/// Whether a measurement at this range [m] and cosine of the angle of incidence shows its surface well: from within 4 m
+/// and at 75 deg at most.
 bool isSeenWell(double range, double cosine);
 
 /// One measurement with its ground truth.
@@ -66,7 +67,7 @@ struct Measurement {
   std::string truth;  ///< one JSON object on one line, for truth/<label>.jsonl; empty: none
   std::vector<TruthFile> truth_files;
   std::vector<VisiblePoint> seen = {};
-  std::vector<SignView> signs = {};  ///< the signs in its picture, if it has one
+  std::vector<SignView> signs = {};  ///< the signs in the picture, if the observation has a picture
 };
 
 /// Whether a name is not empty and has no '/', no leading '.' and no control characters.
@@ -85,7 +86,8 @@ class Sensor {
   base::Stamp stampOf(int k) const;
   /// Time at which measurement k arrives in the log [s]; negative: never.
   double arrivalOf(int k) const;
-  /// Measurement k. Its observation has stamp, label and pose; it is null if the sensor sees nothing that makes one.
+  /// Measurement k. Its observation has stamp, label and pose. The observation is null if nothing is in view that it
+  /// could report.
   virtual Measurement measure(int k) const = 0;
   /// The view of the colour picture of measurement k; none if the sensor takes no pictures.
   virtual std::optional<CameraView> pictureView(int /*k*/) const { return {}; }

@@ -20,9 +20,9 @@ struct FaceView {
   /// Corners as the reader sees them: upper left, upper right, lower right, lower left; they may lie outside the
   /// picture [pixel].
   std::array<Eigen::Vector2d, 4> corners;
-  double distance = 0;    ///< from the camera to its middle [m]
-  double incidence = 0;   ///< between its normal and the ray to its middle, 0: seen from straight in front [rad]
-  double visible = 0;     ///< part of it that is in the picture and not hidden, measured by 25 rays; above 0
+  double distance = 0;    ///< from the camera to the middle of the rectangle [m]
+  double incidence = 0;   ///< angle between the normal and the ray to the middle [rad]; 0: seen from straight in front
+  double visible = 0;     ///< part of the rectangle that is in the picture and not hidden, measured by 25 rays; above 0
   bool is_whole = false;  ///< all corners are in the picture
 };
 
@@ -48,8 +48,8 @@ bool isLegible(const SignView& view, const Legibility& legibility = {});
 
 /// How often a sign can be read.
 struct SignReadings {
-  int pictures = 0;  ///< number of pictures in which it is legible
-  int visits = 0;    ///< visits on which it is legible; pictures more than 30 s apart are of different visits
+  int pictures = 0;  ///< number of pictures in which the sign is legible
+  int visits = 0;    ///< number of visits with such a picture; pictures more than 30 s apart are of different visits
 };
 
 /// Counts legible signs over the pictures of a run.

@@ -9,7 +9,7 @@
 
 namespace omnimapper::sim {
 
-/// [simulation] of an INI.
+/// Section [simulation] of an INI.
 struct SimulationOptions {
   enum class Format {
     observations,  ///< one observation after another
@@ -17,7 +17,7 @@ struct SimulationOptions {
   };
   enum class Images {
     embedded,  ///< in the rawlog
-    external,  ///< files in <name>_Images beside it
+    external,  ///< files in <name>_Images beside the rawlog
   };
   int seed = 1;
   double duration = 0;   ///< [s]; 0: until the robot has arrived

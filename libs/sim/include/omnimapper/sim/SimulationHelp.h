@@ -4,7 +4,7 @@
 
 namespace omnimapper::sim {
 
-/// The classes of sections that [world] names, and sensors with a sentence each, for --list.
+/// The classes of the sections that [world] may name, and the classes of sensors with a sentence on each, for --list.
 std::string listClasses();
 /// An INI section of a class of sensors with every option at its default, for --print-ini. Throws
 /// Error(unknown_plugin).

@@ -14,7 +14,7 @@ namespace omnimapper::sim {
 struct SimulationRequest {
   std::string folder;  ///< created if missing
   std::string name;    ///< of the rawlog, without ".rawlog"
-  int threads = 1;     ///< the output does not depend on it, bit for bit
+  int threads = 1;     ///< the output is the same, bit for bit, for any number
 };
 
 /// What a run has written.
@@ -41,8 +41,9 @@ std::string toText(const SimulationResult& result, const std::string& folder);
 /// of all that is there at time 0), signs_seen.csv (the signs that each picture shows, SignTruth), truth/<label>.jsonl
 /// and other truth files of sensors, plan.svg, pictures/ of what each sensor saw in the middle of the run, <name>.ini
 /// and README.md, which describes the files. Measurements are in the order of their arrival. `stop` is called before
-/// each of them. An older run in the folder is kept until the new one is complete, and removed then. Throws Error
-/// unwritable_output (also for a folder that holds files but no simulated log) or disk_full.
+/// each measurement; once it returns true, the run ends. An older run in the folder is kept until the new one is
+/// complete, and then removed. Throws Error unwritable_output (also for a folder that holds files but no simulated log)
+/// or disk_full.
 SimulationResult runSimulation(const Simulation& simulation, const SimulationRequest& request, base::Progress& progress,
                                const std::function<bool()>& stop = {});
 

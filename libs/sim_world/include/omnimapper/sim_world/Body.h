@@ -60,8 +60,8 @@ struct Surface {
   std::string name;  ///< unique in the world: "kitchen/wall_2", "table_1/top"
   SurfaceKind kind = SurfaceKind::clutter;
   Material material;
-  std::optional<PlanarFace> face;  ///< none: it is not flat
-  /// The class that people would give it; the sides of furniture may have another class than its top.
+  std::optional<PlanarFace> face;  ///< none: the surface is not flat
+  /// The class that people would give the surface; the sides of furniture may have another class than its top.
   surfaces::SurfaceClass is = surfaces::SurfaceClass::surface;
 };
 
@@ -69,7 +69,7 @@ struct Triangle {
   /// Indices into Body::vertices_in_body, counter-clockwise seen from outside; both sides are visible.
   std::array<int, 3> corners;
   int surface = 0;  ///< index into Body::surfaces
-  /// Texture coordinates of each corner, as of Texture::at().
+  /// Texture coordinates of each corner, as Texture::at() takes them.
   std::array<Eigen::Vector2f, 3> texture_at{Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0)};
 };
 

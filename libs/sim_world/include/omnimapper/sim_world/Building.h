@@ -16,8 +16,8 @@ struct Building {
   std::vector<WallFace> walls;
   std::vector<Body> bodies;  ///< of each room, then of each opening and its leaf
   std::vector<surfaces::Opening> openings;
-  std::vector<Ring> obstacles;       ///< outlines on the floor of the walls' solid and of leaves
-  std::vector<Footprint> furniture;  ///< leaves of doors, which take floor like furniture
+  std::vector<Ring> obstacles;       ///< outlines on the floor of solid walls and of door leaves
+  std::vector<Footprint> furniture;  ///< leaves of doors, which take up floor like furniture
   std::vector<Ring> doorways;        ///< floor before and behind each opening that people walk through
 };
 

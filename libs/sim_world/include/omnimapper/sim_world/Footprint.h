@@ -8,10 +8,10 @@
 
 namespace omnimapper::sim {
 
-/// Outlines on the floor are rings that go counter-clockwise. Lengths of no more than this count as 0 [m].
+/// Outlines on the floor are rings that go counter-clockwise. Lengths up to this value count as 0 [m].
 constexpr double kFloorTolerance = 1e-6;
 
-/// A rectangle of length (along its x) and width about a centre, turned by yaw.
+/// A rectangle about a centre, turned by yaw [rad]; the length is along its x axis.
 Ring rectangle(const Eigen::Vector2d& centre, double length, double width, double yaw = 0);
 Ring rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 

@@ -16,26 +16,27 @@ class FurniturePiece;
 struct FurnitureShape {
   const char* name;
   double length, width, height;  ///< [m]
-  double z;                      ///< usual height of its lowest point above the floor, for what hangs on walls [m]
+  double z;  ///< usual height of the lowest point above the floor, for shapes that hang on walls [m]
   SurfaceKind kind;
   const char* material;
   void (*build)(FurniturePiece& piece);
   /// Classes of its tops (boards, seats) and of all other sides.
   surfaces::SurfaceClass top = surfaces::SurfaceClass::object, sides = surfaces::SurfaceClass::object;
-  bool follows_slope = false;  ///< tilts with a sloped floor, as kerbs do; all else stands upright
+  bool follows_slope = false;  ///< tilts with a sloped floor, as kerbs do; other furniture stands upright
 };
 const std::vector<FurnitureShape>& furnitureShapes();
 const std::vector<FurnitureShape>& outdoorShapes();
 /// Null if there is none of that name.
 const FurnitureShape* findFurnitureShape(const std::string& name);
 
-/// The plan with sizes that are 0 and an empty material replaced by the usual ones.
+/// The plan with the usual sizes instead of those that are 0, and with the usual material instead of an empty one.
 FurniturePlan withUsualSize(FurniturePlan plan, const FurnitureShape& shape);
 
-/// A body in the frame of FurniturePlan. `plan` must have its sizes. Clutter in the furniture is drawn from `random`.
+/// A body in the frame of FurniturePlan. No size in `plan` may be 0. Clutter in the furniture is drawn from `random`.
 Body makeFurniture(const FurniturePlan& plan, const FurnitureShape& shape, const Track& track, Random random);
 
-/// A piece of furniture for the functions that build shapes, with its sizes and functions that add parts.
+/// A piece of furniture that is being built. The functions that build shapes take its sizes from here, and add parts by
+/// its member functions.
 class FurniturePiece {
  public:
   FurniturePiece(MeshBuilder& builder, const FurniturePlan& plan, const FurnitureShape& shape, Random random);
@@ -46,7 +47,8 @@ class FurniturePiece {
   Random random;
 
   const NamedMaterial& material() const { return main_; }
-  /// Adds a surface of a named material, or of the piece's material if the name is empty. Returns its number.
+  /// Adds a surface of the named material, or of the piece's material if `material` is empty. Returns the number of the
+  /// surface.
   int part(const std::string& name, const std::string& material = "");
   void box(int surface, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
   /// A box whose top is a new planar surface `name`; its other faces belong to surface `rest`.

@@ -8,7 +8,7 @@ namespace omnimapper::sim {
 
 /// Dictionaries of ArUco markers, as OpenCV names them.
 enum class MarkerDictionary { dict_4x4_50, dict_6x6_250 };
-/// "4x4_50", "6x6_250"; throws base::Error(out_of_range) that lists them.
+/// The dictionary named "4x4_50" or "6x6_250". For another name, throws base::Error(out_of_range), which lists these.
 MarkerDictionary markerDictionaryOf(const std::string& name);
 
 struct MarkerSpec {
@@ -16,13 +16,15 @@ struct MarkerSpec {
   MarkerDictionary dictionary = MarkerDictionary::dict_4x4_50;
   int id = 0;
   double side = 0.15;             ///< of the black square [m]
-  geometry::Se3 map_from_marker;  ///< frame as Sign's, origin in the middle of the front
+  geometry::Se3 map_from_marker;  ///< frame as Sign's, with the origin in the middle of the front
 };
 
-constexpr double kMarkerThickness = 0.004;  ///< its back is this far behind its front [m]
+constexpr double kMarkerThickness = 0.004;  ///< a marker's back is this far behind its front [m]
 
 struct MadeMarker {
-  Body body;  ///< surface "<name>" is the front, kind marker: the black square in a white margin, 1.4 sides wide in all
+  /// Surface "<name>", of kind marker, is the front: the black square with a white margin. With the margin, the front
+  /// is 1.4 times as wide as the square.
+  Body body;
   Marker marker;
 };
 

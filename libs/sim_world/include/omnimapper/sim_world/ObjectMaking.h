@@ -28,10 +28,10 @@ struct MadeObject {
   Object object;
 };
 
-/// An object that stands on z = 0 of its body, its axis (or its middle) on the body's z; its front, if it has one,
-/// faces -y. Surfaces: "<name>", and "<name>/<part>" for parts of other colours; none has a PlanarFace. Each part is
-/// closed; parts may overlap. Throws base::Error(out_of_range) for an unknown shape, with the list of known ones, and
-/// for a size that is not positive.
+/// An object that stands on z = 0 of its body. Its axis, or its middle if it has no axis, is on the z axis of the body;
+/// its front, if it has one, faces -y. Surfaces: "<name>", and "<name>/<part>" for parts of other colours; none has a
+/// PlanarFace. Each part is closed; parts may overlap. Throws base::Error(out_of_range) for an unknown shape, with the
+/// list of known ones, and for a size that is not positive.
 MadeObject makeObject(const ObjectSpec& spec);
 
 /// Extents of a body along its own axes [m].

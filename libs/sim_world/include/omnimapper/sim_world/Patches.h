@@ -18,8 +18,9 @@ struct Patch {
 };
 
 /// All patches larger than `least` [m^2], in the order of surfaces. Triangles of one surface that lie on one plane and
-/// share an edge are one patch; faces that touch in a corner only, or without a common corner, as of two boxes of one
-/// body side by side, are two. Facets of round surfaces, which meet a neighbour at less than 40 deg, are no patches.
+/// share an edge are one patch. Faces that share only a corner are two patches; so are faces that touch but share no
+/// corner, such as those of two boxes side by side in one body. Facets of round surfaces, which meet a neighbour at
+/// less than 40 deg, are no patches.
 std::vector<Patch> findPatches(const World& world, double least = 0.05);
 
 }  // namespace omnimapper::sim

@@ -13,7 +13,7 @@ enum class PosterKind {
   notice,        ///< a sheet of text, which is most like a door sign
   extinguisher,  ///< the red plate above a fire extinguisher
   clock,         ///< a dial with numbers, on a square plate
-  announcement   ///< a sheet with a date, a time and a room number, which is not that of the place where it hangs
+  announcement   ///< a sheet with a date, a time and the number of another room than the one where it hangs
 };
 
 struct PosterSpec {
@@ -29,8 +29,8 @@ struct PosterSpec {
 
 constexpr double kPosterThickness = 0.004;  ///< [m]
 
-/// Surface "<name>" is the front, a planar face of kind poster; "<name>/edge" is the rest. Throws
-/// std::invalid_argument for a negative size; as drawText() for fonts.
+/// Surface "<name>" is the front, a planar face of kind poster; "<name>/edge" is the rest. Throws std::invalid_argument
+/// for a negative size, and what drawText() throws for fonts.
 Body makePoster(const PosterSpec& spec);
 
 }  // namespace omnimapper::sim

@@ -31,12 +31,12 @@ class Scene {
 
   /// The nearest hit of each ray. Neighbouring rays are faster in one call than in separate ones.
   void cast(const std::vector<Ray>& rays, std::vector<Hit>& hits) const;
-  /// The same for arrays of `count`.
+  /// As above, for arrays of `count` elements.
   void cast(const Ray* rays, std::size_t count, Hit* hits) const;
   Hit cast(const Ray& ray) const;
-  /// blocked[i] != 0: something lies on ray i between near and far. Glass blocks too.
+  /// Sets blocked[i] to 1 if something lies on ray i between near and far, and to 0 otherwise. Glass blocks, too.
   void findBlocked(const std::vector<Ray>& rays, std::vector<char>& blocked) const;
-  /// The same for arrays of `count`.
+  /// As above, for arrays of `count` elements.
   void findBlocked(const Ray* rays, std::size_t count, char* blocked) const;
 
  private:
@@ -46,7 +46,7 @@ class Scene {
 /// Scenes of a world over time. Bodies that stand still between two times are built once. Thread-safe.
 class Scenes {
  public:
-  /// `world` must outlive it.
+  /// `world` must outlive this object.
   explicit Scenes(const World& world);
   ~Scenes();
   Scene at(double time) const;

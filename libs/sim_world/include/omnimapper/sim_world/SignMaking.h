@@ -14,10 +14,10 @@ enum class SignStyle {
   exit    ///< green plate with large white capitals and an arrow, as on escape routes
 };
 
-/// Height above the floor at which signs of this style hang, of their centre [m].
+/// Height above the floor at which the centres of signs of this style usually are [m].
 double usualHeight(SignStyle style);
 
-/// Thickness of every door sign: the frame of a sign on a wall is this far before the wall [m].
+/// Thickness of every door sign: the frame of a sign is this far in front of the wall on which the sign hangs [m].
 constexpr double kSignThickness = 0.006;
 
 struct SignSpec {
@@ -31,12 +31,13 @@ struct SignSpec {
 };
 
 struct MadeSign {
-  Body body;  ///< surface "<name>" is the front, with its text at 2,000 pixels a metre; "<name>/edge" the rest
+  Body body;  ///< surface "<name>" is the front, with its text at 2,000 pixels a metre; "<name>/edge" is the rest
   Sign sign;
 };
 
 /// A thin plate with text. Capital letters are at least 24 pixels high on the texture. Throws base::Error(out_of_range)
-/// if there is no text, or if it does not fit the given size or 0.5 m, and what drawText() throws for fonts.
+/// if there is no text, or if the text does not fit the given size or, without one, 0.5 m. Also throws what drawText()
+/// throws for fonts.
 MadeSign makeSign(const SignSpec& spec);
 
 }  // namespace omnimapper::sim

@@ -28,13 +28,14 @@ struct TextExtent {
 /// not UTF-8 or the height not positive.
 TextExtent measureText(const std::string& line, const TextStyle& style);
 
-/// Writes one line, anti-aliased. Its pen starts at x on base line y, both from the upper left corner of the texture
-/// [pixel]. Pixels outside the texture are cut off. Throws as measureText().
+/// Writes one line, anti-aliased. The pen starts at x on the base line y, both measured from the upper left corner of
+/// the texture [pixel]. Pixels outside the texture are cut off. Throws as measureText().
 void drawText(Texture& texture, const std::string& line, double x, double y, const TextStyle& style);
 
 enum class Alignment { left, centre, right };
-/// Writes lines below each other, the tops of the first line's capitals at y, lines 1.6 capitals apart; x is the left
-/// end, the middle or the right end of each. Returns the y of the last base line. Throws as measureText().
+/// Writes lines below each other. The tops of the capitals of the first line are at y, and base lines are 1.6 heights
+/// of a capital apart. By `alignment`, x is the left end, the middle or the right end of each line. Returns the y of
+/// the last base line. Throws as measureText().
 double drawLines(Texture& texture, const std::vector<std::string>& lines, double x, double y, Alignment alignment,
                  const TextStyle& style);
 

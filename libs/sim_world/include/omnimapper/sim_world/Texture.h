@@ -11,7 +11,8 @@ struct Texture {
   int width = 0, height = 0;      ///< [pixel]
   std::vector<std::uint8_t> rgb;  ///< width * height * 3
 
-  /// Colour in [0, 1]^3 at (u, v), bilinear; u to the right and v up run over the picture in [0, 1] and repeat beyond.
+  /// Colour in [0, 1]^3 at (u, v), by bilinear interpolation. The picture spans [0, 1] in u, to the right, and in v,
+  /// upwards; beyond that it repeats.
   Eigen::Vector3f at(float u, float v) const;
 };
 

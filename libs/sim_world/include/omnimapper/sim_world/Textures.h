@@ -31,7 +31,7 @@ const std::vector<std::string>& textureKindNames();
 /// Throws base::Error(out_of_range) that lists the known names.
 TextureKind textureKindOf(const std::string& name);
 
-/// Width and height in the world of one picture of this kind [m]; they are equal.
+/// Side of the square in the world that one picture of this kind covers [m].
 double textureSide(TextureKind kind);
 
 /// A picture that repeats without a seam, `side` pixels square. The same kind, seed and side give the same bytes;

@@ -11,12 +11,12 @@ namespace omnimapper::sim {
 class Track {
  public:
   enum class Kind {
-    steps,   ///< stays where it was put until it is put elsewhere, as objects that are carried instantly
-    motion,  ///< goes linearly from one pose to the next, as people and robots
+    steps,   ///< stays where it was put until it is put elsewhere, like objects that are carried in no time
+    motion,  ///< goes linearly from one pose to the next, like people and robots
   };
   struct Place {
     double time;                                 ///< [s]
-    std::optional<geometry::Se3> map_from_body;  ///< none: it is not in the world from then on
+    std::optional<geometry::Se3> map_from_body;  ///< none: the body is not in the world from then on
   };
 
   /// Always at one pose.
@@ -24,7 +24,8 @@ class Track {
   /// Throws std::invalid_argument unless there is a place, times increase, and a motion has a pose at each.
   Track(Kind kind, std::vector<Place> places);
 
-  /// The pose at a time: before the first place that of the first, after the last that of the last.
+  /// The pose at a time. Before the first place, it is the pose of the first place; after the last place, that of the
+  /// last one.
   std::optional<geometry::Se3> at(double time) const;
 
   Kind kind() const { return kind_; }

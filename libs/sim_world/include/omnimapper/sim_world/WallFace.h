@@ -21,7 +21,7 @@ struct WallFace {
   double floor_start = 0, floor_end = 0;      ///< z of the floor at both ends [m]
   double ceiling_start = 0, ceiling_end = 0;  ///< z of the ceiling at both ends [m]
   std::vector<Hole> holes;                    ///< in order of u
-  double solid = 0.3;                         ///< thickness of the wall behind it [m]
+  double solid = 0.3;                         ///< thickness of the wall behind this side [m]
 
   Eigen::Vector2d inward() const { return {direction.y(), -direction.x()}; }  ///< into the room
   Eigen::Vector2d end() const { return start + length * direction; }

@@ -15,10 +15,11 @@ struct Room {
   std::string name;                      ///< "kitchen"
   std::string kind;                      ///< "kitchen", "office", "corridor", ...
   std::string number;                    ///< "118", or empty
-  std::vector<Eigen::Vector2d> outline;  ///< counter-clockwise, of its free inside [m]
-  double floor_z = 0, height = 2.6;      ///< of the floor at outline.front(), and of the ceiling above it [m]
-  Eigen::Vector2d slope{0, 0};           ///< how much floor and ceiling rise per metre along x and y of the map
-  bool is_outdoors = false;              ///< no walls, no ceiling
+  std::vector<Eigen::Vector2d> outline;  ///< of the room's free inside, counter-clockwise [m]
+  /// z of the floor at outline.front(), and height of the ceiling above the floor [m].
+  double floor_z = 0, height = 2.6;
+  Eigen::Vector2d slope{0, 0};  ///< how much floor and ceiling rise per metre along x and y of the map
+  bool is_outdoors = false;     ///< no walls, no ceiling
 
   double floorAt(const Eigen::Vector2d& in_map) const { return floor_z + slope.dot(in_map - outline.front()); }
 };
@@ -33,7 +34,7 @@ struct Sign {
   std::vector<double> capitals = {};  ///< height of a capital letter of each line [m]
 };
 
-/// A square marker of a dictionary (ArUco), frame as Sign.
+/// A square marker of a dictionary (ArUco). Its body's frame is as Sign's.
 struct Marker {
   std::string name;  ///< of its body
   int id = 0;
@@ -79,7 +80,8 @@ struct Person {
 /// start.
 struct World {
   std::uint64_t seed = 0;
-  /// Variation of brightness from place to place on bodies that never move: its standard deviation over its mean.
+  /// Variation of brightness from place to place on bodies that never move: standard deviation of the brightness
+  /// divided by its mean.
   double wear = 0;
   std::vector<Body> bodies;
   std::vector<Room> rooms;
@@ -89,16 +91,18 @@ struct World {
   std::vector<PointLandmark> point_landmarks;
   std::vector<Object> objects;
   std::vector<Person> people;
-  /// Areas where no robot can be: outlines on the floor of all that stands there at any time, walls as polygons of
-  /// their solid [m].
+  /// Areas where no robot can be [m]: the outlines on the floor of all that stands there at any time. Walls are
+  /// polygons of their solid.
   std::vector<std::vector<Eigen::Vector2d>> obstacles;
 };
 
-/// A surface of a body. Labels of images and beams are its number in the world plus one; 0 is no surface.
+/// A surface of a body. The label of a pixel or beam is the number of its surface in the world plus one; 0 is no
+/// surface.
 struct SurfaceRef {
   int body = 0, surface = 0;
 };
-/// All surfaces in order of bodies, then of the surfaces of each.
+/// All surfaces, in the order of the bodies and of the surfaces in each body. The index of a surface is its number in
+/// the world.
 std::vector<SurfaceRef> numberSurfaces(const World& world);
 
 /// Throws base::Error(internal) unless names are unique and all references inside the world are valid.

@@ -33,7 +33,7 @@ struct WorldOptions {
 /// Reads [world] and all sections it names. Throws base::Error unknown_key, wrong_type, out_of_range or unknown_plugin
 /// with file, section and key.
 WorldPlan readWorldPlan(const base::Config& config);
-/// The world that makeWorld() builds of readWorldPlan().
+/// The world that makeWorld() builds from readWorldPlan().
 World readWorld(const base::Config& config);
 
 /// For the reference of keys: each kind of section that [world] may name, with its classes and options.

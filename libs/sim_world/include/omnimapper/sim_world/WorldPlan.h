@@ -11,8 +11,8 @@
 
 namespace omnimapper::sim {
 
-/// Plain descriptions of all that is in a world, as sections of an INI give them and generators make them. Positions
-/// are in the map. `name` is the section's name. makeWorld() checks the descriptions and builds the world.
+/// Plain descriptions of all that is in a world, as sections of an INI give it or as generators make it. Positions are
+/// in the map. `name` is the section's name. makeWorld() checks the descriptions and builds the world.
 
 /// Largest area of the rectangle that all rooms of a world lie in [m^2].
 constexpr double kLargestPlace = 80000;
@@ -34,9 +34,9 @@ struct OpeningPlan {
   enum class Leaf { none, open, closed };
   std::string name;
   Kind kind = Kind::door;
-  std::vector<std::string> rooms;  ///< the two it joins; "outside" may be the second
+  std::vector<std::string> rooms;  ///< the two rooms that it joins; "outside" may be the second
   double x = 0, y = 0;             ///< a point near its middle; the nearest wall between the rooms counts [m]
-  double width = 0.9;              ///< 0: all that the two rooms share (passage) [m]
+  double width = 0.9;              ///< [m]; 0, for a passage: all that the two rooms share
   double height = 2.05, sill = 0;  ///< of the opening itself, and of its bottom above the floor [m]
   Leaf leaf = Leaf::open;          ///< of a door
   double leaf_angle = 1.6;         ///< angle by which an open leaf is turned into the first room [rad]
@@ -63,7 +63,7 @@ struct FurniturePlan {
   double x = 0, y = 0, z = 0;                ///< z above the floor [m]
   double yaw = 0;                            ///< [rad]
   double length = 0, width = 0, height = 0;  ///< 0: as is usual for the shape [m]
-  int boards = 0;                            ///< of a shelf; 0: one each 0.35 m
+  int boards = 0;                            ///< of a shelf; 0: as is usual, such as one for every 0.35 m
   std::string material;                      ///< empty: as is usual
 };
 
@@ -76,7 +76,8 @@ struct ObjectPlan {
   std::vector<MovePlan> moves;  ///< in order
 };
 
-/// The place of something that hangs on a wall: the nearest wall of the room that the point lies in, within 0.5 m.
+/// The place of something that hangs on a wall. It hangs on the nearest wall, within 0.5 m, of the room that the point
+/// lies in.
 struct OnWallPlan {
   double x = 0, y = 0;  ///< [m]
   double z = 1.5;       ///< of its middle above the floor [m]
@@ -128,7 +129,7 @@ struct WorldPlan {
   std::vector<PosterPlan> posters;
   std::vector<MarkerPlan> markers;
   std::vector<LandmarkPlan> landmarks;
-  std::vector<PersonSpec> people;  ///< targets that have a name need no position, which is looked up
+  std::vector<PersonSpec> people;  ///< a target that has a name needs no position; its position is looked up
 };
 
 /// Builds the described world. Throws base::Error(out_of_range) naming section and key if that is impossible.
