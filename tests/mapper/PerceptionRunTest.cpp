@@ -124,7 +124,7 @@ TEST_F(PerceptionRunTest, WhatTheLogBringsIsNotWrittenTwice) {
   const std::string both = folder_ / "both.rawlog", again = folder_ / "again.rawlog";
   EXPECT_TRUE(run({raw_}, both, true).warnings.empty());
   ASSERT_EQ(labelsOf(both), (std::vector<std::string>{"kinect", "kinect.planes", "kinect", "kinect.planes"}));
-  expectWarning(run({both}, again, true), ExitCode::ok, {"2 derived observations are in the log already"});
+  expectWarning(run({both}, again, true), ExitCode::ok, {"2 derived observations were in the log already"});
   EXPECT_TRUE(bytesOf(again) == bytesOf(both));
   EXPECT_TRUE(run({raw_}, derived_).warnings.empty());
   expectWarning(run({derived_, raw_}, again, true), ExitCode::ok, {"2 derived observations"});

@@ -62,7 +62,8 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   return batch;
 }
 
-// Whether the uncertainty of the estimate exceeds the search windows, or the session has travelled lost_travel without being aligned.
+// Whether the uncertainty of the estimate exceeds the search windows, or the session has travelled lost_travel without
+// being aligned.
 bool GlobalRelocalization::isLost(const mapper::State& state, mapper::Decision& decision) const {
   constexpr double kSigmas = 3;
   const auto& frame = state.map.keyFrame(newest_.back().frame);

@@ -21,7 +21,7 @@ struct CloudPlaneOptions {
   double distortion_at_1m = 0;   ///< [m] at 1 m: two sigma of a shared error that grows with the squared range
   double scale_sigma = 0;        ///< [-] standard deviation of a shared error that is proportional to the range
   double gate = 3;               ///< [-] standard deviations; a point farther from a plane is not on it
-  double sample_cube = 0.3;    ///< [m] the three points that determine a plane are drawn from a cube with this side
+  double sample_cube = 0.3;      ///< [m] the three points that determine a plane are drawn from a cube with this side
   int trials = 300;              ///< largest number of triples that are drawn for each plane
   int seed = 1;                  ///< of the random numbers that draw the triples
   double max_gap = 0.1;          ///< [m] a plane with larger gaps is split into several surfaces
