@@ -9,8 +9,8 @@
 
 #include <string>
 
-/// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is written, and none replaces an older
-/// file.
+/// Throws Error(unreadable_input) if nothing was read, so that no empty rawlog is written, in particular not over
+/// an older file.
 void refuseNothing(const std::string& input, const omnimapper::source::SourceReport& report);
 
 /// Shows the progress of an import on a terminal.
@@ -30,8 +30,9 @@ class ImportProgress {
 /// summary on standard output.
 void importFolder(omnimapper::source::FolderSource& files, const std::string& folder, const std::string& output);
 
-/// Prints on standard output what to do next with the rawlog. `has_photographs`: the rawlog contains only photographs.
-void sayNext(const std::string& output, bool has_photographs);
+/// Prints on standard output what to do next with the rawlog. `has_only_photographs`: the rawlog contains only
+/// photographs.
+void sayNext(const std::string& output, bool has_only_photographs);
 
 /// One function for each kind of log that omnimapper-import reads. Each writes a rawlog and prints a summary.
 

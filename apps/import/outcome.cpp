@@ -42,8 +42,8 @@ void importFolder(source::FolderSource& files, const std::string& folder, const 
                                       : "stamps: assigned with --rate, because the files' names are no Unix times\n");
 }
 
-void sayNext(const std::string& output, bool has_photographs) {
-  if (has_photographs) {
+void sayNext(const std::string& output, bool has_only_photographs) {
+  if (has_only_photographs) {
     std::cout << "next: omnimapper-perceive -i ini/signs.ini -r " << output
               << " -o signs.rawlog --pictures pictures --picture-every 1 finds door signs in them\n";
     return;

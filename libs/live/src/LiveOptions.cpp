@@ -11,7 +11,8 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
                 "names an MRPT driver, such as driver = CHokuyoURG, and has that driver's own keys.")
           .text("grabber", &LiveOptions::grabber,
                 "INI file for MRPT's program rawlog-grabber; its sensor sections are used unchanged. A relative path "
-                "starts at the folder of the INI that has this key, or else at the folder of the first INI.")
+                "starts at the folder of the INI that has this key or, if there is no such file, at the folder of the "
+                "first INI.")
           .list("libraries", &LiveOptions::libraries,
                 "Shared libraries that register drivers (classes of mrpt::hwdrivers::CGenericSensor) when they are "
                 "loaded.")
@@ -35,12 +36,11 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
                    "oldest one is still recorded, but left out of the map; the number of such images is reported. Data "
                    "of lasers and odometry are never left out.")
           .number("silent_after_s", &LiveOptions::silent_after, Range::positive(),
-                  "A sensor that sends no data for this time is reported as silent. If twice the longest of its last "
-                  "ten intervals between data is longer than this, that time counts instead.")
-          .number(
-              "reopen_after_s", &LiveOptions::reopen_after, Range::positive(),
-              "A sensor that sends no data for this time is closed and opened again until it answers. If three times "
-              "the longest of its last ten intervals between data is longer than this, that time counts instead.")
+                  "A sensor is reported as silent if it sends no data for this time, or for twice the longest of its "
+                  "last ten intervals between data, whichever is longer.")
+          .number("reopen_after_s", &LiveOptions::reopen_after, Range::positive(),
+                  "A sensor is closed and opened again until it answers if it sends no data for this time, or for "
+                  "three times the longest of its last ten intervals between data, whichever is longer.")
           .number("max_clock_off_s", &LiveOptions::max_clock_off, Range::positive(),
                   "Largest difference between an observation's stamp and its arrival at which the stamp is used as it "
                   "is. If the difference is larger, the offset of the sensor's clock is estimated; it is estimated "

@@ -14,8 +14,8 @@ const base::OptionTable<ScanMatcherOptions>& ScanMatcherOptions::table() {
           .number("max_distance_m", &Options::max_distance, base::Range::positive(),
                   "Largest distance between corresponding points in the first iterations.")
           .number("min_distance_m", &Options::min_distance, base::Range::positive(),
-                  "Lower limit of the largest distance between corresponding points, which begins at max_distance_m "
-                  "and shrinks in the course of the iterations.")
+                  "The largest distance between corresponding points begins at max_distance_m and shrinks from "
+                  "iteration to iteration, but not below this.")
           .integer("max_iterations", &Options::max_iterations, base::Range{1, 10000},
                    "Largest number of iterations of a match.")
           .choice("icp_method", &Options::icp_method,

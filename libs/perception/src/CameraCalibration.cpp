@@ -98,8 +98,8 @@ const base::OptionTable<Options>& Options::table() {
           .number("depth_scale", &Options::depth_scale, scale, "True depth divided by the depth in the log.")
           .list("depth_distortion_per_m", &Options::depth_distortion,
                 "Correction of depths that depends on the pixel: coefficients of products of Legendre polynomials, as "
-                "omnimapper-calibrate depth writes them. Their sum is added to the inverse depth of a pixel before "
-                "depth_scale is applied.")
+                "omnimapper-calibrate depth writes them. The sum of these products, each times its coefficient, is "
+                "added to the inverse depth of a pixel before depth_scale is applied.")
           .number("picture_x_m", &Options::picture_x, place,
                   "Forward position of the picture camera in the depth camera's frame (x forward, y left, z up), "
                   "as in MRPT.")
@@ -108,14 +108,14 @@ const base::OptionTable<Options>& Options::table() {
           .number("picture_z_m", &Options::picture_z, place,
                   "Upward position of the picture camera in the depth camera's frame (x forward, y left, z up).")
           .number("picture_yaw_deg", &Options::picture_yaw, {},
-                  "Rotation about z of the picture camera's optical frame (x right, y down, z ahead) in the depth "
-                  "camera's frame (x forward, y left, z up).")
+                  "Rotation about the depth camera's z axis (its frame: x forward, y left, z up) of the picture "
+                  "camera's optical frame (x right, y down, z ahead).")
           .number("picture_pitch_deg", &Options::picture_pitch, {},
-                  "Rotation about y of the picture camera's optical frame (x right, y down, z ahead) in the depth "
-                  "camera's frame (x forward, y left, z up).")
+                  "Rotation about the depth camera's y axis (its frame: x forward, y left, z up) of the picture "
+                  "camera's optical frame (x right, y down, z ahead).")
           .number("picture_roll_deg", &Options::picture_roll, {},
-                  "Rotation about x of the picture camera's optical frame (x right, y down, z ahead) in the depth "
-                  "camera's frame (x forward, y left, z up).");
+                  "Rotation about the depth camera's x axis (its frame: x forward, y left, z up) of the picture "
+                  "camera's optical frame (x right, y down, z ahead).");
   return table;
 }
 

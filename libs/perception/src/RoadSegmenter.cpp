@@ -26,11 +26,10 @@ const base::OptionTable<RoadOptions>& RoadOptions::table() {
           .number("max_turn_deg", &RoadOptions::max_turn, {0, 89},
                   "Largest angle between the normals of neighbouring ground pixels.")
           .number("max_off_m", &RoadOptions::max_off, Range::notNegative(),
-                  "Largest distance of the ground above or below the ground that the camera's pose predicts, near the "
-                  "sensor. With the depth, this limit grows at the slope max_slope_deg.")
+                  "Near the sensor, the largest height of the ground above or below the height that the camera's pose "
+                  "predicts. This limit grows with the depth, by the slope max_slope_deg.")
           .number("max_slope_deg", &RoadOptions::max_slope, {0, 45},
-                  "Slope at which max_off_m, the largest distance of the ground from the one that the camera's pose "
-                  "predicts, grows with the depth.")
+                  "Slope by which the limit max_off_m grows with the depth.")
           .number("grow_sigmas", &RoadOptions::grow_sigmas, {1, 100},
                   "A pixel without a known normal belongs to the ground if it is within this many standard deviations "
                   "of the ground around it.")

@@ -37,14 +37,14 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
   static const auto table =
       base::OptionTable<Options>()
           .text("odometry", &Options::odometry,
-                "INI section of the camera odometry plugin. Its label and its settings for matching and shutter are "
-                "used here, too.")
+                "INI section of the camera odometry plugin. Its label, its settings for matching, and its readout "
+                "times and picture delay are used here, too.")
           .integer("key_frames_back", &Options::key_frames_back, base::Range{0, 20},
-                   "Number of preceding key frames to which each key frame is linked. The nearest of these is left "
-                   "out, because odometry gives the link to it.")
+                   "How many key frames back a key frame is linked. With 3, it is linked to the second and the third "
+                   "before it; odometry links it to the first.")
           .integer("old_views", &Options::old_views, base::Range{0, 20},
-                   "Largest number of older key frames to which a key frame is linked, because the camera sees again "
-                   "what they show.")
+                   "Largest number of older key frames to which a key frame is linked if the camera sees again what "
+                   "they show.")
           .integer("stored_views", &Options::stored_views, base::Range{1, 100000},
                    "Largest number of older key frames whose images are stored; beyond it the oldest images are "
                    "dropped. A thousand images take 250 MB at most.")

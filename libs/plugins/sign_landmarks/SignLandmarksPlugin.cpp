@@ -51,8 +51,9 @@ const base::OptionTable<SignLandmarksOptions>& SignLandmarksOptions::table() {
                     "A new sign is added to the map once the standard deviation of its position is at most this. Until "
                     "then only the directions to the sign are kept.")
             .number("recent_m", &Options::recent_travel, Range::positive(),
-                    "If a sign was not measured along this distance travelled, new measurements of it make another "
-                    "sign and the hypothesis that both are the same one, which can close a loop.")
+                    "If the robot has travelled farther than this since it last measured a sign, new measurements of "
+                    "the sign make a second landmark, and a hypothesis that both are one sign. If the hypothesis is "
+                    "accepted, it closes a loop.")
             .number("same_sigma_m", &Options::same_sigma, Range{0.001, 10},
                     "Standard deviation of the difference between the positions of one sign as measured on two visits.")
             .number("loss_scale", &Options::loss_scale, Range{0.1, 100},

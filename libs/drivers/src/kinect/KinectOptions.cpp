@@ -134,14 +134,14 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
           .number("picture_z_m", &Options::picture_z, place,
                   "Upward position of the colour camera in the depth camera's frame (x forward, y left, z up).")
           .number("picture_yaw_deg", &Options::picture_yaw, {},
-                  "Rotation about z of the colour camera's optical frame (x right, y down, z ahead) in the depth "
-                  "camera's frame (x forward, y left, z up).")
+                  "Rotation about the depth camera's z axis (its frame: x forward, y left, z up) of the colour "
+                  "camera's optical frame (x right, y down, z ahead).")
           .number("picture_pitch_deg", &Options::picture_pitch, {},
-                  "Rotation about y of the colour camera's optical frame (x right, y down, z ahead) in the depth "
-                  "camera's frame (x forward, y left, z up).")
+                  "Rotation about the depth camera's y axis (its frame: x forward, y left, z up) of the colour "
+                  "camera's optical frame (x right, y down, z ahead).")
           .number("picture_roll_deg", &Options::picture_roll, {},
-                  "Rotation about x of the colour camera's optical frame (x right, y down, z ahead) in the depth "
-                  "camera's frame (x forward, y left, z up).");
+                  "Rotation about the depth camera's x axis (its frame: x forward, y left, z up) of the colour "
+                  "camera's optical frame (x right, y down, z ahead).");
   return table;
 }
 

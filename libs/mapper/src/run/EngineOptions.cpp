@@ -35,7 +35,7 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
                    "The graph is solved after this many new key frames, even without a loop closure, but not before "
                    "solve_growth allows it.")
           .integer("solve_after_closure", &Options::solve_after_closure, base::Range{1, 1e9},
-                   "After a loop closure, the graph is solved once this many key frames were made since the last "
+                   "After a loop closure, the graph is solved as soon as this many key frames were made since the last "
                    "solve, but not before solve_growth allows it.")
           .number("solve_growth", &Options::solve_growth, base::Range{0, 1},
                   "Smallest number of key frames between two solves, as a share of all key frames, so that the cost "

@@ -39,9 +39,10 @@ const base::OptionTable<CloudMatcherOptions>& CloudMatcherOptions::table() {
                    "about four times as many points, up to max_points.")
           .integer("max_points", &Options::max_points, base::Range{10, 1000000},
                    "Largest number of points that are matched on the finest level of a match.")
-          .number("normal_noise_deg", &Options::normal_noise, base::Range::notNegative(),
-                  "Standard deviation of surface normals. Normals with such noise seem to constrain even the motion "
-                  "along a bare wall; this apparent constraint is not counted.")
+          .number(
+              "normal_noise_deg", &Options::normal_noise, base::Range::notNegative(),
+              "Standard deviation of surface normals. Because of this noise, the points of a bare wall seem to "
+              "determine also the motion along the wall; the covariance of a match leaves this false information out.")
           .number("alike", &Options::alike, base::Range{1, 10000},
                   "Number of neighbouring points that share their errors and therefore count as a single measurement.")
           .number("min_overlap", &Options::min_overlap, base::Range{0, 1},

@@ -36,7 +36,7 @@ const base::OptionTable<RgbdTrackerOptions>& RgbdTrackerOptions::table() {
               "this from its reference image becomes a reference image, too, unless another reference image is near.")
           .number("key_distance_share", &Options::key_distance, base::Range{0.005, 1},
                   "Each image is matched with an earlier one, its reference image. An image becomes a reference image, "
-                  "too, if the camera has moved from its reference image by more than this share of that image's "
+                  "too, if it was taken farther from its reference image than this share of the reference image's "
                   "median depth, unless another reference image is near.")
           .number("key_overlap", &Options::key_overlap, base::Range{0.3, 1},
                   "Each image is matched with an earlier one, its reference image. An image that shows less than this "

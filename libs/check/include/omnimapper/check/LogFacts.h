@@ -22,13 +22,15 @@ struct StampFacts {
   std::size_t backward = 0;  ///< stamps that are earlier than the one before by less than ten seconds
   std::size_t gaps = 0;      ///< pauses of at least a second and of at least five times the usual period
   std::size_t rests = 0;     ///< gaps in which the robot moved at most 1.5 m and turned at most 1 rad, by odometry
-  std::size_t jumps = 0;     ///< of the clock: ten seconds or more back, or a minute or more ahead for all sensors
+  std::size_t jumps =
+      0;  ///< steps of the clock by ten seconds or more back, or of all sensors by a minute or more ahead
   double largest_jump = 0;   ///< [s] the jump with the largest absolute value, with its sign
   double period = 0;         ///< [s] median of the forward steps; 0 if not known
   double longest_gap = 0;    ///< [s] longest pause; jumps of the clock are not counted
   double longest_drive = 0;  ///< [s] longest gap in which the robot may have moved
   double lateness = 0;       ///< [s] largest delay behind the newest stamp of all sensors
-  base::Stamp first, last;   ///< earliest and latest stamp, without single ones a minute or more from all others
+  base::Stamp first,
+      last;  ///< earliest and latest stamp; isolated ones, a minute or more from all others, do not count
 };
 
 /// The 2D scans of one label.
@@ -77,7 +79,7 @@ struct OdometryPair {
 /// Absolute poses of one label.
 struct PoseFacts {
   std::size_t poses = 0;
-  double tilt = 0;  ///< [rad] between the z axes of the poses' frame and of the base, by the mean cosine, [0, pi]
+  double tilt = 0;  ///< [rad] in [0, pi], between the z axes of the poses' frame and of the base (mean of the cosine)
 };
 
 /// A measured direction of up, in the frame of given poses or in the base of a robot on wheels.
@@ -110,13 +112,13 @@ struct MotionFacts {
   /// [m] Distance of the points of one scan from the walls of the other: root mean square of a pair, median of the
   /// pairs.
   double wall_distance = 0;
-  /// [rad] Set if the aperture that the scans declare is wrong: the angle from the first beam to the last with which
-  /// the scans match better and turn more as the odometry does. All other members are then computed with this aperture.
-  /// None if the declared aperture is right.
+  /// [rad] Set if the aperture that the scans declare is wrong: the angle between the first and the last beam at which
+  /// the scans match better and their rotations agree better with those of the odometry. All other members are then
+  /// computed with this aperture. None if the declared aperture is right.
   std::optional<double> aperture;
 
-  /// The correction of the sensor pose with which scans and odometry agree. A wrong sensor pose implies a wrong place
-  /// of the base; the correction is the pose of this wrong base in the true base.
+  /// The correction of the sensor pose with which scans and odometry agree. If the reported sensor pose is wrong, the
+  /// base frame that follows from it is displaced; the correction is the pose of this displaced frame in the true base.
   struct Mounting {
     double x = 0, y = 0, yaw = 0;  ///< [m] [rad] base_from_base_as_reported
     double position_sigma = 0, yaw_sigma = 0;

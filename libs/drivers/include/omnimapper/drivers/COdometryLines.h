@@ -70,8 +70,8 @@ class COdometryLines : public mrpt::hwdrivers::CGenericSensor, public CheckedSen
   COdometryLines();
   ~COdometryLines() override;
 
-  /// Begins to listen; a driver that listened already begins again. Throws Error(unreadable_input) if the port is in
-  /// use, and Error(out_of_range) if `bind` is not an address.
+  /// Begins to listen. A driver that is listening stops and begins again. Throws Error(unreadable_input) if the port is
+  /// in use, and Error(out_of_range) if `bind` is not an address.
   void initialize() override;
   /// Does nothing before initialize().
   void doProcess() override;

@@ -13,8 +13,8 @@ namespace omnimapper::drivers {
 /// pose_z [m], pose_yaw to pose_roll [deg], grab_image, grab_IMU, device_number.
 struct KinectOptions : KinectCalibration {
   /// Camera frame of the depth image. none: the frame of the depth camera (unregistered). ours: that of the colour
-  /// camera, registered with this section's calibration; without pictures (grab_image = false) as none. device: that of
-  /// the colour camera, registered with the calibration inside the device by libfreenect.
+  /// camera, registered with this section's calibration; if there are no pictures (grab_image = false), the same as
+  /// `none`. device: that of the colour camera, registered with the calibration inside the device by libfreenect.
   enum class Registration { none, ours, device };
   enum class Led { as_it_is, off, green, red, yellow, blink_green, blink_red_yellow };
 

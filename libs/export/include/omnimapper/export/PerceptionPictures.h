@@ -13,8 +13,8 @@ namespace omnimapper::exports {
 /// pictures are PNG files in one folder, named after sensor and stamp.
 class PerceptionPictures {
  public:
-  /// Of the observations of each sensor from which something was derived, draws every `every`-th, beginning with the
-  /// first. Creates the folder. Throws Error(unwritable_output).
+  /// For each sensor, counts the observations from which something was derived, and draws the first and then one in
+  /// `every` of them. Creates the folder. Throws Error(unwritable_output).
   PerceptionPictures(const std::string& folder, int every);
   /// Removes the folder if this object created it and it is empty.
   ~PerceptionPictures();

@@ -26,7 +26,7 @@ struct Room {
 
 /// A door sign. Its frame: x to the reader's right, y up, z out of the wall to the reader; origin at its middle.
 struct Sign {
-  std::string name;                ///< of its body and surface
+  std::string name;                ///< name of the sign, of its body and of its surface
   std::vector<std::string> lines;  ///< its text, as written on it
   std::string room;                ///< the room it names
   geometry::Se3 map_from_sign;
@@ -91,8 +91,8 @@ struct World {
   std::vector<PointLandmark> point_landmarks;
   std::vector<Object> objects;
   std::vector<Person> people;
-  /// Areas where no robot can be [m]: the outlines on the floor of all that stands there at any time. Walls are
-  /// polygons of their solid.
+  /// Areas where no robot can be [m]: the outlines on the floor of all that stands there at any time. The
+  /// outlines of a wall are as thick as the wall and leave out its passages.
   std::vector<std::vector<Eigen::Vector2d>> obstacles;
 };
 
