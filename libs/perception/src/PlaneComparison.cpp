@@ -31,8 +31,8 @@ const base::OptionTable<PlaneComparisonOptions>& PlaneComparisonOptions::table()
               "comparator", &Options::comparison,
               {{"plane", &kSamePlane}, {"plane_colour", &kSamePlaneAndColour}, {"normals", &kSimilarNormals}},
               "Criterion for neighbouring pixels of one plane. plane: both lie on it. plane_colour: both lie on it and "
-              "have one colour, which needs a picture with each depth image. normals: their normals and offsets are "
-              "similar, as in the thesis.")
+              "have one colour, which needs a picture with each depth image. normals: the surface has similar normals "
+              "at both, and their tangent planes have similar distances from the camera, as in the thesis.")
           .number("max_colour_distance", &Options::max_colour_distance, {0, 442},
                   "With comparator = plane_colour, two pixels that are at most 2 pixels apart have one colour if their "
                   "RGB values (0 to 255) differ by at most this (Euclidean distance).");
