@@ -1,4 +1,4 @@
-#include "Verbs.h"
+#include "EvalVerbs.h"
 #include "program/Program.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "Arguments.h"
+#include "MappingArguments.h"
 
 /// The tasks of omnimapper-graphslam other than mapping. Each removes the progress line before it prints its summary,
 /// and returns the exit code.

@@ -13,7 +13,7 @@
 #include <iostream>
 #include <optional>
 
-#include "Arguments.h"
+#include "MappingArguments.h"
 #include "Tasks.h"
 #include "program/Program.h"
 #include "program/ShippedInis.h"

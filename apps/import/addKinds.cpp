@@ -1,6 +1,6 @@
 #include <map>
 
-#include "Arguments.h"
+#include "ImportArguments.h"
 
 using namespace omnimapper;
 

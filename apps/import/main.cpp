@@ -1,7 +1,7 @@
 // omnimapper-import: converts logs of other programs to MRPT rawlogs.
 #include <omnimapper/base/AtomicFile.h>
 
-#include "Arguments.h"
+#include "ImportArguments.h"
 
 int main(int argc, char** argv) {
   using namespace omnimapper;

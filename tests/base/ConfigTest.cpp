@@ -15,11 +15,12 @@ struct TriggerOptions {
   std::string label;
 
   static const OptionTable<TriggerOptions>& table() {
-    static const auto table = OptionTable<TriggerOptions>()
-                                  .number("distance_m", &TriggerOptions::distance, Range::positive(), "Way.")
-                                  .number("angle_deg", &TriggerOptions::angle, {0, 180}, "Turn.")
-                                  .integer("every", &TriggerOptions::every, {1, 10}, "Every n-th.")
-                                  .text("label", &TriggerOptions::label, "Sensor.");
+    static const auto table =
+        OptionTable<TriggerOptions>()
+            .number("distance_m", &TriggerOptions::distance, Range::positive(), "Distance travelled.")
+            .number("angle_deg", &TriggerOptions::angle, {0, 180}, "Turn.")
+            .integer("every", &TriggerOptions::every, {1, 10}, "Every n-th.")
+            .text("label", &TriggerOptions::label, "Sensor.");
     return table;
   }
 };

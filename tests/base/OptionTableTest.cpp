@@ -21,7 +21,7 @@ struct Options {
   static const OptionTable<Options>& table() {
     static const auto table =
         OptionTable<Options>()
-            .number("distance_m", &Options::distance, Range::positive(), "Way.")
+            .number("distance_m", &Options::distance, Range::positive(), "Distance travelled.")
             .number("angle_deg", &Options::angle, {0, 180}, "Turn.")
             .number("share", &Options::share, {0, 1}, "Share.")
             .integer("count", &Options::count, {1, 100}, "Count.")

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ScanPairs.h"
+#include "RecordedPairs.h"
 
 namespace omnimapper::bench {
 

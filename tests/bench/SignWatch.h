@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "SignTruth.h"
+#include "TrueSigns.h"
 
 namespace omnimapper::bench {
 

@@ -8,9 +8,9 @@
 #include <omnimapper/source/CarmenLog.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/LogVariants.h>
-#include <omnimapper/testing/Program.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -11,8 +11,8 @@
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/mapper/MappingRun.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 #include <omnimapper/testing/registerPlugins.h>
 #include <sys/resource.h>
 #include <unistd.h>

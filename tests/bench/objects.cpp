@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
 
   using Comparator = perception::ObjectOptions::Comparator;
   std::vector<ObjectPeer> methods{ours(tilt_deg * M_PI / 180, Comparator::euclidean, "ours, euclidean"),
-                                  ours(tilt_deg * M_PI / 180, Comparator::locally_convex, "ours, convex")};
+                                  ours(tilt_deg * M_PI / 180, Comparator::locally_convex, "ours, locally_convex")};
   for (const auto& peers : {pclObjects(), lccpObjects()}) methods.insert(methods.end(), peers.begin(), peers.end());
   std::vector<Result> results(methods.size());
   for (int round = 0; round < rounds; ++round) {

@@ -8,7 +8,7 @@
 // Example: bench-robustness -o out/robustness
 #include <omnimapper/eval/RelativePoseError.h>
 #include <omnimapper/obs/registerClasses.h>
-#include <omnimapper/testing/Program.h>
+#include <omnimapper/testing/ChildProgram.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

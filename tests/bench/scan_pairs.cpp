@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "BasinPlot.h"
-#include "ScanPairs.h"
+#include "RecordedPairs.h"
 
 namespace {
 

@@ -24,8 +24,8 @@
 #include <iostream>
 
 #include "CurvePlot.h"
-#include "SignTruth.h"
 #include "SignWatch.h"
+#include "TrueSigns.h"
 
 namespace bench {
 

@@ -10,8 +10,8 @@
 #include <omnimapper/perception/CameraCalibration.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 
 #include <filesystem>
 #include <fstream>

@@ -7,8 +7,8 @@
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +16,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "BentDepths.h"
+#include "DistortedDepths.h"
 
 namespace omnimapper::calibration::depth_run_test {
 namespace {
@@ -47,7 +47,7 @@ double rmsOf(const DepthDistortion& distortion) {
 
 class DepthRunTest : public ::testing::Test {
  protected:
-  void write(const BentDepths& depths, int images = kImages,
+  void write(const DistortedDepths& depths, int images = kImages,
              const std::function<void(int, CObservation3DRangeScan&)>& change = {}) {
     source::writeRawlog(request_.logs.front(), [&](source::RawlogWriter& rawlog) {
       for (int i = 0; i < images; ++i) {
@@ -97,7 +97,7 @@ double deviationsOf(const DepthDistortion& found, const nlohmann::json& summary,
 }
 
 TEST_F(DepthRunTest, FindsAKnownDistortionWithinItsStandardDeviation) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   write(depths);
   const auto result = run();
@@ -124,7 +124,7 @@ TEST_F(DepthRunTest, FindsAKnownDistortionWithinItsStandardDeviation) {
 
 // If the error has a constant and a slope, too, only the rest is found, because planes stay flat with these.
 TEST_F(DepthRunTest, AConstantAndASlopeChangeNothing) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   write(depths, kImages, [](int, CObservation3DRangeScan& scan) {
     for (int v = 0; v < static_cast<int>(scan.rangeImage.rows()); ++v) {
@@ -146,7 +146,7 @@ TEST_F(DepthRunTest, NoiseAloneIsNothingToMend) {
 }
 
 TEST_F(DepthRunTest, OneWallFromAfarThatFillsAPartIsRefused) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   depths.has_floor = false;
   depths.nearest = 4;
@@ -159,7 +159,7 @@ TEST_F(DepthRunTest, OneWallFromAfarThatFillsAPartIsRefused) {
 }
 
 TEST_F(DepthRunTest, OneWallFromOneDistanceLeavesAWarning) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   depths.has_floor = false;
   depths.nearest = 2;
@@ -173,7 +173,7 @@ TEST_F(DepthRunTest, OneWallFromOneDistanceLeavesAWarning) {
 }
 
 TEST_F(DepthRunTest, ACameraAtRestAndTooFewImagesAreRefused) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   write(depths, 8);
   EXPECT_NE(refusal().find("8 different depth images of 12"), std::string::npos);
@@ -202,7 +202,7 @@ TEST_F(DepthRunTest, ImagesWhoseUnitIsNoLengthAreRefused) {
 }
 
 TEST_F(DepthRunTest, TheReadablePartOfADamagedLogIsUsedAndReported) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   write(depths, 40);
   const auto log = request_.logs.front();
@@ -226,9 +226,9 @@ TEST_F(DepthRunTest, TheReadablePartOfADamagedLogIsUsedAndReported) {
 }
 
 TEST_F(DepthRunTest, PlacesWithoutDepthChangeLittleAndOtherSizesAreCounted) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
-  BentDepths small;
+  DistortedDepths small;
   small.width = 80;
   small.height = 60;
   write(depths, kImages, [&](int i, CObservation3DRangeScan& scan) {
@@ -248,7 +248,7 @@ TEST_F(DepthRunTest, PlacesWithoutDepthChangeLittleAndOtherSizesAreCounted) {
 }
 
 TEST_F(DepthRunTest, TheDistortionIsAddedToThatOfTheGivenIni) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.distortion = kinectDistortion();
   write(depths);
   request_.ini = folder_ / "before.ini";
@@ -295,7 +295,7 @@ double planesPerImage(const std::vector<std::string>& inis, const std::string& l
 
 // Walls that are split into several planes by the sensor's distortion become one plane again.
 TEST_F(DepthRunTest, TheProgramsFindAndApplyIt) {
-  BentDepths depths;
+  DistortedDepths depths;
   depths.has_floor = false;
   depths.sigma = 0.001;
   depths.width = 240;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "BentDepths.h"
+#include "DistortedDepths.h"
 #include "depth/DepthCells.h"
 #include "depth/DistortionFit.h"
 #include "depth/FlatPatches.h"

@@ -7,8 +7,8 @@
 #include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 
 #include <cmath>
 #include <filesystem>
@@ -16,7 +16,7 @@
 #include <functional>
 
 #include "../live/Observations.h"
-#include "RangeScans.h"
+#include "PlayedScans.h"
 
 /// Tests of the Kinect's driver with libfreenect's fakenect, which plays a log.
 namespace omnimapper::drivers::kinect_sensor_test {

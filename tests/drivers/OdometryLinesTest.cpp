@@ -8,8 +8,8 @@
 #include <omnimapper/live/LiveSource.h>
 #include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/live/Socket.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 #include <sys/socket.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 
 #include <cmath>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "RangeScans.h"
+#include "PlayedScans.h"
 
 /// Tests of the Xtion's driver with a driver of OpenNI2 that plays a log.
 namespace omnimapper::drivers::xtion_test {

@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ShapedRun.h"
-#include "plan/FloorPlan.h"
 #include "plan/LandmarkShapes.h"
+#include "plan/PlanShape.h"
 #include "report/ReportOutput.h"
 #include "run/SummaryOutput.h"
 #include "scene/PointsOutput.h"
@@ -84,7 +84,7 @@ TEST(LandmarkShapes, whatIsNotFiniteOrHasNoAreaIsLeftOut) {
   EXPECT_FALSE(shapes[1].isSomewhere());
 }
 
-TEST(FloorPlan, anUprightSurfaceIsTheLineItStandsOnAndALevelOneAnAreaCounterClockwise) {
+TEST(PlanShape, anUprightSurfaceIsTheLineItStandsOnAndALevelOneAnAreaCounterClockwise) {
   const auto of_wall = exports::fromAbove(wall());
   ASSERT_EQ(of_wall.lines.size(), 1u);
   EXPECT_TRUE(of_wall.areas.empty());
@@ -101,7 +101,7 @@ TEST(FloorPlan, anUprightSurfaceIsTheLineItStandsOnAndALevelOneAnAreaCounterCloc
   EXPECT_EQ(exports::fromAbove(post).points.size(), 1u);
 }
 
-TEST(FloorPlan, dashesBeginAndEndALineAndAreAboutAsLongAsAsked) {
+TEST(PlanShape, dashesBeginAndEndALineAndAreAboutAsLongAsAsked) {
   const auto dashes = exports::dashesOf(1, 0.1);
   EXPECT_EQ(dashes.front().first, 0);
   EXPECT_NEAR(dashes.back().second, 1, 1e-12);

@@ -36,7 +36,7 @@ class Ring {
   const std::vector<Se2>& truth() const { return truth_; }
   /// A hypothesis that is wrong by `error`.
   FactorId closure(int a, int b, const Se2& error = {}) { return add(a, b, error, {0.02, 0.02, 0.01}, true); }
-  std::vector<Verdict> test(const std::vector<FactorId>& fresh, ConsistencyOptions::Method method) {
+  std::vector<HypothesisVerdict> test(const std::vector<FactorId>& fresh, ConsistencyOptions::Method method) {
     ConsistencyOptions options;
     options.method = method;
     return testConsistency(graph_, fresh, options);
@@ -76,7 +76,7 @@ TEST_P(ConsistencyMethodTest, AGrossFalseClosureIsRefusedAndTheTrueOnesAct) {
   Ring ring(60);
   const FactorId one = ring.closure(0, 59), two = ring.closure(1, 58), three = ring.closure(5, 40);
   const FactorId false_one = ring.closure(10, 55, {4, 3, 1});
-  const std::vector<Verdict> verdicts = ring.test({one, two, false_one, three}, GetParam());
+  const std::vector<HypothesisVerdict> verdicts = ring.test({one, two, false_one, three}, GetParam());
   ASSERT_EQ(verdicts.size(), 4u);
   EXPECT_TRUE(ring.accepted(one) && ring.accepted(two) && ring.accepted(three));
   EXPECT_FALSE(ring.accepted(false_one));
@@ -96,7 +96,7 @@ TEST_P(ConsistencyMethodTest, WithoutFalseOnesTheResultIsTheSolutionOfAll) {
     fresh.push_back(ring.closure(i, 59 - i));
     all.graph().setWeight(all.closure(i, 59 - i), 1);
   }
-  for (const Verdict& verdict : ring.test(fresh, GetParam())) EXPECT_TRUE(verdict.accepted) << verdict.reason;
+  for (const HypothesisVerdict& verdict : ring.test(fresh, GetParam())) EXPECT_TRUE(verdict.accepted) << verdict.reason;
   const SolveSummary expected = solve(all.graph());
   int asked = 0;
   SolveOptions counting;
@@ -148,7 +148,7 @@ TEST_P(ConsistencyMethodTest, AnEarlyFalseOneIsTakenBackWhenTwoThatAgreeContradi
   EXPECT_TRUE(ring.accepted(early));
   EXPECT_FALSE(ring.accepted(first));
   const FactorId second = ring.closure(1, 58);
-  const std::vector<Verdict> verdicts = ring.test({second}, GetParam());
+  const std::vector<HypothesisVerdict> verdicts = ring.test({second}, GetParam());
   EXPECT_TRUE(ring.accepted(first));
   EXPECT_TRUE(ring.accepted(second));
   EXPECT_FALSE(ring.accepted(early));
@@ -180,7 +180,7 @@ TEST_P(ConsistencyMethodTest, AGroupOfFalseOnesThatAgreeIsRefusedWhereTheMapIsKn
 TEST_P(ConsistencyMethodTest, WhatCouldFitByChanceWaitsForAnotherToBearItOut) {
   Ring ring(300);
   const FactorId first = ring.closure(0, 299);
-  std::vector<Verdict> verdicts = ring.test({first}, GetParam());
+  std::vector<HypothesisVerdict> verdicts = ring.test({first}, GetParam());
   EXPECT_FALSE(ring.accepted(first));
   EXPECT_EQ(verdicts[0].reason.find("waits"), 0u) << verdicts[0].reason;
   const FactorId second = ring.closure(1, 298);
@@ -210,9 +210,9 @@ TEST_P(ConsistencyMethodTest, TheSameGraphGivesTheSameVerdictsInEveryBit) {
     Ring ring(80);
     std::vector<FactorId> fresh;
     for (int i = 0; i < 6; ++i) fresh.push_back(ring.closure(i, 79 - i, i % 2 ? Se2{1.0 * i, 1, 0.3} : Se2{}));
-    const std::vector<Verdict> verdicts = ring.test(fresh, GetParam());
+    const std::vector<HypothesisVerdict> verdicts = ring.test(fresh, GetParam());
     std::vector<double> numbers;
-    for (const Verdict& verdict : verdicts) numbers.push_back(verdict.chi2);
+    for (const HypothesisVerdict& verdict : verdicts) numbers.push_back(verdict.chi2);
     for (const VariableId id : ring.ids())
       for (const double number : ring.graph().value(id)) numbers.push_back(number);
     return numbers;
@@ -247,7 +247,7 @@ TEST_P(ConsistencyMethodTest, APriorOrAPointIsTestedToo) {
   EXPECT_FALSE(ring.accepted(mistaken));
 }
 
-TEST_P(ConsistencyMethodTest, TheFirstOfAVariableThatNothingHoldsActsAndAMajorityOverturnsIt) {
+TEST_P(ConsistencyMethodTest, TheFirstOfAnUnconstrainedVariableActsUntilAMajorityContradictsIt) {
   Ring ring(30);
   const VariableId point = ring.graph().addVariable(point2(), Eigen::Vector2d(0, 0));
   const Eigen::Vector2d in_map(2, 2), elsewhere(9, -4);
@@ -297,7 +297,7 @@ TEST_P(ConsistencyMethodTest, ManyAtOnceAreJudgedAsIfOneAfterAnother) {
   initializeByChaining(world.graph);
   ConsistencyOptions options;
   options.method = GetParam();
-  const std::vector<Verdict> verdicts = testConsistency(world.graph, fresh, options);
+  const std::vector<HypothesisVerdict> verdicts = testConsistency(world.graph, fresh, options);
   ASSERT_EQ(verdicts.size(), fresh.size());
   int refused = 0, let_in = 0;
   for (std::size_t i = 0; i < fresh.size(); ++i) {

@@ -5,8 +5,8 @@
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/live/LiveSource.h>
 #include <omnimapper/live/Socket.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <algorithm>

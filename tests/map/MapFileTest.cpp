@@ -80,9 +80,9 @@ map::Map awkwardMap() {
       scan->setScanRangeValidity(beam, beam != 2);
     }
     frame.observations.push_back(scan);
-    auto fix = mrpt::obs::CObservationRobotPose::Create();
-    fix->pose.mean = pose();
-    frame.observations.push_back(fix);
+    auto given_pose = mrpt::obs::CObservationRobotPose::Create();
+    given_pose->pose.mean = pose();
+    frame.observations.push_back(given_pose);
     for (int p = 0; p < 3; ++p)
       frame.cloud.push_back({static_cast<std::int16_t>(-32000 + p), 0, 31000, 255, static_cast<std::uint8_t>(p), 7});
     map.key_frames.insert(frame);

@@ -140,11 +140,11 @@ TEST(SessionsSection, KeepsEveryField) {
   const auto loaded = sessionsFromSection(section);
   ASSERT_EQ(loaded.size(), 3U);
   EXPECT_EQ(loaded[0].title, "monday");
-  EXPECT_FALSE(loaded[0].joined_at);
+  EXPECT_FALSE(loaded[0].aligned_at);
   EXPECT_EQ(loaded[1].number, 2);
   EXPECT_EQ(loaded[1].anchor, (base::VariableId{2, 5}));
-  EXPECT_EQ(loaded[1].joined_at, (base::KeyFrameId{2, 9}));
-  EXPECT_FALSE(loaded[2].joined);
+  EXPECT_EQ(loaded[1].aligned_at, (base::KeyFrameId{2, 9}));
+  EXPECT_FALSE(loaded[2].aligned);
   for (std::size_t length = 0; length < section.bytes.size(); ++length) {
     EXPECT_THROW(sessionsFromSection({"sessions", 1, section.bytes.substr(0, length)}), base::Error) << length;
   }

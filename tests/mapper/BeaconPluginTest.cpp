@@ -146,7 +146,7 @@ TEST(BeaconPlugin, ASessionFindsItsPlaceInTheMapByTheBeaconsItSeesAgain) {
   testing::run(*second, second_log.observations());
   const auto view = second->view();
   ASSERT_EQ(view.map.sessions.size(), 2U);
-  EXPECT_TRUE(view.map.sessions.back().joined);
+  EXPECT_TRUE(view.map.sessions.back().aligned);
   EXPECT_EQ(view.map.landmarks.size(), options.beacons.positions.size()) << "each beacon is one landmark of both";
   EXPECT_LT(worstBeacon(view, log, options), 0.15);
   for (const auto& frame : view.map.key_frames) {

@@ -67,9 +67,9 @@ TEST_F(Continue, ALogCutInTwoGivesTheMapOfTheLogInOnePiece) {
     const auto both = goOn(*map(first), second);
     const auto view = both->view();
     ASSERT_EQ(view.map.sessions.size(), 2U);
-    EXPECT_TRUE(view.map.sessions[1].joined) << part;
-    ASSERT_TRUE(view.map.sessions[1].joined_at);
-    EXPECT_EQ(view.map.sessions[1].joined_at->session, 1);
+    EXPECT_TRUE(view.map.sessions[1].aligned) << part;
+    ASSERT_TRUE(view.map.sessions[1].aligned_at);
+    EXPECT_EQ(view.map.sessions[1].aligned_at->session, 1);
     EXPECT_NEAR(static_cast<double>(view.map.key_frames.size()),
                 static_cast<double>(whole->view().map.key_frames.size()), 2);
     const double error_of_both = testing::trajectoryError(view, log);
@@ -88,7 +88,7 @@ TEST_F(Continue, ItsStampsMayBeEarlierThanThoseOfTheMap) {
   const auto earlier = goOn(*before, second);
   const auto &a = later->view().map.key_frames, &b = earlier->view().map.key_frames;
   ASSERT_EQ(a.size(), b.size());
-  EXPECT_TRUE(earlier->view().map.sessions[1].joined);
+  EXPECT_TRUE(earlier->view().map.sessions[1].aligned);
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].id, b[i].id);
     EXPECT_LT((a[i].map_from_base.translation() - b[i].map_from_base.translation()).norm(), 1e-6);
@@ -103,19 +103,19 @@ TEST_F(Continue, ASessionThatMayBeAnywhereIsFoundInTheMap) {
   start_.start = SessionOptions::Start::anywhere;
   for (const double begin : {0.5, 0.6, 0.72, 0.85}) {  // share of the log at which the second session begins
     const auto both = goOn(*before, cut(log, begin).second);
-    EXPECT_TRUE(both->view().map.sessions[1].joined) << begin;
+    EXPECT_TRUE(both->view().map.sessions[1].aligned) << begin;
     EXPECT_NEAR(testing::trajectoryError(both->view(), log), error, 0.03) << begin;
   }
 }
 
-TEST_F(Continue, ASessionOfAnotherBuildingIsNotJoinedAndTheMapStaysAsItWas) {
+TEST_F(Continue, ASessionOfAnotherBuildingIsNotAlignedAndTheMapStaysAsItWas) {
   const auto before = map(SimulatedLog(ring(1)).observations());
   SimulatedLogOptions other;
   other.place = SimulatedLogOptions::Place::box;
   other.laps = 3;
   start_.start = SessionOptions::Start::anywhere;
   const auto both = goOn(*before, SimulatedLog(other).observations());
-  EXPECT_FALSE(both->view().map.sessions[1].joined);
+  EXPECT_FALSE(both->view().map.sessions[1].aligned);
   for (const auto& frame : before->view().map.key_frames) {
     const CPose3D moved = both->view().map.keyFrame(frame.id).map_from_base - frame.map_from_base;
     EXPECT_LT(moved.translation().norm(), 1e-3) << frame.id;
@@ -132,7 +132,7 @@ TEST_F(Continue, AStartThatIsWrongByFarIsSetRightInTheWholeMap) {
   start_.start = SessionOptions::Start::pose;
   start_.start_x = 30, start_.start_y = 40, start_.start_yaw = 3;  // beyond the area that is searched around the start
   const auto both = goOn(*map(first), second);
-  EXPECT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_TRUE(both->view().map.sessions[1].aligned);
   EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
 }
 
@@ -148,7 +148,7 @@ TEST_F(Continue, ALogThatBeginsWhereNobodySaidIsFoundAndHasItsWallsOnce) {
     return count;
   };
   const auto both = goOn(*before, log.observations());
-  ASSERT_TRUE(both->view().map.sessions[1].joined);
+  ASSERT_TRUE(both->view().map.sessions[1].aligned);
   EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1);
   EXPECT_LE(walls(both->view()), walls(before->view()) + 1);
 }
@@ -161,7 +161,7 @@ TEST_F(Continue, AStartThatIsOffIsSetRight) {
     start_.start_x = 0.8 * metres, start_.start_y = 0.6 * metres, start_.start_yaw = 0.2;
     start_.start_sigma = std::max(1.0, metres / 2);
     const auto both = goOn(*map(first), second);
-    EXPECT_TRUE(both->view().map.sessions[1].joined) << metres;
+    EXPECT_TRUE(both->view().map.sessions[1].aligned) << metres;
     EXPECT_LT(testing::trajectoryError(both->view(), log), 0.1) << metres;
   }
 }
@@ -173,8 +173,8 @@ TEST_F(Continue, AThirdSessionGoesOnFromTheSecond) {
   const auto three = goOn(*goOn(*map(first), {rest.begin(), middle}), {middle, rest.end()});
   const auto view = three->view();
   ASSERT_EQ(view.map.sessions.size(), 3U);
-  EXPECT_TRUE(view.map.sessions[1].joined);
-  EXPECT_TRUE(view.map.sessions[2].joined);
+  EXPECT_TRUE(view.map.sessions[1].aligned);
+  EXPECT_TRUE(view.map.sessions[2].aligned);
   EXPECT_EQ(view.map.key_frames.back().id.session, 2);
   EXPECT_LT(testing::trajectoryError(view, log), 0.1);
 }
@@ -248,7 +248,7 @@ TEST_F(ContinueWithReference, GpsGoesOnWithTheSameOriginAndFrame) {
   const auto both = goOn(*before, second);
   EXPECT_EQ(countReferences(before->view()), 1U);
   EXPECT_EQ(countReferences(both->view()), 1U);
-  EXPECT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_TRUE(both->view().map.sessions[1].aligned);
   EXPECT_LT(testing::trajectoryError(both->view(), log), testing::trajectoryError(before->view(), log) + 0.1);
   settings_ = {"gps.map_is_enu=true"};
   EXPECT_THROW(goOn(*before, second), base::Error) << "the map is not east-north-up";
@@ -267,7 +267,7 @@ TEST_F(ContinueWithReference, ATrackerGoesOnInTheSameFrame) {
   start_.start_x = 10, start_.start_y = -5, start_.start_yaw = 1;
   const auto both = goOn(*before, second);
   EXPECT_EQ(countReferences(both->view()), 1U);
-  EXPECT_TRUE(both->view().map.sessions[1].joined);
+  EXPECT_TRUE(both->view().map.sessions[1].aligned);
   EXPECT_LT(testing::trajectoryError(both->view(), log), testing::trajectoryError(before->view(), log) + 0.05);
   settings_ = {"tracker.reference_is_map=true"};
   EXPECT_THROW(goOn(*before, second), base::Error);

@@ -158,7 +158,7 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
 }
 
 // A session that is not tied to the map may lie anywhere, so being located in it means nothing.
-TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
+TEST_F(Localize, ASessionOfTheMapThatWasNeverAlignedIsNoPlaceToBeLocatedIn) {
   SimulatedLogOptions elsewhere;
   elsewhere.place = SimulatedLogOptions::Place::box;
   const SimulatedLog box(elsewhere);
@@ -167,7 +167,7 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverJoinedIsNoPlaceToBeLocatedIn) {
   const auto both = testing::makeEngine(testing::kLaserIni);
   both->sessions().continueFrom(std::move(first), begin);
   testing::run(*both, box.observations());
-  ASSERT_FALSE(both->view().map.sessions.back().joined);
+  ASSERT_FALSE(both->view().map.sessions.back().aligned);
   const auto view = both->view();
   mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "apart.omnimap");
   auto map = readMap(*folder_ / "apart.omnimap", registeredKinds());

@@ -93,7 +93,7 @@ TEST_F(SavedMapFile, AMapOfVersionOneIsReadWithASessionMadeUp) {
   EXPECT_EQ(saved.motion(), Motion::planar);
   ASSERT_EQ(saved.map.sessions.size(), 1U);
   EXPECT_EQ(saved.map.sessions[0].anchor, saved.map.key_frames.front().pose);
-  EXPECT_TRUE(saved.map.sessions[0].joined);
+  EXPECT_TRUE(saved.map.sessions[0].aligned);
   for (const auto& frame : saved.map.key_frames) {
     EXPECT_TRUE(frame.reference);
     EXPECT_EQ(frame.observations.size(), 2U) << "the scan and its points";

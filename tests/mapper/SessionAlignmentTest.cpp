@@ -4,7 +4,7 @@
 #include <omnimapper/mapper/SessionAlignment.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
-namespace omnimapper::mapper::joining_test {
+namespace omnimapper::mapper::session_alignment_test {
 namespace {
 
 // Three sessions of two key frames each, linked within themselves.
@@ -39,25 +39,25 @@ struct ThreeSessions {
     }
     return points;
   }
-  bool joined(std::size_t session) {
-    markJoined(map, graph, {"gps"});
-    return map.sessions[session].joined;
+  bool aligned(std::size_t session) {
+    markAligned(map, graph, {"gps"});
+    return map.sessions[session].aligned;
   }
 };
 
-TEST(SessionAlignment, ASessionIsJoinedByAFactorToTheFirstOneThatActs) {
+TEST(SessionAlignment, ASessionIsAlignedByAFactorToTheFirstOneThatActs) {
   ThreeSessions world;
-  EXPECT_TRUE(world.joined(0));
-  EXPECT_FALSE(world.joined(1));
+  EXPECT_TRUE(world.aligned(0));
+  EXPECT_FALSE(world.aligned(1));
   const auto id = world.bind({0, 1}, {1, 1}, "loop_closure");
-  EXPECT_TRUE(world.joined(1));
-  EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
-  EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was joined at key frame 1:1");
-  EXPECT_FALSE(world.joined(2));
+  EXPECT_TRUE(world.aligned(1));
+  EXPECT_EQ(world.map.sessions[1].aligned_at, (base::KeyFrameId{1, 1}));
+  EXPECT_EQ(alignedText(world.map.sessions[1]), "session 1 was aligned at key frame 1:1");
+  EXPECT_FALSE(world.aligned(2));
   world.graph.setWeight(id, 0);  // revoked
-  EXPECT_FALSE(world.joined(1));
-  EXPECT_FALSE(world.map.sessions[1].joined_at);
-  EXPECT_EQ(joinedText(world.map.sessions[1]), "session 1 was never joined");
+  EXPECT_FALSE(world.aligned(1));
+  EXPECT_FALSE(world.map.sessions[1].aligned_at);
+  EXPECT_EQ(alignedText(world.map.sessions[1]), "session 1 was never aligned");
 }
 
 TEST(SessionAlignment, ManyTiesThatAreRefusedMakeItUncertain) {
@@ -81,15 +81,15 @@ TEST(SessionAlignment, ManyTiesThatAreRefusedMakeItUncertain) {
   EXPECT_EQ(testedTies(world.graph, 2).accepted, 0U);
 }
 
-TEST(SessionAlignment, ASessionIsJoinedByWayOfAnother) {
+TEST(SessionAlignment, ASessionIsAlignedByWayOfAnother) {
   ThreeSessions world;
   world.bind({1, 0}, {2, 0}, "loop_closure");
-  EXPECT_FALSE(world.joined(1));
-  EXPECT_FALSE(world.joined(2)) << "tied to each other, but not to the map";
+  EXPECT_FALSE(world.aligned(1));
+  EXPECT_FALSE(world.aligned(2)) << "tied to each other, but not to the map";
   world.bind({0, 0}, {2, 1}, "loop_closure");
-  EXPECT_TRUE(world.joined(1));
-  EXPECT_TRUE(world.joined(2));
-  EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{2, 1}));
+  EXPECT_TRUE(world.aligned(1));
+  EXPECT_TRUE(world.aligned(2));
+  EXPECT_EQ(world.map.sessions[1].aligned_at, (base::KeyFrameId{2, 1}));
 }
 
 TEST(SessionAlignment, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
@@ -100,9 +100,9 @@ TEST(SessionAlignment, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
         posePrior(Motion::planar, world.map.keyFrame(id).pose, {}, Eigen::Matrix<double, 6, 6>::Identity(), owner));
   };
   prior({1, 0}, "engine");
-  EXPECT_FALSE(world.joined(1)) << "a guess of the start is no measurement";
+  EXPECT_FALSE(world.aligned(1)) << "a guess of the start is no measurement";
   prior({1, 1}, "gps");
-  EXPECT_TRUE(world.joined(1));
+  EXPECT_TRUE(world.aligned(1));
 }
 
 // A factor between two landmarks, for example that two points have the same height.
@@ -124,12 +124,12 @@ TEST(SessionAlignment, LandmarksJoinByWhoSeesThemAndNotByHowTheyStandToEachOther
   ThreeSessions world;
   const auto points = world.pointsOf({0, 1});
   world.graph.addFactor({points, std::make_shared<SameHeight>(), graph::SquareRootInformation::identity(1)});
-  EXPECT_FALSE(world.joined(1));
+  EXPECT_FALSE(world.aligned(1));
   world.graph.addFactor({{world.map.keyFrame({1, 1}).pose, points[0]},
                          std::make_shared<graph::PointFactor2>(Eigen::Vector2d(1, 0)),
                          graph::SquareRootInformation::identity(2)});
-  EXPECT_TRUE(world.joined(1));
-  EXPECT_EQ(world.map.sessions[1].joined_at, (base::KeyFrameId{1, 1}));
+  EXPECT_TRUE(world.aligned(1));
+  EXPECT_EQ(world.map.sessions[1].aligned_at, (base::KeyFrameId{1, 1}));
 }
 
 TEST(SessionAlignment, ASessionIsLocatedByWhatItSeesAndNotByHowLandmarksStandToEachOther) {
@@ -137,14 +137,14 @@ TEST(SessionAlignment, ASessionIsLocatedByWhatItSeesAndNotByHowLandmarksStandToE
   const auto points = world.pointsOf({0, 2});
   world.graph.addFactor({points, std::make_shared<SameHeight>(), graph::SquareRootInformation::identity(1)});
   markLocated(world.map, world.graph, {"gps"});
-  EXPECT_FALSE(world.map.sessions[2].joined);
+  EXPECT_FALSE(world.map.sessions[2].aligned);
   world.graph.addFactor({{world.map.keyFrame({2, 1}).pose, points[0]},
                          std::make_shared<graph::PointFactor2>(Eigen::Vector2d(1, 0)),
                          graph::SquareRootInformation::identity(2)});
   markLocated(world.map, world.graph, {"gps"});
-  EXPECT_TRUE(world.map.sessions[2].joined);
-  EXPECT_EQ(world.map.sessions[2].joined_at, (base::KeyFrameId{2, 1}));
+  EXPECT_TRUE(world.map.sessions[2].aligned);
+  EXPECT_EQ(world.map.sessions[2].aligned_at, (base::KeyFrameId{2, 1}));
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper::joining_test
+}  // namespace omnimapper::mapper::session_alignment_test

@@ -113,10 +113,10 @@ TEST(SlidingWindow, TheMapStaysInEveryBitAndTheGraphDoesNotGrow) {
   }
 }
 
-TEST(SlidingWindow, NothingRetiresUntilWhatJoinedTheSessionHasStood) {
+TEST(SlidingWindow, NothingRetiresUntilWhatAlignedTheSessionHasStood) {
   Session session;
   session.drive(15);
-  session.map_.sessions[1].joined_at = session.frame(kMapFrames + 8).id;
+  session.map_.sessions[1].aligned_at = session.frame(kMapFrames + 8).id;
   EXPECT_TRUE(session.window_.retire(kLater).empty()) << "6 key frames ago";
   session.drive(5);
   EXPECT_FALSE(session.window_.hasRetired());
@@ -124,12 +124,12 @@ TEST(SlidingWindow, NothingRetiresUntilWhatJoinedTheSessionHasStood) {
   EXPECT_TRUE(session.window_.hasRetired());
 }
 
-TEST(SlidingWindow, NothingRetiresBeforeTheSessionIsJoinedNorWhatIsTooNew) {
+TEST(SlidingWindow, NothingRetiresBeforeTheSessionIsAlignedNorWhatIsTooNew) {
   Session session;
-  session.map_.sessions[1].joined = false;
+  session.map_.sessions[1].aligned = false;
   session.drive(10);
   EXPECT_TRUE(session.window_.retire(kLater).empty());
-  session.map_.sessions[1].joined = true;
+  session.map_.sessions[1].aligned = true;
   EXPECT_TRUE(session.window_.retire(session.frame(kMapFrames).stamp).empty());
   EXPECT_EQ(session.window_.retire(session.frame(kMapFrames + 3).stamp).size(), 2U);
   EXPECT_EQ(session.window_.retire(kLater).size(), 5U);

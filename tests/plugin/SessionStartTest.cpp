@@ -78,13 +78,13 @@ TEST_F(PlacedSession, TakesLandmarksOfItsOwnWithItAndLeavesThoseOfTheMap) {
   EXPECT_EQ(graph_.value(of_map), Eigen::Vector2d(3, 1));
 }
 
-TEST_F(PlacedSession, OneThatIsJoinedOrOfThePastIsNotMoved) {
+TEST_F(PlacedSession, OneThatIsAlignedOrOfThePastIsNotMoved) {
   Batch batch;
   batch.placeSession({map_.key_frames[0].id, {}});
   EXPECT_NE(whyUnfit(batch, graph_, map_), "");
   batch.placeSession({second_, {}});
   EXPECT_EQ(whyUnfit(batch, graph_, map_), "");
-  map_.sessions[1].joined = true;
+  map_.sessions[1].aligned = true;
   EXPECT_NE(whyUnfit(batch, graph_, map_), "");
   EXPECT_THROW(apply(batch, {"test", {}}, graph_, map_), base::Error);
 }

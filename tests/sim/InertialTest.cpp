@@ -50,7 +50,7 @@ TEST(Imu, onACircleItFeelsTheTurnAndTheMiddle) {
   EXPECT_NEAR(forceOf(*imu).x(), 0, 1e-6);
 }
 
-TEST(Imu, withoutNoiseItIntegratesBackToTheWay) {
+TEST(Imu, withoutNoiseItIntegratesBackToTheTrajectory) {
   for (const std::string keys : {"", "handheld = true\n"}) {
     const sim::Track track =
         sim::planDrive(base::Config::fromText("[robot]\n" + keys + "duration_s = 30\n", "test.ini"), threeRooms());
@@ -79,7 +79,7 @@ TEST(Imu, withoutNoiseItIntegratesBackToTheWay) {
 
 // There is no jerk where a drive is cut off in motion, nor where the person who carries the sensor sways from the
 // start.
-TEST(Imu, atBothEndsItFeelsNoMoreThanOnTheWay) {
+TEST(Imu, atBothEndsItMeasuresNoMoreThanDuringTheDrive) {
   const sim::World world = oneRoom(20, 4);
   const sim::Track cut =
       sim::planDrive(base::Config::fromText("[robot]\nmode = waypoints\nstart = 2 2\nwaypoints = 18 2\n"

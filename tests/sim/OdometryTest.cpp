@@ -34,7 +34,7 @@ sim::Track spinning(int turns) {
   return {sim::Track::Kind::motion, places};
 }
 
-TEST(Odometry, withoutErrorsIsTheWay) {
+TEST(Odometry, withoutErrorsIsTheTrajectory) {
   const sim::Track track = tour(threeRooms());
   const double end = track.places().back().time;
   const SensorRun run(threeRooms(), track, exact, end);

@@ -4,7 +4,7 @@
 
 #include "Logs.h"
 
-namespace omnimapper::source::selection_test {
+namespace omnimapper::source::observation_filter_test {
 namespace {
 
 using namespace logs;
@@ -96,4 +96,4 @@ TEST(SourceOptions, areReadFromAnIni) {
 }
 
 }  // namespace
-}  // namespace omnimapper::source::selection_test
+}  // namespace omnimapper::source::observation_filter_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 
 #include <filesystem>
 #include <fstream>

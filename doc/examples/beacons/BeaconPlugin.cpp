@@ -139,7 +139,7 @@ void BeaconPlugin::addToKnown(const BeaconMeasurement& measurement, const Viewpo
   const map::Landmark& landmark = view.map.landmark(known.landmark);
   const auto variable = landmark.variables.front();
   auto measurement_record = record(measurement, from, variable, landmark.id);
-  if (!view.areJoined(from.frame.id.session, landmark.id.session)) {
+  if (!view.areAligned(from.frame.id.session, landmark.id.session)) {
     // It would be the first factor that ties this session to the map: if it were wrong, the whole session would be
     // displaced.
     decision.reason = "waits for the consistency test";

@@ -20,8 +20,8 @@ namespace beacons {
 // The plugin never changes the map or the graph itself, and one thread calls it.
 
 /// Beacons with numbers, from ranges and bearings (CObservationBearingRange). A beacon is added with its first
-/// measurement; later measurements are associated by number and gated. In a session that is not joined to the map yet,
-/// a measurement of a beacon of an earlier session is a hypothesis.
+/// measurement; later measurements are associated by number and gated. In a session that is not aligned with the map
+/// yet, a measurement of a beacon of an earlier session is a hypothesis.
 class BeaconPlugin : public omnimapper::mapper::MeasurementPlugin {
  public:
   BeaconPlugin(const BeaconOptions& options, const omnimapper::mapper::PluginContext& context);

@@ -173,7 +173,7 @@ std::string summaryJson(const Calibration& calibration, const CalibrationLog& lo
     one["is_determined"] = result.is_determined;
     if (!result.is_determined) one["why"] = result.why;
     for (const auto& number : result.numbers)
-      one["figures"].push_back(
+      one["values"].push_back(
           {{"key", number.key}, {"log", number.log}, {"estimate", number.estimate}, {"sigma", number.sigma}});
     json["parameters"].push_back(one);
   }

@@ -42,7 +42,7 @@ class Test {
       if (record.tags.hypothesis) acted_[id] = record.weight > 0;
   }
 
-  std::vector<Verdict> run() {
+  std::vector<HypothesisVerdict> run() {
     if (options_.method == Method::none) {
       for (const FactorId id : fresh_) decide(id, true, misfit(id), "accepted without a test");
       solveEased(graph_, fresh_, solve_options_);
@@ -263,8 +263,8 @@ class Test {
     if (changed) solve(graph_, solve_options_);
   }
 
-  std::vector<Verdict> verdicts() const {
-    std::vector<Verdict> all;
+  std::vector<HypothesisVerdict> verdicts() const {
+    std::vector<HypothesisVerdict> all;
     for (const FactorId id : fresh_) all.push_back(verdicts_.at(id));
     for (const auto& [id, verdict] : verdicts_)
       if (verdict.changed && !contains(fresh_, id)) all.push_back(verdict);
@@ -278,13 +278,13 @@ class Test {
   const SolveOptions& solve_options_;
   Gate gate_;
   std::map<FactorId, bool> acted_;  // whether each hypothesis acted before
-  std::map<FactorId, Verdict> verdicts_;
+  std::map<FactorId, HypothesisVerdict> verdicts_;
 };
 
 }  // namespace
 
-std::vector<Verdict> testConsistency(Graph& graph, const std::vector<FactorId>& fresh,
-                                     const ConsistencyOptions& options, const SolveOptions& solve_options) {
+std::vector<HypothesisVerdict> testConsistency(Graph& graph, const std::vector<FactorId>& fresh,
+                                               const ConsistencyOptions& options, const SolveOptions& solve_options) {
   return Test(graph, fresh, options, solve_options).run();
 }
 

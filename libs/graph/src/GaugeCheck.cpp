@@ -29,15 +29,15 @@ void flood(const Graph& graph, std::vector<VariableId> open, std::unordered_set<
 
 void checkGauge(const Graph& graph) {
   std::unordered_set<VariableId> reached;
-  std::vector<VariableId> anchors;
+  std::vector<VariableId> tied;
   for (const auto& [id, record] : graph.factors()) {
     if (record.weight == 0) continue;
     for (const VariableId variable : record.variables) {
       const bool is_held = record.variables.size() == 1 || graph.variable(variable).fixed;
-      if (is_held && reached.insert(variable).second) anchors.push_back(variable);
+      if (is_held && reached.insert(variable).second) tied.push_back(variable);
     }
   }
-  flood(graph, std::move(anchors), reached);
+  flood(graph, std::move(tied), reached);
   for (const auto& [id, record] : graph.factors())
     if (record.weight > 0 && reached.count(record.variables[0]) == 0)
       throw base::Error(base::ExitCode::internal,

@@ -6,7 +6,7 @@ namespace omnimapper::landmarks {
 
 bool addInterSessionHypothesis(const mapper::View& view, base::KeyFrameId frame, const mapper::Pairing& pairing,
                                mapper::Decision& decision, mapper::Batch& batch) {
-  if (view.areJoined(frame.session, pairing.landmark.session)) return false;
+  if (view.areAligned(frame.session, pairing.landmark.session)) return false;
   decision.accepted = false;
   decision.reason = "waits for the consistency test";
   batch.addHypothesis(pairing.record, std::move(decision));

@@ -41,7 +41,7 @@ const base::OptionTable<LiveOptions>& LiveOptions::table() {
           .number("reopen_after_s", &LiveOptions::reopen_after, Range::positive(),
                   "A sensor is closed and opened again until it answers if it sends no data for this time, or for "
                   "three times the longest of its last ten intervals between data, whichever is longer.")
-          .number("max_clock_off_s", &LiveOptions::max_clock_off, Range::positive(),
+          .number("max_clock_offset_s", &LiveOptions::max_clock_offset, Range::positive(),
                   "Largest difference between an observation's stamp and its arrival at which the stamp is used as it "
                   "is. If the difference is larger, the offset of the sensor's clock is estimated; it is estimated "
                   "again when it changes abruptly.")

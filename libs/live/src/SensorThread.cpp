@@ -36,7 +36,10 @@ std::string inSeconds(double seconds) {
 
 struct SensorThread::Shared {
   Shared(SensorSection its, const LiveOptions& all, std::shared_ptr<Arrivals> where)
-      : section(std::move(its)), options(all), arrivals(std::move(where)), clock(section.options, all.max_clock_off) {
+      : section(std::move(its)),
+        options(all),
+        arrivals(std::move(where)),
+        clock(section.options, all.max_clock_offset) {
     metrics.name = section.name;
   }
 

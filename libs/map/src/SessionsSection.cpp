@@ -16,9 +16,9 @@ MapSection sessionsToSection(const Map& map) {
     out.uint(session.number, 2);
     out.block(session.title);
     writeId(out, session.anchor);
-    out.uint(session.joined, 1);
-    out.uint(session.joined_at.has_value(), 1);
-    if (session.joined_at) writeId(out, *session.joined_at);
+    out.uint(session.aligned, 1);
+    out.uint(session.aligned_at.has_value(), 1);
+    if (session.aligned_at) writeId(out, *session.aligned_at);
   }
   return {kSessionsName, kSessionsVersion, out.take()};
 }
@@ -32,8 +32,8 @@ std::vector<Session> sessionsFromSection(const MapSection& section) {
     session.number = static_cast<std::uint16_t>(in.uint(2));
     session.title = in.block();
     session.anchor = readId<base::VariableTag>(in);
-    session.joined = in.uint(1) != 0;
-    if (in.uint(1) != 0) session.joined_at = readId<base::KeyFrameTag>(in);
+    session.aligned = in.uint(1) != 0;
+    if (in.uint(1) != 0) session.aligned_at = readId<base::KeyFrameTag>(in);
     if (!sessions.empty() && session.number <= sessions.back().number) {
       refuse(kSessionsName, "session " + std::to_string(session.number) + " is out of order: the file is damaged");
     }

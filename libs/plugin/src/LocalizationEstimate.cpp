@@ -12,7 +12,7 @@ std::optional<Eigen::Matrix3d> LocalizationEstimate::positionCovariance() const 
 
 bool LocalizationEstimate::located() const {
   const auto position = positionCovariance();
-  if (!joined || !position) return false;
+  if (!aligned || !position) return false;
   const Eigen::Matrix2d on_floor = position->topLeftCorner<2, 2>();
   const double worst =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(on_floor, Eigen::EigenvaluesOnly).eigenvalues()[1];

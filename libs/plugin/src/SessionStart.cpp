@@ -53,7 +53,7 @@ std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const
   const auto& session = map.sessions.back();
   const std::string name = "session " + std::to_string(place.frame.session);
   if (place.frame.session != session.number) return name + " is not the newest";
-  if (session.joined) return name + " is joined to the map";
+  if (session.aligned) return name + " is aligned with the map";
   if (!map.key_frames.find(place.frame)) return name + " has no key frame " + toString(place.frame);
   if (!graph.contains(session.anchor)) return name + " has no anchor";
   for (const auto& frame : map.key_frames) {

@@ -4,10 +4,10 @@
 
 namespace omnimapper::mapper {
 
-bool State::areJoined(std::uint16_t session, std::uint16_t other) const {
+bool State::areAligned(std::uint16_t session, std::uint16_t other) const {
   if (session == other) return true;
   return std::all_of(map.sessions.begin(), map.sessions.end(), [&](const map::Session& known) {
-    return known.joined || (known.number != session && known.number != other);
+    return known.aligned || (known.number != session && known.number != other);
   });
 }
 

@@ -32,7 +32,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   decision.plugin = context_.section;
   decision.kind = mapper::kRelocalization;
   decision.from = frame.id;
-  if (state.map.sessions.back().joined || !isLost(state, decision)) return batch;
+  if (state.map.sessions.back().aligned || !isLost(state, decision)) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);
   const auto found = matcher.find(state, decision);
   if (!found) {

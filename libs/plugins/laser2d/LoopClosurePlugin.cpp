@@ -133,7 +133,7 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;  // of the travel since the last answer
   constexpr double kShareOfAll = 0.01;                           // of all travel
   constexpr double kGrown = 1.2;                                 // growth of the map at which the database is rebuilt
-  if (context_.map_is_held || !state.map.sessions.back().joined) return;
+  if (context_.map_is_held || !state.map.sessions.back().aligned) return;
   const double travel = history[index].key_scan.travel;
   const auto tied = closures_.newestTied(state.graph);
   if (travelSince(tied, history, index) < options_.lost_travel) return;
@@ -163,8 +163,8 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
                                 on_new_ground);
 }
 
-// Searches become rarer without an answer, because a session of another place never joins the map, and frequent again
-// once an answer has moved the session.
+// Searches become rarer without an answer, because a session of another place is never aligned with the map, and
+// frequent again once an answer has moved the session.
 void LoopClosurePlugin::seekInMap(const std::string& label, const History& history, std::size_t index,
                                   const mapper::State& state) {
   constexpr double kSpacing = 3,
@@ -173,26 +173,26 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
   if (!places_) return;
   const auto& session = state.map.sessions.back();
   const auto& key_scan = history[index].key_scan;
-  if (session.joined || key_scan.frame.session != session.number) return;
+  if (session.aligned || key_scan.frame.session != session.number) return;
   const auto first = std::find_if(history.begin(), history.end(), [&](const StampedScan& seen) {
     return seen.key_scan.frame.session == session.number;
   });
   const double travel = key_scan.travel - first->key_scan.travel;
   const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
-  const auto [entry, is_first] = last_map_search_.try_emplace(label, LastMapSearch{travel, travel, begun_at});
-  LastMapSearch& last = entry->second;
+  const auto [entry, is_first] = last_relocalization_.try_emplace(label, LastRelocalization{travel, travel, begun_at});
+  LastRelocalization& last = entry->second;
   if ((begun_at - last.begun_at).norm() > kMoved) last.answered = last.travel;
   last.begun_at = begun_at;
   if (!is_first && travel - last.travel < std::max(kSpacing, kShareOfTravel * (travel - last.answered))) return;
   last.travel = travel;
-  map_searches_.emplace_back(options_, context_, matcher_, places_, label,
-                             keyScans(history, index, options_.join_travel + kSpacing, 0), travel);
+  relocalizations_.emplace_back(options_, context_, matcher_, places_, label,
+                                keyScans(history, index, options_.join_travel + kSpacing, 0), travel);
 }
 
 void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view) {
   std::set<std::uint16_t> unaligned;
   for (const auto& session : view.map.sessions) {
-    if (!session.joined) unaligned.insert(session.number);
+    if (!session.aligned) unaligned.insert(session.number);
   }
   for (const auto& frame : view.map.key_frames) {
     // A run that only localizes never ties an unaligned session, so its poses stay unknown.
@@ -231,12 +231,12 @@ mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, cons
     follow_up.jobs.push_back({"global loop search of " + toString(frame.id), std::move(search)});
   for (auto& search : slip_searches_)
     follow_up.jobs.push_back({"slip search of " + toString(frame.id), std::move(search)});
-  for (auto& search : map_searches_)
+  for (auto& search : relocalizations_)
     follow_up.jobs.push_back({"relocalization of " + toString(frame.id), std::move(search)});
   searches_.clear();
   global_searches_.clear();
   slip_searches_.clear();
-  map_searches_.clear();
+  relocalizations_.clear();
   return follow_up;
 }
 

@@ -50,7 +50,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
     base::Stamp stamp;
   };
   /// The last search in the whole saved map.
-  struct LastMapSearch {
+  struct LastRelocalization {
     double travel, answered;        // [m] travelled in the session: at this search, at the last answer that moved it
     mrpt::math::TPoint3D begun_at;  // start of the session as estimated at this search
   };
@@ -88,12 +88,12 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   TestedClosures closures_;
   std::size_t refused_before_ = 0;         // number of refused global closures at the last slip search
   std::vector<SlipSearch> slip_searches_;  // of the key frame being measured
-  std::map<std::string, LastGlobalSearch> last_global_search_;  // by label
-  std::vector<GlobalLoopSearch> global_searches_;               // of the key frame being measured
-  std::shared_ptr<const ScanDatabase> places_;                  // of the map that is continued
-  int frames_without_scan_ = 0;                                 // key frames since the last scan, or since the start
-  std::map<std::string, LastMapSearch> last_map_search_;        // by label
-  std::vector<GlobalRelocalization> map_searches_;              // of the key frame being measured
+  std::map<std::string, LastGlobalSearch> last_global_search_;     // by label
+  std::vector<GlobalLoopSearch> global_searches_;                  // of the key frame being measured
+  std::shared_ptr<const ScanDatabase> places_;                     // of the map that is continued
+  int frames_without_scan_ = 0;                                    // key frames since the last scan, or since the start
+  std::map<std::string, LastRelocalization> last_relocalization_;  // by label
+  std::vector<GlobalRelocalization> relocalizations_;              // of the key frame being measured
 };
 
 class LoopClosurePluginFactory : public mapper::MeasurementPluginFactory {

@@ -146,7 +146,7 @@ std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, 
 namespace {
 // Whether `newest` is of a session that is not tied to that of `place`.
 bool isUnaligned(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
-  if (map.sessions.empty() || map.sessions.back().joined) return false;
+  if (map.sessions.empty() || map.sessions.back().aligned) return false;
   return newest.session == map.sessions.back().number && place.session != newest.session;
 }
 }  // namespace

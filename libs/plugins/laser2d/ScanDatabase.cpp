@@ -23,14 +23,14 @@ ScanDatabase::ScanDatabase(const map::Map& map,
                            const matching::RelocalizerOptions& options)
     : matcher_(std::move(matcher)), options_(options), anywhere_(mapper::startAnywhere(map)) {
   options_.poor = -std::numeric_limits<double>::infinity();  // no second, wider search: better scans will follow
-  const auto isJoined = [&](const LoopSearch::KeyScan& key_scan) {
+  const auto isAligned = [&](const LoopSearch::KeyScan& key_scan) {
     return std::any_of(map.sessions.begin(), map.sessions.end(), [&](const map::Session& session) {
-      return session.number == key_scan.frame.session && session.joined;
+      return session.number == key_scan.frame.session && session.aligned;
     });
   };
   for (const auto& [label, all] : key_scans) {
     for (const auto& key_scan : all) {
-      if (key_scan.scan->empty() || !isJoined(key_scan)) continue;
+      if (key_scan.scan->empty() || !isAligned(key_scan)) continue;
       labels_.push_back(label);
       frames_.push_back(map.keyFrame(key_scan.frame));
       places_.push_back({key_scan, planar(frames_.back().map_from_base)});

@@ -24,8 +24,8 @@ class ScanDatabase {
     mrpt::math::TPose2D map_from_base;
   };
 
-  /// `key_scans`: by the label of their clouds. Those of sessions that are not joined to the map (map::Session::joined)
-  /// are left out. `map` has at least one key frame.
+  /// `key_scans`: by the label of their clouds. Those of sessions that are not aligned with the map
+  /// (map::Session::aligned) are left out. `map` has at least one key frame.
   ScanDatabase(const map::Map& map, const std::map<std::string, std::vector<LoopSearch::KeyScan>>& key_scans,
                std::shared_ptr<const matching::ScanMatcher> matcher, const matching::RelocalizerOptions& options = {});
 

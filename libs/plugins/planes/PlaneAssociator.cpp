@@ -76,7 +76,7 @@ std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<Plane
   std::vector<mapper::Pairing> pairings;
   // A run that only localizes does not update landmarks, so candidates, which may be noise, must not constrain a pose.
   const auto isOf = [&](const PlaneLandmarkIndex::Surface& surface) {
-    if (others_seek_ && !view_.areJoined(frame_.id.session, surface.id.session)) return false;
+    if (others_seek_ && !view_.areAligned(frame_.id.session, surface.id.session)) return false;
     return !view_.map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
   };
   for (std::size_t i = 0; i < measurements.size(); ++i) {

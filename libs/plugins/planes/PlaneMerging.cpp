@@ -146,7 +146,7 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end(); ++b) {
       if (gone_already.count(a->first) > 0) break;
-      if (gone_already.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
+      if (gone_already.count(b->first) > 0 || !view.areAligned(a->first.session, b->first.session)) continue;
       if (a->second.plane.normal.dot(b->second.plane.normal) < kAlong) continue;
       const bool do_overlap = overlap(a->second, b->second);
       const bool lie = do_overlap && lieOnEachOther(a->second, b->second);

@@ -93,7 +93,8 @@ class PointLandmarksPlugin::Associator {
       }
       const mapper::Pairing& pairing = pairings[*match.pairing];
       met_.insert(pairing.landmark);
-      if (match.kind == mapper::Match::Kind::matched || !view_.areJoined(frame_.id.session, pairing.landmark.session)) {
+      if (match.kind == mapper::Match::Kind::matched ||
+          !view_.areAligned(frame_.id.session, pairing.landmark.session)) {
         addToKnown(*measurements[i], pairing, std::move(decision));
       } else {
         keepWithoutWeight(pairing, std::move(decision));

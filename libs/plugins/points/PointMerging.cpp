@@ -63,7 +63,7 @@ mapper::Batch mergeAlike(const PointLandmarkIndex& known, const PointLandmarksOp
                          options.inflation * options.inflation;
     for (std::size_t k = i + 1; k < left.size() && (*left[k].place)[0] - (*a.place)[0] <= kFarthestApart; ++k) {
       const UnnumberedPoint& b = left[k];
-      if ((*b.place - *a.place).norm() > kFarthestApart || !view.areJoined(a.id.session, b.id.session)) continue;
+      if ((*b.place - *a.place).norm() > kFarthestApart || !view.areAligned(a.id.session, b.id.session)) continue;
       if (seenAtOnce(a.variable, b.variable, view.graph)) continue;
       const auto fit = fitOfGap(a.variable, b.variable, view);
       if (!fit || fit->chi2 > limit) continue;

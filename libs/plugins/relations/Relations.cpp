@@ -100,14 +100,14 @@ class Finder {
   }
 
  private:
-  // The place of a session that is not joined is unknown, and relations must not determine it.
+  // The place of a session that is not aligned is unknown, and relations must not determine it.
   bool mayBeRelated(const LandmarkView& a, const LandmarkView& b) const {
-    return a.variable.session == b.variable.session || (isJoined(a) && isJoined(b));
+    return a.variable.session == b.variable.session || (isAligned(a) && isAligned(b));
   }
-  bool isJoined(const LandmarkView& landmark) const {
+  bool isAligned(const LandmarkView& landmark) const {
     const auto& sessions = state_.map.sessions;
     return std::all_of(sessions.begin(), sessions.end(), [&](const map::Session& session) {
-      return session.number != landmark.variable.session || session.joined;
+      return session.number != landmark.variable.session || session.aligned;
     });
   }
 

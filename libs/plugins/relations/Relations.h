@@ -31,7 +31,7 @@ struct Relation {
 /// For each possible relation of two landmarks, two likelihoods of the residual are compared: that if the relation
 /// holds, by the covariance of both landmarks, and that if it does not hold and the residual may be anywhere in its
 /// range. A point gets at most one relation, and the relations of directions and of lines form trees: n parallel walls
-/// get n - 1 relations, not one for each pair (RelationClosure). Landmarks of a session that is not joined are related
+/// get n - 1 relations, not one for each pair (RelationClosure). Landmarks of a session that is not aligned are related
 /// only to each other. The likeliest relation is first.
 std::vector<Relation> findRelations(const mapper::State& state, const RelationsOptions& options,
                                     const KnownRelations& known);

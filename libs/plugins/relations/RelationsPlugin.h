@@ -25,8 +25,8 @@ struct RelationsOptions {
 /// such as a sign on its wall or an object on its table, and walls that are perpendicular, parallel or on one line.
 /// Relations that are likely are proposed after each solve, for the landmarks of all plugins (a landmark with a single
 /// point as its variable counts as a point). They are hypotheses: the consistency test refuses those that do not fit,
-/// and takes back those that no longer fit. Landmarks of a session that is not joined to the map get no relations with
-/// those of other sessions.
+/// and takes back those that no longer fit. Landmarks of a session that is not aligned with the map get no relations
+/// with those of other sessions.
 class RelationsPlugin : public mapper::MeasurementPlugin {
  public:
   RelationsPlugin(const RelationsOptions& options, const mapper::PluginContext& context);

@@ -21,7 +21,7 @@ std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& 
   std::optional<base::LandmarkId> found;
   const auto first = view.map.sessions.front().number;
   for (const auto& [id, known] : tracks.known()) {
-    if (id.session == view.map.sessions.back().number || !view.areJoined(id.session, first)) continue;
+    if (id.session == view.map.sessions.back().number || !view.areAligned(id.session, first)) continue;
     const SignPayload& sign = signOf(view, id);
     if (agreementOf(text, sign.text()) != Agreement::agrees) continue;
     if (found || sign.is_repeated) return std::nullopt;

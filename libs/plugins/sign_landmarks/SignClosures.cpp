@@ -66,7 +66,7 @@ class Proposals {
       if (other == id || agreementOf(text, signOf(view_, other).text()) != Agreement::agrees) continue;
       is_repeated = is_repeated || signOf(view_, other).is_repeated;
       if (id < other) continue;
-      if (tracks_.isRecent(known, options_.recent_travel) && view_.areJoined(id.session, other.session)) {
+      if (tracks_.isRecent(known, options_.recent_travel) && view_.areAligned(id.session, other.session)) {
         // Both were seen recently: if they are far from each other, they are two signs with the same text.
         const bool is_far = (view_.graph.value(own.variable) - view_.graph.value(known.variable)).norm() > kOfOneSign;
         if (is_far) repeated_.insert(other);
@@ -141,7 +141,7 @@ mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOption
     if (gone.count(a->first) > 0) continue;
     auto merged = std::make_shared<SignPayload>(signOf(view, a->first));
     for (auto b = std::next(a); b != tracks.known().end(); ++b) {
-      if (gone.count(b->first) > 0 || !view.areJoined(a->first.session, b->first.session)) continue;
+      if (gone.count(b->first) > 0 || !view.areAligned(a->first.session, b->first.session)) continue;
       const SignPayload& other = signOf(view, b->first);
       const auto agreement = agreementOf(merged->text(), other.text());
       const bool is_misread = agreement == Agreement::contradicts && mayBeMisread(merged->text(), other.text());

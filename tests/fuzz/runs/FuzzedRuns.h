@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/testing/Program.h>
+#include <omnimapper/testing/ChildProgram.h>
 
 #include <array>
 #include <cstdint>

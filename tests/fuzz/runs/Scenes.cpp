@@ -6,8 +6,8 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/Program.h>
 
 #include <algorithm>
 #include <stdexcept>

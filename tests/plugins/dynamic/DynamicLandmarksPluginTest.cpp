@@ -10,7 +10,7 @@
 #include "plan/GeoJson.h"
 #include "scene/SceneLandmarks.h"
 
-namespace omnimapper::plugins::moveable_things_plugin_test {
+namespace omnimapper::plugins::dynamic_landmarks_plugin_test {
 namespace {
 
 using testing::SimulatedLog;
@@ -184,4 +184,4 @@ TEST(MovedThingPayload, ComesBackFromBytes) {
 }
 
 }  // namespace
-}  // namespace omnimapper::plugins::moveable_things_plugin_test
+}  // namespace omnimapper::plugins::dynamic_landmarks_plugin_test

@@ -123,7 +123,7 @@ TEST_P(MoveableSurfaces, TwoThatMovedAndHoldOneAnotherAreUnconstrained) {
 INSTANTIATE_TEST_SUITE_P(Forms, MoveableSurfaces, ::testing::Values(Kind::plane, Kind::wall),
                          [](const auto& info) { return info.param == Kind::wall ? "Wall" : "Plane"; });
 
-TEST(MoveableThings, APointOnAMovedWallMovesWithIt) {
+TEST(DynamicLandmarks, APointOnAMovedWallMovesWithIt) {
   MoveableRoom room;
   addPoints(room);
   addWalls(room, Kind::wall);
@@ -137,7 +137,7 @@ TEST(MoveableThings, APointOnAMovedWallMovesWithIt) {
   expectWhole(room);
 }
 
-TEST(MoveableThings, SeenAsPlanesAndAfterTheMoveAsLinesOfOneHeight) {
+TEST(DynamicLandmarks, SeenAsPlanesAndAfterTheMoveAsLinesOfOneHeight) {
   MoveableRoom room;
   addPoints(room);
   addWalls(room, Kind::plane, MeasuredAs::as_planes);
@@ -148,7 +148,7 @@ TEST(MoveableThings, SeenAsPlanesAndAfterTheMoveAsLinesOfOneHeight) {
   expectWhole(room);
 }
 
-TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
+TEST(DynamicLandmarks, WhatIsDeterminedNowhereIsGivenUp) {
   MoveableRoom room;
   addPoints(room);
   addWalls(room, Kind::plane);
@@ -169,7 +169,7 @@ TEST(MoveableThings, WhatIsDeterminedNowhereIsGivenUp) {
   expectWhole(room);
 }
 
-TEST(MoveableThings, ASessionThatOnlyMovedOnesTieToTheMapStaysTied) {
+TEST(DynamicLandmarks, ASessionThatOnlyMovedOnesTieToTheMapStaysTied) {
   MoveableRoom room(1, true);
   room.addPoint({2, 1}, {2, 2});  // no longer three metres apart
   room.addPoint({-1, 1}, {-1, -2});

@@ -68,7 +68,7 @@ TEST_F(PlaneMaps, ASessionOfUnknownPlaceIsTiedOnlyByWhatIsTested) {
 }
 
 // A wall fits many places. A plugin that distinguishes them ties the session, and then it is the same wall.
-TEST_F(PlaneMaps, ASessionThatOthersSeekInTheMapKeepsItsLandmarksToItselfUntilItIsJoined) {
+TEST_F(PlaneMaps, ASessionThatOthersSeekInTheMapKeepsItsLandmarksToItselfUntilItIsAligned) {
   driveTo({});
   for (int i = 0; i < 3; ++i) see(planesOf({wallPlane(3, -1, 1)}));
   run_.map.sessions = {{0, "first", {}, true}, {1, "second", {}, false}};
@@ -79,7 +79,7 @@ TEST_F(PlaneMaps, ASessionThatOthersSeekInTheMapKeepsItsLandmarksToItselfUntilIt
   ASSERT_EQ(active().size(), 2U);
   EXPECT_EQ(active()[1].evidence, 3U);
   for (const auto& [id, record] : run_.graph.factors()) EXPECT_FALSE(record.tags.hypothesis);
-  run_.map.sessions[1].joined = true;
+  run_.map.sessions[1].aligned = true;
   plugin_->leaveSeeking(false);
   commit();
   ASSERT_EQ(active().size(), 1U);
@@ -107,7 +107,7 @@ TEST_F(PlaneMaps, AreKnownAgainWhereTheirSessionWasPlaced) {
 }
 
 // Two walls may look like one by chance while the relative pose of their sessions is unknown.
-TEST_F(PlaneMaps, LandmarksOfSessionsThatAreNotJoinedAreNotMerged) {
+TEST_F(PlaneMaps, LandmarksOfSessionsThatAreNotAlignedAreNotMerged) {
   driveTo({});
   for (int i = 0; i < 3; ++i) see(planesOf({wallPlane(3, -1, 1)}));
   run_.map.sessions = {{0, "first", {}, true}, {1, "second", {}, false}};
@@ -118,7 +118,7 @@ TEST_F(PlaneMaps, LandmarksOfSessionsThatAreNotJoinedAreNotMerged) {
   run_.graph.setValue(active()[1].variables[0], run_.graph.value(active()[0].variables[0]));
   commit();
   EXPECT_EQ(active().size(), 2U);
-  run_.map.sessions[1].joined = true;
+  run_.map.sessions[1].aligned = true;
   commit();
   EXPECT_EQ(active().size(), 1U);
 }

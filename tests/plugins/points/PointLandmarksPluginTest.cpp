@@ -210,7 +210,7 @@ TEST(PointLandmarksPlugin, AMapIsReadBackAndItsPointsAreKnownAgain) {
   testing::run(*second, second_log.observations());
   const auto view = second->view();
   ASSERT_EQ(view.map.sessions.size(), 2U);
-  EXPECT_TRUE(view.map.sessions.back().joined);
+  EXPECT_TRUE(view.map.sessions.back().aligned);
   EXPECT_EQ(view.map.landmarks.size(), options.beacons.positions.size()) << "each point is one landmark of both";
   EXPECT_LT(worstPoint(view, log, options.beacons.positions), 0.15);
 }

@@ -148,7 +148,7 @@ TEST(RelationsFound, WhatIsRefusedAsOneLineMayBeInParallel) {
   EXPECT_TRUE(place.names({{{"walls_aligned", {a, b}}, false}, {{"wall_turn", {a, b}}, false}}).empty());
 }
 
-TEST(RelationsFound, TieNoSessionThatIsNotJoined) {
+TEST(RelationsFound, TieNoSessionThatIsNotAligned) {
   Place place;
   place.map().sessions = {{0, "", {0, 0}, true}, {1, "", {1, 0}, false}};
   place.addWall(kBox[0]);
@@ -156,7 +156,7 @@ TEST(RelationsFound, TieNoSessionThatIsNotJoined) {
   EXPECT_TRUE(place.relations().empty());
   place.addWall({{9, 4}, {9, 0}}, 1);
   EXPECT_EQ(place.names(), Names{"perpendicular"}) << "within the session all is as ever";
-  place.map().sessions[1].joined = true;
+  place.map().sessions[1].aligned = true;
   EXPECT_EQ(place.relations().size(), 2U);
 }
 

@@ -210,7 +210,7 @@ struct Continued {
   std::unique_ptr<mapper::Engine> engine;
 };
 
-TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreJoined) {
+TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreAligned) {
   const SimulatedLog log(drive(1));
   const Mapped first(log, signsOf(log));
   const SimulatedLog again(drive(1, 2));
@@ -218,7 +218,7 @@ TEST(SignLandmarksPlugin, TwoDrivesThatShareTwoSignsAreJoined) {
   const auto shared = [](int number) { return std::to_string((number == 2 || number == 3 ? 200 : 400) + number); };
   const Continued second(first, again, shared);
   const auto view = second.engine->view();
-  EXPECT_TRUE(view.map.sessions.back().joined);
+  EXPECT_TRUE(view.map.sessions.back().aligned);
   std::map<std::string, int> landmarks;
   for (const auto& [id, landmark] : view.map.landmarks)
     if (landmark.state == map::Landmark::State::active)
@@ -248,11 +248,11 @@ TEST(SignLandmarksPlugin, ASessionWhoseStartIsKnownStaysWhereItIs) {
   EXPECT_LT((*start).map_from_base.norm(), 0.5);
 }
 
-TEST(SignLandmarksPlugin, ADriveThatSharesNoSignIsNotJoined) {
+TEST(SignLandmarksPlugin, ADriveThatSharesNoSignIsNotAligned) {
   const SimulatedLog log(drive(1));
   const Mapped first(log, signsOf(log));
   const Continued second(first, SimulatedLog(drive(1, 2)), [](int number) { return std::to_string(400 + number); });
-  EXPECT_FALSE(second.engine->view().map.sessions.back().joined);
+  EXPECT_FALSE(second.engine->view().map.sessions.back().aligned);
 }
 
 // The robot is set down somewhere in a map that is held.

@@ -48,9 +48,9 @@ class Continue : public CutRing {
 TEST_F(Continue, TheRingCutInTwoIsTheMapOfTheRingInOnePiece) {
   const auto whole = loadMap(file("whole")), both = loadMap(file("both"));
   ASSERT_EQ(both.map.sessions.size(), 2U);
-  EXPECT_TRUE(both.map.sessions[1].joined);
+  EXPECT_TRUE(both.map.sessions[1].aligned);
   EXPECT_EQ(both.map.sessions[1].title, "b");
-  EXPECT_NE(continued_.out.find("session 1 was joined at key frame 1:"), std::string::npos) << continued_.out;
+  EXPECT_NE(continued_.out.find("session 1 was aligned at key frame 1:"), std::string::npos) << continued_.out;
   EXPECT_EQ(continued_.err, "") << "no warning is expected";
   EXPECT_NEAR(static_cast<double>(both.map.key_frames.size()), static_cast<double>(whole.map.key_frames.size()), 2);
   const auto of_whole = loadTrajectory(file("whole")), of_both = loadTrajectory(file("both"));
@@ -64,10 +64,10 @@ TEST_F(Continue, TheRingCutInTwoIsTheMapOfTheRingInOnePiece) {
   EXPECT_LT(apart, 0.02);
 }
 
-TEST_F(Continue, ASessionOfWhichNobodyKnowsWhereItBeginsIsFoundAndJoined) {
+TEST_F(Continue, ASessionOfWhichNobodyKnowsWhereItBeginsIsFoundAndAligned) {
   const auto ended = goOn(file("first/map.omnimap"), file("anywhere"), {"--set", "session.start=anywhere"});
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
-  EXPECT_NE(ended.out.find("session 1 was joined at key frame 1:"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("session 1 was aligned at key frame 1:"), std::string::npos) << ended.out;
   EXPECT_EQ(ended.err, "") << "no warning is expected";
   EXPECT_LT(distanceBetween(loadTrajectory(file("anywhere")), loadTrajectory(file("whole"))), 0.03);
   EXPECT_NE(readFile(file("anywhere/report.html")).find("relocalization"), std::string::npos);
@@ -77,12 +77,12 @@ TEST_F(Continue, EveryOutputHasBothSessions) {
   EXPECT_EQ(filesIn(file("both")), allOutputs());
   const auto summary = loadSummary(file("both"));
   ASSERT_EQ(summary["sessions"].size(), 2U);
-  EXPECT_TRUE(summary["sessions"][1]["joined"]);
+  EXPECT_TRUE(summary["sessions"][1]["aligned"]);
   EXPECT_NEAR(summary["travel_m"], 2 * log_->lapLength(), 0.02 * log_->lapLength());
   EXPECT_NEAR(summary["log_s"], omnimapper::base::secondsBetween(log_->begin(), log_->end()), 2);
   EXPECT_EQ(summary["warnings"].size(), 0U);
   const std::string report = readFile(file("both/report.html"));
-  for (const char* part : {"Sessions", "session 1 was joined at key frame 1:", "</html>"}) {
+  for (const char* part : {"Sessions", "session 1 was aligned at key frame 1:", "</html>"}) {
     EXPECT_NE(report.find(part), std::string::npos) << part;
   }
   mrpt::opengl::COpenGLScene scene;
@@ -109,7 +109,7 @@ TEST_F(Continue, ALogThatStartsFarFromWhereItIsSaidToIsFoundInTheWholeMap) {
   ASSERT_TRUE(endedWith(ExitCode::ok, goOn(file("first"), file("far"),
                                            {"--set", "session.start=pose", "--set", "session.start_x_m=30", "--set",
                                             "session.start_y_m=40"})));
-  EXPECT_TRUE(loadSummary(file("far"))["sessions"][1]["joined"]);
+  EXPECT_TRUE(loadSummary(file("far"))["sessions"][1]["aligned"]);
   EXPECT_NEAR(errorAgainst(*log_, loadTrajectory(file("far"))), errorAgainst(*log_, loadTrajectory(file("whole"))),
               0.02);
 }
@@ -119,9 +119,9 @@ TEST_F(Continue, ALogOfAnotherBuildingStaysUnalignedWithAWarning) {
   options.place = SimulatedLogOptions::Place::box;
   SimulatedLog(options).writeRawlog(file("box.rawlog"));
   const auto ended = map({file("box.rawlog")}, file("unaligned"), {"--continue", file("first")});
-  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never joined", "[session] start", "in another place"}));
-  EXPECT_NE(ended.out.find("session 1 was never joined"), std::string::npos);
-  EXPECT_FALSE(loadSummary(file("unaligned"))["sessions"][1]["joined"]);
+  EXPECT_TRUE(endedWith(ExitCode::ok, ended, {"session 1 was never aligned", "[session] start", "in another place"}));
+  EXPECT_NE(ended.out.find("session 1 was never aligned"), std::string::npos);
+  EXPECT_FALSE(loadSummary(file("unaligned"))["sessions"][1]["aligned"]);
   EXPECT_EQ(loadSummary(file("unaligned"))["verdict"]["verdict"], "suspicious");
   const auto before = loadMap(file("first")), after = loadMap(file("unaligned"));
   for (const auto& frame : before.map.key_frames) {
@@ -210,7 +210,7 @@ TEST(ContinueRecording, AcesCutInTwoIsAsGoodAsInOnePiece) {
   ASSERT_TRUE(
       endedWith(ExitCode::ok, map({scratch / "b.rawlog"}, scratch / "both", {"--continue", scratch / "first"})));
   const auto both = loadMap(scratch / "both");
-  EXPECT_TRUE(both.map.sessions.at(1).joined);
+  EXPECT_TRUE(both.map.sessions.at(1).aligned);
   const auto of_both = loadTrajectory(scratch / "both");
   const auto checked = omnimapper::eval::readRelations(*relations);
   omnimapper::eval::RelationOptions options;

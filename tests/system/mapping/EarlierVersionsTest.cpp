@@ -46,7 +46,7 @@ TEST_F(EarlierVersions, AMapIsContinuedAndItsLandmarksAreMeasuredAgain) {
   ASSERT_TRUE(endedWith(ExitCode::ok, ended));
   const auto both = loadMap(out_);
   ASSERT_EQ(both.map.sessions.size(), 2U);
-  EXPECT_TRUE(both.map.sessions[1].joined);
+  EXPECT_TRUE(both.map.sessions[1].aligned);
   EXPECT_GT(both.map.key_frames.size(), kKeyFrames + 10);
   std::set<omnimapper::base::LandmarkId> measured_again;
   for (const auto& [id, record] : both.graph.factors()) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "../../sim/CameraFixture.h"
-#include "PerceivedLog.h"
+#include "PerceiveRuns.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/MarkerPicture.h>
 
-#include "PerceivedLog.h"
+#include "PerceiveRuns.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include <sstream>
 
-#include "PerceivedLog.h"
+#include "PerceiveRuns.h"
 
 namespace {
 

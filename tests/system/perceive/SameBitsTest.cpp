@@ -1,7 +1,7 @@
 // The kernels for AVX2 and those for any x86-64 give the same bytes for one log.
 #include <omnimapper/obs/CObservationPlanes.h>
 
-#include "PerceivedLog.h"
+#include "PerceiveRuns.h"
 
 namespace {
 

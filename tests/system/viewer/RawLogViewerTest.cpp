@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "../../obs/FilledObjects.h"
-#include "../perceive/PerceivedLog.h"
+#include "../perceive/PerceiveRuns.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "plan/FloorPlan.h"
 #include "plan/LandmarkShapes.h"
+#include "plan/PlanShape.h"
 
 namespace omnimapper::exports {
 
@@ -164,15 +164,15 @@ map::Place placeOf(const ShapedLandmark& shaped, const mapper::State& state, con
   return place;
 }
 
-bool isJoined(std::uint16_t session, const map::Map& map) {
+bool isAligned(std::uint16_t session, const map::Map& map) {
   return std::none_of(map.sessions.begin(), map.sessions.end(),
-                      [&](const map::Session& each) { return each.number == session && !each.joined; });
+                      [&](const map::Session& each) { return each.number == session && !each.aligned; });
 }
 
 std::optional<map::LastPose> lastPoseOf(const map::Map& map) {
   std::optional<map::LastPose> last;
   for (const auto& frame : map.key_frames) {
-    if (!isJoined(frame.id.session, map)) continue;
+    if (!isAligned(frame.id.session, map)) continue;
     const auto& pose = frame.map_from_base;
     last = {pose.x(), pose.y(), pose.yaw(), frame.stamp, frame.id.session};
   }
@@ -186,7 +186,7 @@ map::Places placesOf(const mapper::State& state) {
   for (const auto& frame : state.map.key_frames) frames[frame.pose] = &frame;
   map::Places places;
   for (const auto& shaped : shapesOf(state))
-    if (shaped.isSomewhere() && isJoined(shaped.landmark->id.session, state.map))
+    if (shaped.isSomewhere() && isAligned(shaped.landmark->id.session, state.map))
       places.places.push_back(placeOf(shaped, state, frames));
   places.last_pose = lastPoseOf(state.map);
   return places;

@@ -6,7 +6,7 @@
 namespace omnimapper::exports {
 
 /// The places that a map is queried by: the landmarks that outputs show and that have a position, and the last pose of
-/// the newest session that is joined to the map.
+/// the newest session that is aligned with the map.
 map::Places placesOf(const mapper::State& state);
 
 }  // namespace omnimapper::exports

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "plan/FloorPlan.h"
 #include "plan/LevelFrame.h"
+#include "plan/PlanShape.h"
 
 namespace omnimapper::exports {
 

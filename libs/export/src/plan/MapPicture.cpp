@@ -10,8 +10,8 @@
 
 #include "grid/ScaleBar.h"
 #include "pictures/Legend.h"
-#include "plan/FloorPlan.h"
 #include "plan/LandmarkColours.h"
+#include "plan/PlanShape.h"
 
 namespace omnimapper::exports {
 

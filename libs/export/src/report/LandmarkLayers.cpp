@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "plan/FloorPlan.h"
 #include "plan/LandmarkColours.h"
+#include "plan/PlanShape.h"
 #include "report/Html.h"
 
 namespace omnimapper::exports {

@@ -76,11 +76,11 @@ std::string drawSessionTable(const map::Map& map) {
     rows += "<tr>" + numberCell(std::to_string(metrics.number)) + cell(draw::escapeMarkup(session->title)) +
             numberCell(grouped(metrics.key_frames)) + numberCell(base::fixed(metrics.travel, 1)) +
             numberCell(base::fixed(metrics.seconds, 1)) +
-            cell(first ? "" : draw::escapeMarkup(mapper::joinedText(*session))) + "</tr>\n";
+            cell(first ? "" : draw::escapeMarkup(mapper::alignedText(*session))) + "</tr>\n";
   }
   return "<section class=\"card\"><h2>Sessions</h2><div class=\"scroll\"><table class=\"sortable\"><thead><tr><th "
          "class=\"num\">session</th><th>log</th><th class=\"num\">key frames</th><th class=\"num\">travel [m]</th><th "
-         "class=\"num\">time [s]</th><th>joined</th></tr></thead><tbody>\n" +
+         "class=\"num\">time [s]</th><th>aligned</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></section>\n";
 }
 

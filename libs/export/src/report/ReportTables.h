@@ -8,7 +8,7 @@
 
 namespace omnimapper::exports {
 
-/// Distance travelled by each session and where it was joined; empty for a map with one session.
+/// Distance travelled by each session and where it was aligned; empty for a map with one session.
 std::string drawSessionTable(const map::Map& map);
 /// Stamp of the first key frame of the newest session, from which the times of the log are counted; no stamp for an
 /// empty map.

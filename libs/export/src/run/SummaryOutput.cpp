@@ -88,8 +88,8 @@ Json sessionsOf(const map::Map& map) {
   Json list = Json::array();
   const auto all = map::sessionMetrics(map);
   for (const map::Session& session : map.sessions) {
-    Json entry = {{"number", session.number}, {"title", session.title}, {"joined", session.joined}};
-    if (session.joined_at) entry["joined_at"] = toString(*session.joined_at);
+    Json entry = {{"number", session.number}, {"title", session.title}, {"aligned", session.aligned}};
+    if (session.aligned_at) entry["aligned_at"] = toString(*session.aligned_at);
     for (const auto& metrics : all) {
       if (metrics.number != session.number) continue;
       entry["key_frames"] = metrics.key_frames;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/FloorPlan.h"
 #include "plan/LandmarkColours.h"
+#include "plan/PlanShape.h"
 
 namespace omnimapper::exports {
 

@@ -38,7 +38,7 @@ void updateSeeking(const PluginSet& plugins, const map::Map& map) {
     return seeker && seeker->isSeeking();
   };
   const bool any_seeks =
-      !map.sessions.back().joined && std::any_of(plugins.measurement.begin(), plugins.measurement.end(), is_seeking);
+      !map.sessions.back().aligned && std::any_of(plugins.measurement.begin(), plugins.measurement.end(), is_seeking);
   for (const auto& [section, plugin] : plugins.measurement) {
     if (auto* other = dynamic_cast<LeavesSeeking*>(plugin.get())) other->leaveSeeking(any_seeks);
   }
@@ -163,7 +163,7 @@ void BackEnd::solve(const graph::SolveOptions& options) {
     const auto timer = state_.times.measure(Stage::solve);
     estimator_.solve(options);
     if (!window_) {
-      markJoined(state_.map, state_.graph, absolute_);
+      markAligned(state_.map, state_.graph, absolute_);
     } else if (!window_->hasRetired()) {
       markLocated(state_.map, state_.graph, absolute_);
     }
@@ -210,9 +210,9 @@ void BackEnd::judgeMap() {
   collect(plugins_.measurement, [this](const MeasurementPlugin& plugin) { return plugin.evidence(state_.view()); });
   if (!state_.map_is_held) {
     for (const auto& session : state_.map.sessions) {
-      if (session.joined) continue;
-      evidence.push_back({"session_" + std::to_string(session.number) + "_not_joined", 1, Evidence::Says::against_it,
-                          joinedText(session) + " to the map and lies at its assumed start"});
+      if (session.aligned) continue;
+      evidence.push_back({"session_" + std::to_string(session.number) + "_not_aligned", 1, Evidence::Says::against_it,
+                          alignedText(session) + " with the map and lies at its assumed start"});
     }
   }
   if (settings_.engine.motion == Motion::planar) {
@@ -269,7 +269,7 @@ void BackEnd::retireBefore(base::Stamp stamp) {
 void BackEnd::addEstimate(base::KeyFrameId id) {
   const auto& frame = state_.map.keyFrame(id);
   const auto covariance = state_.view().covarianceBetween(state_.map.key_frames.front().id, id);
-  state_.localization.push_back({id, frame.stamp, frame.map_from_base, covariance, state_.map.sessions.back().joined});
+  state_.localization.push_back({id, frame.stamp, frame.map_from_base, covariance, state_.map.sessions.back().aligned});
 }
 
 }  // namespace omnimapper::mapper

@@ -30,13 +30,13 @@ bool Estimator::isDue() const {
   const double since_solve = static_cast<double>(state_.map.key_frames.size() - key_frames_at_solve_);
   // In a window a solve is cheap, and a current pose matters most. A hypothesis that may join the session to the map is
   // urgent, too.
-  const bool is_joined = state_.map.sessions.empty() || state_.map.sessions.back().joined;
+  const bool is_aligned = state_.map.sessions.empty() || state_.map.sessions.back().aligned;
   if (held_ > 0 && hypotheses_.anyFresh()) {
-    // The window of a session that is not joined yet grows, because no key frame leaves it.
+    // The window of a session that is not aligned yet grows, because no key frame leaves it.
     const double own = static_cast<double>(state_.map.key_frames.size() - held_);
-    return is_joined || since_solve >= options.solve_growth * own;
+    return is_aligned || since_solve >= options.solve_growth * own;
   }
-  if (held_ > 0 || (!is_joined && hypotheses_.anyFresh())) return since_solve >= options.solve_after_closure;
+  if (held_ > 0 || (!is_aligned && hypotheses_.anyFresh())) return since_solve >= options.solve_after_closure;
   const double growth = options.solve_growth * static_cast<double>(state_.map.key_frames.size());
   if (!hypotheses_.anyFresh()) return since_solve >= std::max<double>(options.solve_every, growth);
   return since_solve >= std::max<double>(options.solve_after_closure, contradicted_ ? growth / 4 : growth);

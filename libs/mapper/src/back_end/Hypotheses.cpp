@@ -65,7 +65,7 @@ void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_opt
 
 // The decision that came with the hypothesis holds its latest verdict; a verdict that changes is also logged as a new
 // entry.
-void Hypotheses::log(const graph::Verdict& verdict, const graph::FactorRecord& record, const map::Map& map,
+void Hypotheses::log(const graph::HypothesisVerdict& verdict, const graph::FactorRecord& record, const map::Map& map,
                      DecisionLog& decisions) {
   const auto entry = decision_of_.find(verdict.factor);
   const bool fresh = std::find(fresh_.begin(), fresh_.end(), verdict.factor) != fresh_.end();

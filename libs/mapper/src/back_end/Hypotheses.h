@@ -26,7 +26,7 @@ class Hypotheses {
              DecisionLog& decisions);
 
  private:
-  void log(const graph::Verdict& verdict, const graph::FactorRecord& record, const map::Map& map,
+  void log(const graph::HypothesisVerdict& verdict, const graph::FactorRecord& record, const map::Map& map,
            DecisionLog& decisions);
 
   graph::ConsistencyOptions options_;

@@ -64,12 +64,12 @@ void SlidingWindow::holdMap() {
 }
 
 bool SlidingWindow::mayRetire() const {
-  constexpr std::size_t kStanding = 10;  // key frames after the one that joined the session
+  constexpr std::size_t kStanding = 10;  // key frames after the one that aligned the session
   const auto& session = map_.sessions.back();
   if (hasRetired()) return true;
-  if (!session.joined) return false;
-  if (!session.joined_at || !map_.key_frames.find(*session.joined_at)) return true;
-  return map_.key_frames.position(*session.joined_at) + kStanding < map_.key_frames.size();
+  if (!session.aligned) return false;
+  if (!session.aligned_at || !map_.key_frames.find(*session.aligned_at)) return true;
+  return map_.key_frames.position(*session.aligned_at) + kStanding < map_.key_frames.size();
 }
 
 std::vector<base::KeyFrameId> SlidingWindow::retire(base::Stamp stamp) {

@@ -25,10 +25,10 @@ class SlidingWindow {
   /// factors, which then have no effect any more.
   void holdMap();
   /// Retires the key frames that have left the window and are older than `stamp`, oldest first. Retires none before the
-  /// session has been joined for some key frames, because its place in the map is not reliable until then. Returns
+  /// session has been aligned for some key frames, because its place in the map is not reliable until then. Returns
   /// their ids.
   std::vector<base::KeyFrameId> retire(base::Stamp stamp);
-  /// Whether any key frame was retired. From then on the session stays joined.
+  /// Whether any key frame was retired. From then on the session stays aligned.
   bool hasRetired() const { return held_ > of_map_; }
   /// Number of key frames that are held; they come first in the map's order.
   std::size_t held() const { return held_; }

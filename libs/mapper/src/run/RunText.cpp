@@ -76,7 +76,7 @@ std::string toText(const RunResult& result) {
   } else if (result.sessions.size() > 1) {
     const auto& session = result.sessions.back();
     sessions = "sessions          " + std::to_string(result.sessions.size()) + ", the new one with " +
-               std::to_string(result.new_key_frames) + " key frames; " + joinedText(session) + "\n";
+               std::to_string(result.new_key_frames) + " key frames; " + alignedText(session) + "\n";
   }
   const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
   const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which is not changed)" : "";

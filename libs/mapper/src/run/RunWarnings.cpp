@@ -24,7 +24,7 @@ void warnOfRefusedTies(const map::Session& session, bool stopped, Engine& engine
   const TestedTies ties = testedTies(engine.view().graph, session.number);
   if (!ties.areMostlyRefused()) return;
   engine.warn(
-      joinedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
+      alignedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
       std::to_string(ties.refused + ties.accepted) + " measurements that tie it to the map " +
       (stopped ? "do not fit, or were not confirmed before the run was interrupted"
                : "do not fit: it may be aligned to a wrong place that looks similar, or the map is distorted there. "
@@ -86,19 +86,18 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring,
 // The session is still unaligned, as an earlier run warned already.
 void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& engine) {
   for (std::size_t i = 0; i + 1 < sessions.size(); ++i) {
-    if (!sessions[i].joined)
-      engine.warn(joinedText(sessions[i]) +
-                  " to the map and still is not: it lies at its assumed start, which may be wrong");
+    if (!sessions[i].aligned)
+      engine.warn(alignedText(sessions[i]) + " with the map: it lies at its assumed start, which may be wrong");
   }
 }
 
 void warnOfSession(const map::Session& session, bool stopped, Engine& engine) {
-  if (session.joined) return warnOfRefusedTies(session, stopped, engine);
+  if (session.aligned) return warnOfRefusedTies(session, stopped, engine);
   if (engine.view().map_is_held) return;
   engine.warn(
-      joinedText(session) +
-      " to the map: it lies where [session] start or a single "
-      "relocalization places it, which may be wrong; see the refused closures and relocalizations in the report. Was "
+      alignedText(session) +
+      " with the map: it lies where [session] start or a single relocalization places it, which may be wrong; see the "
+      "refused closures and relocalizations in the report. Was "
       "it recorded in another place? If not, drive on where the map was made, or give a better start (origin, pose, or "
       "anywhere)");
 }

@@ -27,14 +27,14 @@ bool bindsPose(const graph::FactorRecord& record, const graph::Graph& graph, std
 
 }  // namespace
 
-void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
+void markAligned(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
   if (map.sessions.size() < 2) return;
   const std::uint16_t first = map.sessions.front().number;
   std::map<std::uint16_t, std::uint16_t> group;  // sessions that are tied to each other have the same number
   for (auto& session : map.sessions) {
     group[session.number] = session.number;
-    session.joined = session.number == first;
-    session.joined_at.reset();
+    session.aligned = session.number == first;
+    session.aligned_at.reset();
   }
   for (const auto& [id, record] : graph.factors()) {
     if (record.weight <= 0) continue;
@@ -48,27 +48,27 @@ void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::st
       if (group[session.number] != gone) continue;
       group[session.number] = kept;
       if (kept != first) continue;
-      session.joined = true;
-      session.joined_at = frameOf(record, to, map);
+      session.aligned = true;
+      session.aligned_at = frameOf(record, to, map);
     }
   }
 }
 
 void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute) {
   auto& session = map.sessions.back();
-  session.joined = false;
-  session.joined_at.reset();
-  const auto is_joined = [&](base::VariableId id) {
+  session.aligned = false;
+  session.aligned_at.reset();
+  const auto is_aligned = [&](base::VariableId id) {
     return id.session != session.number &&
            std::any_of(map.sessions.begin(), map.sessions.end(),
-                       [&](const auto& other) { return other.number == id.session && other.joined; });
+                       [&](const auto& other) { return other.number == id.session && other.aligned; });
   };
   for (const auto& [id, record] : graph.factors()) {
-    const bool ties = std::any_of(record.variables.begin(), record.variables.end(), is_joined);
+    const bool ties = std::any_of(record.variables.begin(), record.variables.end(), is_aligned);
     if (record.weight <= 0 || (!ties && absolute.count(record.tags.owner) == 0)) continue;
     if (!bindsPose(record, graph, session.number)) continue;
-    session.joined = true;
-    session.joined_at = frameOf(record, session.number, map);
+    session.aligned = true;
+    session.aligned_at = frameOf(record, session.number, map);
     return;
   }
 }
@@ -84,10 +84,10 @@ TestedTies testedTies(const graph::Graph& graph, std::uint16_t session) {
   return ties;
 }
 
-std::string joinedText(const map::Session& session) {
+std::string alignedText(const map::Session& session) {
   const std::string name = "session " + std::to_string(session.number);
-  if (!session.joined) return name + " was never joined";
-  return name + " was joined" + (session.joined_at ? " at key frame " + toString(*session.joined_at) : "");
+  if (!session.aligned) return name + " was never aligned";
+  return name + " was aligned" + (session.aligned_at ? " at key frame " + toString(*session.aligned_at) : "");
 }
 
 }  // namespace omnimapper::mapper

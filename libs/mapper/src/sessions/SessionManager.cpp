@@ -11,7 +11,7 @@ void SessionManager::continueFrom(SavedMap saved, const SessionStart& start) {
   state_.graph = std::move(saved.graph);
   state_.sections = std::move(saved.sections);
   session.number = static_cast<std::uint16_t>(state_.map.sessions.empty() ? 0 : state_.map.sessions.back().number + 1);
-  session.joined = false;
+  session.aligned = false;
   state_.graph.setSession(session.number);
   back_end_.beginSession(session, start);
   back_end_.resume();

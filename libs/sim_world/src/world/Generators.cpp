@@ -1,9 +1,8 @@
-#include "generators.h"
-
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/sim_world/Generators.h>
 
+#include "PlaceGenerators.h"
 #include "PlanChecks.h"
 
 namespace omnimapper::sim {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generators.h"
+#include "PlaceGenerators.h"
 
 namespace omnimapper::sim {
 

@@ -1,4 +1,4 @@
-#include "generators.h"
+#include "PlaceGenerators.h"
 
 namespace omnimapper::sim {
 

@@ -1,5 +1,5 @@
+#include "PlaceGenerators.h"
 #include "PlanVariation.h"
-#include "generators.h"
 
 namespace omnimapper::sim {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include "PlaceGenerators.h"
 #include "PlanVariation.h"
-#include "generators.h"
 
 namespace omnimapper::sim {
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "generators.h"
+#include "PlaceGenerators.h"
 
 namespace omnimapper::sim {
 

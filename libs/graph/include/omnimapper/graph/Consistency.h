@@ -33,7 +33,7 @@ struct ConsistencyOptions {
 };
 
 /// What was decided about one hypothesis, and why.
-struct Verdict {
+struct HypothesisVerdict {
   base::FactorId factor;
   bool accepted = false;
   bool changed = false;                   ///< the decision differs from the one before the test
@@ -51,7 +51,8 @@ struct Verdict {
 /// Returns a verdict for each fresh hypothesis, in the order of `fresh`, then for each older hypothesis whose verdict
 /// changed, in the order of ids. Throws Error(internal) as solve() does, and if a fresh factor does not exist or is not
 /// a hypothesis.
-std::vector<Verdict> testConsistency(Graph& graph, const std::vector<base::FactorId>& fresh,
-                                     const ConsistencyOptions& options = {}, const SolveOptions& solve_options = {});
+std::vector<HypothesisVerdict> testConsistency(Graph& graph, const std::vector<base::FactorId>& fresh,
+                                               const ConsistencyOptions& options = {},
+                                               const SolveOptions& solve_options = {});
 
 }  // namespace omnimapper::graph

@@ -16,8 +16,8 @@ struct Session {
   std::uint16_t number = 0;
   std::string title;        ///< name of its log
   base::VariableId anchor;  ///< map_from_session: where the session began, as estimated now
-  bool joined = true;       ///< a measurement ties it to the first session; true for the first session itself
-  std::optional<base::KeyFrameId> joined_at = std::nullopt;  ///< the key frame whose measurement tied it, if any
+  bool aligned = true;      ///< a measurement ties it to the first session; true for the first session itself
+  std::optional<base::KeyFrameId> aligned_at = std::nullopt;  ///< the key frame whose measurement tied it, if any
 };
 
 /// The map as plain data. Lengths are in [m] and angles in [rad]. Copies are cheap (base::IdTable).

@@ -56,7 +56,7 @@ MapSection sessionsToSection(const Map& map);
 /// Throws Error(unreadable_input) as framesFromSection().
 std::vector<Session> sessionsFromSection(const MapSection& section);
 /// The sessions of an old map that lacks this section: one session for each session number of the key frames. Each
-/// session is joined, and its anchor is the pose of its first key frame.
+/// session is aligned, and its anchor is the pose of its first key frame.
 std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
 
 /// The name of the section that holds the answers to queries. Every run that writes a map writes this section anew, so

@@ -13,10 +13,10 @@ namespace omnimapper::mapper {
 /// Marks for each session of `map` whether factors of positive weight connect it to the first session, directly or
 /// through other sessions, and which key frame such a factor connected first. A factor of one of the plugins `absolute`
 /// connects a session to the map itself. A factor between landmarks alone, without a pose, does not connect sessions.
-void markJoined(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
+void markAligned(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
 /// Does the same for only the last session of a map whose older sessions are held: marks whether a factor connects the
-/// last session to a joined session or, if the factor is of a plugin of `absolute`, to the map itself.
+/// last session to an aligned session or, if the factor is of a plugin of `absolute`, to the map itself.
 void markLocated(map::Map& map, const graph::Graph& graph, const std::set<std::string>& absolute);
 
 /// Counts of the hypotheses (measurements and closures) that connect a session to others. `accepted`: those that the
@@ -29,7 +29,7 @@ struct TestedTies {
 };
 TestedTies testedTies(const graph::Graph& graph, std::uint16_t session);
 
-/// "session 1 was joined at key frame 1:4" or "session 1 was never joined".
-std::string joinedText(const map::Session& session);
+/// "session 1 was aligned at key frame 1:4" or "session 1 was never aligned".
+std::string alignedText(const map::Session& session);
 
 }  // namespace omnimapper::mapper

@@ -17,11 +17,11 @@ struct LocalizationEstimate {
   /// Covariance in the tangent at the pose: x y z [m], rotation vector [rad]; the map itself counts as exact. None
   /// while some direction of a variable is undetermined.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
-  bool joined = false;  ///< a measurement had tied the session to the map
+  bool aligned = false;  ///< a measurement had tied the session to the map
 
   /// Covariance of the position along the map's axes [m^2]; none if `covariance` is none.
   std::optional<Eigen::Matrix3d> positionCovariance() const;
-  /// Whether the session is joined and its position is certain: the standard deviation in the least certain direction
+  /// Whether the session is aligned and its position is certain: the standard deviation in the least certain direction
   /// on the floor is at most kLocatedSigma [m]. The height is left out because a planar laser does not measure the
   /// height.
   bool located() const;

@@ -30,7 +30,7 @@ struct SessionPlace {
   SessionStart start;      ///< where that key frame is, and how well this is known
 };
 
-/// Why the session cannot be placed, for example because it is not the newest or is joined; empty if it can be placed.
+/// Why the session cannot be placed, for example because it is not the newest or is aligned; empty if it can be placed.
 std::string whyFixed(const SessionPlace& place, const graph::Graph& graph, const map::Map& map);
 
 /// Moves the whole session, so that the key frame is at its new pose: key frames, anchor, the session's own landmarks,

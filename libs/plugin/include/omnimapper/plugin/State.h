@@ -25,8 +25,8 @@ struct State {
   std::optional<Eigen::MatrixXd> jointCovariance(const std::vector<base::VariableId>& ids) const {
     return uncertainty.joint(graph, ids);
   }
-  /// Whether the relative pose of two sessions is known: they are the same session, or both are joined to the map.
-  bool areJoined(std::uint16_t session, std::uint16_t other) const;
+  /// Whether the relative pose of two sessions is known: they are the same session, or both are aligned with the map.
+  bool areAligned(std::uint16_t session, std::uint16_t other) const;
   /// Every factor on the landmark's variables, in the order of ids.
   std::vector<base::FactorId> factorsOf(base::LandmarkId id) const;
   /// Active landmarks of the plugin with this INI section, which new observations may be associated with.

@@ -1,5 +1,5 @@
 #include <fcntl.h>
-#include <omnimapper/testing/Program.h>
+#include <omnimapper/testing/ChildProgram.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/resource.h>

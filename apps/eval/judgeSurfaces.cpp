@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "Verbs.h"
+#include "EvalVerbs.h"
 #include "program/Program.h"
 
 namespace omnimapper::evaluation {

@@ -1,4 +1,4 @@
-#include "plan/FloorPlan.h"
+#include "plan/PlanShape.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // that map with [session] start = anywhere, in both orders. The result is compared with the map of the log in one
 // piece. Prints a Markdown table.
 //
-// Example: bench-joining -i ini/laser2d.ini -r aces.rawlog -o out/joining
+// Example: bench-session_alignment -i ini/laser2d.ini -r aces.rawlog -o out/alignment
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/geometry/Conversions.h>
@@ -82,7 +82,7 @@ double travelUntilAligned(const map::Map& map) {
   for (const auto& frame : map.key_frames) {
     if (frame.id.session != session.number) continue;
     if (before) travel += (frame.map_from_base.translation() - before->map_from_base.translation()).norm();
-    if (frame.id == session.joined_at) break;
+    if (frame.id == session.aligned_at) break;
     before = &frame;
   }
   return travel;
@@ -95,7 +95,7 @@ void printRow(const std::string& name, const mapper::RunResult& first, const map
   const auto error = eval::absoluteTrajectoryError(trajectoryOf(both), whole, pairing).translation;
   std::string aligned = "no";
   char text[64];
-  if (both.sessions.back().joined) {
+  if (both.sessions.back().aligned) {
     std::snprintf(text, sizeof text, "after %.1f m", travelUntilAligned(both));
     aligned = text;
   }

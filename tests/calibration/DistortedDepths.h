@@ -13,7 +13,7 @@
 namespace omnimapper::calibration {
 
 /// Simulated depth images of planes, by a camera with a systematic distortion.
-struct BentDepths {
+struct DistortedDepths {
   int width = 160, height = 120;
   double sigma = 0.0023;                   ///< [1/m] noise of a pixel
   double nearest = 0.7, farthest = 3;      ///< [m] of the planes, in the middle of the image

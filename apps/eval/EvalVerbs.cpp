@@ -1,4 +1,4 @@
-#include "Verbs.h"
+#include "EvalVerbs.h"
 
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/eval/Report.h>
