@@ -206,14 +206,14 @@ void Batch::addHypothesis(graph::FactorRecord record, Decision decision) {
 
 base::LandmarkId Batch::addLandmark(const std::string& kind, std::vector<base::VariableId> variables,
                                     std::shared_ptr<const map::LandmarkPayload> payload,
-                                    std::optional<base::Stamp> seen) {
-  added_landmarks_.push_back({kind, std::move(variables), std::move(payload), seen});
+                                    std::optional<base::Stamp> measured_at) {
+  added_landmarks_.push_back({kind, std::move(variables), std::move(payload), measured_at});
   return {kProvisionalSession, static_cast<std::uint32_t>(added_landmarks_.size() - 1)};
 }
 
 void Batch::addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload,
-                        std::optional<base::Stamp> seen) {
-  evidence_.push_back({id, std::move(payload), seen});
+                        std::optional<base::Stamp> measured_at) {
+  evidence_.push_back({id, std::move(payload), measured_at});
 }
 
 void Batch::describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload) {
@@ -240,7 +240,7 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
     for (const auto id : added.variables) landmark.variables.push_back(finalId(id, applied.variables));
     landmark.payload = added.payload;
     landmark.evidence = 1;
-    landmark.first_seen = landmark.last_seen = added.seen.value_or(origin.stamp);
+    landmark.first_seen = landmark.last_seen = added.measured_at.value_or(origin.stamp);
     map.landmarks.add(graph.session(), std::move(landmark));
   }
   for (const auto& [id, weight] : batch.weights()) graph.setWeight(id, weight);
@@ -249,9 +249,9 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
     map::Landmark& landmark = *map.landmarks.edit(finalId(evidence.landmark, applied.landmarks));
     if (evidence.is_measurement) {
       ++landmark.evidence;
-      const base::Stamp seen = evidence.seen.value_or(origin.stamp);
-      landmark.first_seen = std::min(landmark.first_seen, seen);
-      landmark.last_seen = std::max(landmark.last_seen, seen);
+      const base::Stamp measured_at = evidence.measured_at.value_or(origin.stamp);
+      landmark.first_seen = std::min(landmark.first_seen, measured_at);
+      landmark.last_seen = std::max(landmark.last_seen, measured_at);
     }
     if (evidence.payload) landmark.payload = evidence.payload;
   }

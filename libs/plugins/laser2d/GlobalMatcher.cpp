@@ -62,8 +62,8 @@ std::vector<matching::LocalScan> GlobalMatcher::beams(const mapper::State& state
       continue;
     last = &*key_scan;
     last_pose = pose;
-    auto seen = beamsInBase(frame, label_);
-    all.push_back({pose + seen.local_from_sensor, std::move(seen.scan)});
+    auto local = beamsInBase(frame, label_);
+    all.push_back({pose + local.local_from_sensor, std::move(local.scan)});
   }
   return all;
 }
@@ -107,10 +107,10 @@ bool GlobalMatcher::fitsAlongTravel(const Found& found, const mapper::State& sta
     if (last && last->travel - key_scan->travel < kSpacing) continue;
     last = &*key_scan;
     const auto& frame = state.map.keyFrame(key_scan->frame);
-    const auto seen = beamsInBase(frame, label_);
-    const TPose2D guess = map_from_newest + planar(frame.map_from_base - base_from_map) + seen.local_from_sensor;
+    const auto local = beamsInBase(frame, label_);
+    const TPose2D guess = map_from_newest + planar(frame.map_from_base - base_from_map) + local.local_from_sensor;
     const auto located =
-        places_.relocalizer().locate(seen.scan, matching::SearchWindow{guess, kWindow, kWindow, kWindowTurn});
+        places_.relocalizer().locate(local.scan, matching::SearchWindow{guess, kWindow, kWindow, kWindowTurn});
     const double likelihood = located.candidates.empty() ? kNothing : located.candidates.front().log_likelihood;
     worst = std::min(worst, likelihood);
   }

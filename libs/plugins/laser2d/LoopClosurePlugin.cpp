@@ -79,8 +79,8 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
 std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
                                         History& history) {
   const auto after = std::upper_bound(history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
-                                      [](const auto& wanted, const StampedScan& seen) {
-                                        return wanted < std::tuple(seen.key_scan.frame.session, seen.stamp);
+                                      [](const auto& wanted, const StampedScan& stamped) {
+                                        return wanted < std::tuple(stamped.key_scan.frame.session, stamped.stamp);
                                       });
   double travel = 0;
   if (after != history.begin()) {
@@ -106,11 +106,11 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
   if (!has_more) return;
   static const auto kNothingSeen = std::make_shared<const matching::ScanWithNormals>();
   std::vector<LoopSearch::KeyScan> trajectory;
-  auto seen = history.begin();
+  auto stamped = history.begin();
   for (const auto& frame : view.map.key_frames) {
-    const bool has_scan = seen != history.end() && seen->key_scan.frame == frame.id;
+    const bool has_scan = stamped != history.end() && stamped->key_scan.frame == frame.id;
     const double travel = trajectory.empty() ? 0 : trajectory.back().travel;
-    trajectory.push_back(has_scan ? seen++->key_scan : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
+    trajectory.push_back(has_scan ? stamped++->key_scan : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
   }
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
 }
@@ -174,8 +174,8 @@ void LoopClosurePlugin::seekInMap(const std::string& label, const History& histo
   const auto& session = state.map.sessions.back();
   const auto& key_scan = history[index].key_scan;
   if (session.aligned || key_scan.frame.session != session.number) return;
-  const auto first = std::find_if(history.begin(), history.end(), [&](const StampedScan& seen) {
-    return seen.key_scan.frame.session == session.number;
+  const auto first = std::find_if(history.begin(), history.end(), [&](const StampedScan& stamped) {
+    return stamped.key_scan.frame.session == session.number;
   });
   const double travel = key_scan.travel - first->key_scan.travel;
   const auto begun_at = mapper::poseOf(state.graph, session.anchor).translation();
@@ -206,7 +206,7 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
   if (view.map.key_frames.empty()) return;
   std::map<std::string, std::vector<LoopSearch::KeyScan>> key_scans;
   for (const auto& [label, history] : histories_) {
-    for (const auto& seen : history) key_scans[label].push_back(seen.key_scan);
+    for (const auto& stamped : history) key_scans[label].push_back(stamped.key_scan);
   }
   auto places = std::make_shared<const ScanDatabase>(view.map, key_scans, matcher_);
   if (!places->empty()) places_ = std::move(places);
@@ -214,11 +214,11 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
 
 void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
   for (auto& [label, history] : histories_) {
-    const auto seen = std::lower_bound(history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
-                                       [](const StampedScan& one, const auto& wanted) {
-                                         return std::tuple(one.key_scan.frame.session, one.stamp) < wanted;
-                                       });
-    if (seen != history.end() && seen->key_scan.frame == frame.id) history.erase(seen);
+    const auto stamped = std::lower_bound(history.begin(), history.end(), std::tuple(frame.id.session, frame.stamp),
+                                          [](const StampedScan& one, const auto& wanted) {
+                                            return std::tuple(one.key_scan.frame.session, one.stamp) < wanted;
+                                          });
+    if (stamped != history.end() && stamped->key_scan.frame == frame.id) history.erase(stamped);
   }
 }
 

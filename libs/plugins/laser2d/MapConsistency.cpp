@@ -59,9 +59,9 @@ Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& 
   std::vector<const map::KeyFrame*> frames;
   for (const auto& frame : map.key_frames) {
     for (const auto& label : labels) {
-      auto seen = beamsInBase(frame, label);
-      if (seen.scan.hits.size() < kFewBeams) continue;
-      scans.push_back({planar(frame.map_from_base) + seen.local_from_sensor, std::move(seen.scan)});
+      auto beams = beamsInBase(frame, label);
+      if (beams.scan.hits.size() < kFewBeams) continue;
+      scans.push_back({planar(frame.map_from_base) + beams.local_from_sensor, std::move(beams.scan)});
       frames.push_back(&frame);
     }
   }

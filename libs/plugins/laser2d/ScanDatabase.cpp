@@ -54,8 +54,8 @@ const matching::Relocalizer& ScanDatabase::relocalizer() const {
   std::call_once(once_, [this] {
     std::vector<matching::MapScan> scans;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      auto seen = beamsInBase(frames_[i], labels_[i]);
-      scans.push_back({places_[i].map_from_base + seen.local_from_sensor, std::move(seen.scan)});
+      auto beams = beamsInBase(frames_[i], labels_[i]);
+      scans.push_back({places_[i].map_from_base + beams.local_from_sensor, std::move(beams.scan)});
     }
     try {
       relocalizer_ = std::make_unique<const matching::Relocalizer>(std::move(scans), matcher_, options_);

@@ -105,28 +105,28 @@ void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasur
   }
 }
 
-PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_sensor,
+PlaneMeasurement ofPlane(const obs::ObservedPlane& measured, const Se3& base_from_sensor,
                          const PlaneLandmarksOptions& options) {
-  const Plane3& in_sensor = seen.plane_in_sensor;
+  const Plane3& in_sensor = measured.plane_in_sensor;
   PlaneMeasurement measurement;
   const bool usable = in_sensor.normal.allFinite() && std::abs(in_sensor.normal.norm() - 1) < 1e-3 &&
-                      std::isfinite(in_sensor.distance) && seen.centroid.allFinite() &&
-                      allFinite(seen.outline.vertices);
+                      std::isfinite(in_sensor.distance) && measured.centroid.allFinite() &&
+                      allFinite(measured.outline.vertices);
   if (!usable) return useless(measurement, "not finite");
   const Eigen::Matrix3d covariance =
-      withRoughness(in_sensor, seen.covariance, seen.centroid, options.plane_angle_sigma, options.plane_sigma);
+      withRoughness(in_sensor, measured.covariance, measured.centroid, options.plane_angle_sigma, options.plane_sigma);
   if (!isCovariance(covariance)) return useless(measurement, kNoCovariance);
   const Plane3 in_base = base_from_sensor * Plane3{in_sensor.normal.normalized(), in_sensor.distance};
   const Eigen::Matrix3d in_base_covariance = geometry::transportCovariance(base_from_sensor, in_sensor, covariance);
   std::vector<Eigen::Vector3d> corners;
-  for (const auto& vertex : seen.outline.vertices) corners.push_back(base_from_sensor * vertex);
+  for (const auto& vertex : measured.outline.vertices) corners.push_back(base_from_sensor * vertex);
   const landmarks::PlaneAxes axes(in_base);
   const auto hull = hullOn(axes, corners);
   if (hull.size() < 3) return useless(measurement, "its outline has no area");
   measurement.plane_in_base = in_base;
   if (options.boundary == PlaneLandmarksOptions::Boundary::seen) {
     measurement.outline_in_base = withoutNeedlessCorners(corners, axes);
-    for (const auto& hole : seen.holes) {
+    for (const auto& hole : measured.holes) {
       if (!allFinite(hole.vertices)) continue;
       std::vector<Eigen::Vector3d> walk;
       for (const auto& vertex : hole.vertices) walk.push_back(base_from_sensor * vertex);
@@ -137,7 +137,7 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_se
     for (const auto& corner : hull) measurement.outline_in_base.push_back(axes.inSpace(corner));
   }
   measurement.size = geometry::area(hull);
-  measurement.roughness = std::isfinite(seen.roughness) ? seen.roughness : 0;
+  measurement.roughness = std::isfinite(measured.roughness) ? measured.roughness : 0;
   measurement.factor = std::make_shared<landmarks::PlaneFactor>(in_base);
   measurement.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
   return measurement;
@@ -145,20 +145,20 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& seen, const Se3& base_from_se
 
 // The line x cos a + y sin a = d of the scan, with its middle at s along e = (-sin a, cos a): errors of a and d
 // turn e by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
-PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
+PlaneMeasurement ofLine(const obs::LaserLine& measured, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
                         const landmarks::PlaneParametrization& form, const PlaneLandmarksOptions& options) {
   PlaneMeasurement measurement;
   measurement.is_line = true;
-  measurement.size = geometry::length(seen.segment_in_sensor);
-  const Eigen::Vector2d along = geometry::direction(seen.segment_in_sensor);
-  const Eigen::Vector2d middle = geometry::middle(seen.segment_in_sensor);
+  measurement.size = geometry::length(measured.segment_in_sensor);
+  const Eigen::Vector2d along = geometry::direction(measured.segment_in_sensor);
+  const Eigen::Vector2d middle = geometry::middle(measured.segment_in_sensor);
   if (!along.allFinite() || !middle.allFinite()) return useless(measurement, "not finite");
   if (!(measurement.size > 0)) return useless(measurement, "its ends are one point");
-  const Eigen::Vector2d by_angle(-std::sin(seen.angle), std::cos(seen.angle));
+  const Eigen::Vector2d by_angle(-std::sin(measured.angle), std::cos(measured.angle));
   const double s = middle.dot(by_angle);
   Eigen::Matrix2d by_line;
   by_line << -1, 0, -s, 1;
-  Eigen::Matrix2d covariance = by_line * seen.covariance * by_line.transpose();
+  Eigen::Matrix2d covariance = by_line * measured.covariance * by_line.transpose();
   covariance(0, 0) += options.line_angle_sigma * options.line_angle_sigma;
   covariance(1, 1) += options.line_sigma * options.line_sigma;
   if (!isCovariance(covariance)) return useless(measurement, kNoCovariance);
@@ -177,7 +177,7 @@ PlaneMeasurement ofLine(const obs::LaserLine& seen, const Se3& base_from_sensor,
   const Eigen::Vector3d by_angle_in_base = base_from_sensor.rotation * Eigen::Vector3d(by_angle.x(), by_angle.y(), 0);
   if (direction.dot(by_angle_in_base) < 0) covariance(0, 1) = covariance(1, 0) = -covariance(0, 1);
   measurement.plane_in_base = Plane3::through(inBase(middle), normal);
-  measurement.outline_in_base = {inBase(seen.segment_in_sensor.from), inBase(seen.segment_in_sensor.to)};
+  measurement.outline_in_base = {inBase(measured.segment_in_sensor.from), inBase(measured.segment_in_sensor.to)};
   measurement.factor = form.ofLine(direction, inBase(middle));
   measurement.noise = graph::SquareRootInformation::fromCovariance(covariance);
   return measurement;

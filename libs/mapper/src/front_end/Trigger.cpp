@@ -34,7 +34,7 @@ double rotationAngle(const mrpt::poses::CPose3D& pose) {
 }  // namespace
 
 bool Trigger::isDue(const Since& since) const {
-  const double elapsed = base::secondsBetween(since.fired, since.seen);
+  const double elapsed = base::secondsBetween(since.fired, since.newest);
   if (options_.every_observation || (options_.period > 0 && elapsed >= options_.period)) return true;
   if (!since.motion) return elapsed >= options_.period_without_odometry;
   return since.motion->translation().norm() >= options_.distance || rotationAngle(*since.motion) >= options_.angle;
@@ -48,9 +48,9 @@ bool Trigger::fires(const std::string& label, base::Stamp stamp, const MotionBet
   }
   Since& since = entry->second;
   // The motion is summed step by step, because the cost of asking for the whole span would grow while the robot rests.
-  const auto step = motion(since.seen, stamp);
+  const auto step = motion(since.newest, stamp);
   since.motion = step && since.motion ? std::make_optional(*since.motion + step->begin_from_end) : std::nullopt;
-  since.seen = stamp;
+  since.newest = stamp;
   if (!isDue(since)) return false;
   since.fired = stamp;
   since.motion = mrpt::poses::CPose3D();
@@ -74,9 +74,9 @@ bool Trigger::firesLate(const std::string& label, base::Stamp stamp, const Motio
   const bool newest = after == since.all_fired.end();
   since.all_fired.insert(stamp);
   if (newest) {
-    const auto measured = motion(stamp, std::max(stamp, since.seen));
+    const auto measured = motion(stamp, std::max(stamp, since.newest));
     since.fired = stamp;
-    since.seen = std::max(stamp, since.seen);
+    since.newest = std::max(stamp, since.newest);
     since.motion = measured ? std::make_optional(measured->begin_from_end) : std::nullopt;
   }
   return true;

@@ -44,8 +44,8 @@ class Trigger {
  private:
   /// State of a label since its last triggered observation.
   struct Since {
-    base::Stamp fired, seen;
-    std::optional<mrpt::poses::CPose3D> motion;  // from fired to seen; none if a part of the span is not covered
+    base::Stamp fired, newest;
+    std::optional<mrpt::poses::CPose3D> motion;  // from fired to newest; none if a part of the span is not covered
     std::set<base::Stamp> all_fired = {};        // as far back as late observations may be
   };
   bool isDue(const Since& since) const;

@@ -34,15 +34,15 @@ class Batch {
   void placeSession(const SessionPlace& place) { session_place_ = place; }
   void log(Decision decision) { decisions_.push_back(std::move(decision)); }
 
-  /// Adds a landmark; the measurement that it is made from is its first evidence. `seen` is the time of that
+  /// Adds a landmark; the measurement that it is made from is its first evidence. `measured_at` is the time of that
   /// measurement, or none for the stamp of the batch's key frame.
   base::LandmarkId addLandmark(const std::string& kind, std::vector<base::VariableId> variables,
                                std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
-                               std::optional<base::Stamp> seen = std::nullopt);
-  /// Counts one more measurement of a landmark, made at time `seen`. If `payload` is not null, it replaces the
+                               std::optional<base::Stamp> measured_at = std::nullopt);
+  /// Counts one more measurement of a landmark, made at time `measured_at`. If `payload` is not null, it replaces the
   /// landmark's payload.
   void addEvidence(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload = nullptr,
-                   std::optional<base::Stamp> seen = std::nullopt);
+                   std::optional<base::Stamp> measured_at = std::nullopt);
   /// Replaces the payload of a landmark without counting a measurement.
   void describeLandmark(base::LandmarkId id, std::shared_ptr<const map::LandmarkPayload> payload);
   /// Marks the landmark as no longer there: nothing is associated with it any more.
@@ -64,12 +64,12 @@ class Batch {
     std::string kind;
     std::vector<base::VariableId> variables;
     std::shared_ptr<const map::LandmarkPayload> payload;
-    std::optional<base::Stamp> seen;
+    std::optional<base::Stamp> measured_at;
   };
   struct Evidence {
     base::LandmarkId landmark;
     std::shared_ptr<const map::LandmarkPayload> payload;
-    std::optional<base::Stamp> seen;
+    std::optional<base::Stamp> measured_at;
     bool is_measurement = true;
   };
   struct Merge {
