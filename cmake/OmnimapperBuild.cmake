@@ -8,20 +8,20 @@ set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-# A library calls its own copies of inline member functions (hidden) and of function templates (bound when it is linked),
-# which were compiled with its options, whatever else is loaded. The programs of the unit tests, which are not optimized,
-# would otherwise lend it theirs, and Eigen's products with them.
+# Each library calls its own copies of inline functions (hidden) and of function templates (bound at link time), which
+# have its compiler options. Otherwise it would use those of the unit tests, which are not optimized, among them Eigen's
+# products.
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 add_link_options(-Wl,-Bsymbolic-functions)
-# What a library lacks is told when it is linked; sanitizers' functions come with the program.
+# The linker reports missing symbols, except under a sanitizer, whose functions come from the program.
 if(NOT OMNIMAPPER_SANITIZE)
   string(APPEND CMAKE_SHARED_LINKER_FLAGS " -Wl,--no-undefined")
   string(APPEND CMAKE_MODULE_LINKER_FLAGS " -Wl,--no-undefined")
 endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
-# Programs, installed or not, find the libraries beside them wherever the folder is moved to, and look nowhere else: an
-# empty entry in what the build would write by itself means the current folder.
+# Programs search our libraries only relative to their own folder, so that a build or installation can be moved. CMake's
+# default run path would have an empty entry, which means the current folder.
 set(CMAKE_INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 
@@ -30,25 +30,25 @@ if(OMNIMAPPER_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${OMNIMAPPER_CCACHE}")
 endif()
 
-# Linking takes a tenth of the time with lld: doc/results/build.md.
+# With lld, linking takes a tenth of the time (doc/results/build.md).
 find_program(OMNIMAPPER_LLD ld.lld)
 mark_as_advanced(OMNIMAPPER_LLD)
 if(OMNIMAPPER_LLD)
   add_link_options(-fuse-ld=lld)
 endif()
-# Applied to every target: warnings are errors, files together or one by one, and a sanitizer where one was asked for.
+# Options of every target: warnings are errors; unity build and sanitizer as configured.
 function(omnimapper_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Werror)
   omnimapper_unity(${target})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # gcc's garbage collector takes a tenth of the time. It starts at 512 MiB, where a compiler needs at most 2.5 GiB, or
-    # never, where every core has 6 GiB.
+    # gcc's garbage collector takes a tenth of the time. It starts at 512 MiB, so that a compiler needs at most 2.5 GiB;
+    # if there are 6 GiB for each core, it never starts.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=${omnimapper_collector_starts})
   endif()
   if(OMNIMAPPER_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE} -fno-omit-frame-pointer -g1 -O1)
     target_link_options(${target} PRIVATE -fsanitize=${OMNIMAPPER_SANITIZE})
-    # Under a sanitizer Eigen would allocate in another way than in MRPT's libraries, which free what we allocate.
+    # Under a sanitizer, Eigen would otherwise allocate differently from MRPT's libraries, which free our memory.
     target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1 _GLIBCXX_ASSERTIONS)
     if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT OMNIMAPPER_BUILD_FUZZ)
       target_compile_options(${target} PRIVATE
@@ -57,8 +57,8 @@ function(omnimapper_compile_options target)
   endif()
 endfunction()
 
-# Sets how many files of a target are compiled at once with OMNIMAPPER_UNITY: most of the time goes into what they share,
-# so the more the better, but a compiler stays below 2 GiB, and every core has work to the end.
+# Sets the number of files that OMNIMAPPER_UNITY compiles at once. Shared headers take most of the time, so batches are
+# as large as the memory for each core allows, and those of a target are of equal size.
 function(omnimapper_unity target)
   get_target_property(sources ${target} SOURCES)
   list(LENGTH sources count)
@@ -69,8 +69,8 @@ function(omnimapper_unity target)
   math(EXPR batch "(${count} + ${batches} - 1) / ${batches}")
   set_target_properties(${target} PROPERTIES UNITY_BUILD "${OMNIMAPPER_UNITY}" UNITY_BUILD_BATCH_SIZE "${batch}")
 endfunction()
-# The more files the fewer times their headers and templates are compiled, and the more memory a compiler needs: of the
-# largest batches gcc 2.5 GiB with 56 files and 1.6 GiB with 28, clang half of that.
+# Larger batches compile headers and templates fewer times but need more memory: gcc 2.5 GiB with 56 files, 1.6 GiB with
+# 28; clang half of that.
 cmake_host_system_information(RESULT omnimapper_memory QUERY TOTAL_PHYSICAL_MEMORY)  # MiB
 cmake_host_system_information(RESULT omnimapper_cores QUERY NUMBER_OF_LOGICAL_CORES)
 math(EXPR omnimapper_memory_of_core "${omnimapper_memory} / ${omnimapper_cores}")
@@ -86,9 +86,9 @@ else()
   set(omnimapper_largest_batch 28)
 endif()
 
-# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, register.cpp last: the ids of the classes
-# that it registers must be initialized before. Where there are too many files for one unity file it is compiled on its
-# own, for CMake links unity files from the last to the first, and before what is in none of them.
+# omnimapper_sources(VARIABLE <patterns...>): the files of these patterns, with register.cpp last, because the ids of
+# the classes that it registers must be initialized first. If the files need more than one unity file, register.cpp is
+# compiled separately: CMake links unity files from last to first, and before all other files.
 function(omnimapper_sources variable)
   file(GLOB sources CONFIGURE_DEPENDS ${ARGN})
   set(last ${sources})
@@ -116,11 +116,11 @@ function(omnimapper_optimize target how)
 endfunction()
 
 # omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [WITHOUT <files...>] PUBLIC <targets...> PRIVATE <targets...>)
-# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for the
-# libraries in whose loops mapping spends its time, which get -O3; the others get -O2, and LIGHT ones, which compute
-# little, -O1. Under a sanitizer these others are not optimized, which halves the compiler's time and makes their tests
-# hardly longer, unless they are OPTIMIZED: the tests of what renders images would run for minutes. WITHOUT leaves out
-# files of these names.
+# Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for
+# libraries in whose loops mapping spends its time (-O3), LIGHT for those that compute little (-O1); all others have
+# -O2. Under a sanitizer only KERNELS and OPTIMIZED libraries are optimized; the rest compile in half the time, and
+# their tests take hardly longer. OPTIMIZED is for libraries that render images, whose tests would run for minutes.
+# WITHOUT names files to leave out.
 function(omnimapper_library name)
   cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "WITHOUT;PUBLIC;PRIVATE" ${ARGN})
   omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
@@ -152,8 +152,8 @@ endfunction()
 # omnimapper_feature(NAME PLUGINS <classes...> [NEEDS <target> <text>] LINKS <targets...>)
 # A feature: the shared library omnimapper-NAME from the folder's sources, in the folder omnimapper/ beside the other
 # libraries, where programs find it when they start. PLUGINS are the classes that it registers, as an INI writes them.
-# Without the target that it NEEDS, and with -DOMNIMAPPER_FEATURE_NAME=OFF, it is left out, and whoever names one of its
-# plugins is told why.
+# If the target that it NEEDS is missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the feature is left out, and an INI
+# that names one of its plugins gets an error with the reason.
 function(omnimapper_feature name)
   cmake_parse_arguments(ARG "" "" "PLUGINS;NEEDS;LINKS" ${ARGN})
   option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}" ON)
@@ -197,7 +197,7 @@ function(omnimapper_has_features variable who)
   set(${variable} TRUE PARENT_SCOPE)
   if(missing)
     list(JOIN missing ", " missing)
-    message(STATUS "Left out: ${who}, for want of ${missing}")
+    message(STATUS "Left out: ${who}, because these features are not built: ${missing}")
     set(${variable} FALSE PARENT_SCOPE)
   endif()
 endfunction()
@@ -210,19 +210,20 @@ function(omnimapper_app name)
   set_target_properties(app-${name} PROPERTIES OUTPUT_NAME ${name})
   target_link_libraries(app-${name} PRIVATE ${ARGN})
   omnimapper_compile_options(app-${name})
-  # Nothing of an app but the reading of its command line is compiled here.
+  # An app compiles only the reading of its command line.
   omnimapper_optimize(app-${name} LIGHT)
   install(TARGETS app-${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
 
 # omnimapper_test(NAME [HALVES] [COST SECONDS] <targets...> [FILES FILES...] [OPTIMIZED FILES...] [RELEASE FILES...]
 # [THREADS FILES...]): one test binary for the folder's *Test.cpp files and those of FILES, named test-NAME. Tests are
-# not optimized: they assert the same, and compile in 40 % of the time. OPTIMIZED names the files that render images or
-# search texts themselves, which would run for minutes. COST is roughly how long the test runs; ctest starts the longest
-# first. Some files are once more in a binary without the others: those of RELEASE in test-NAME-release, what tries more
-# without a sanitizer (release_cases in scripts/lib/suites.sh), and those of THREADS, in a build under the thread
-# sanitizer, in test-NAME-threads (thread_cases there). With HALVES the cases run in two tests of ctest side by side,
-# NAME and NAME-2; whoever runs the program itself runs them all.
+# not optimized: they compile in 40 % of the time and assert the same.
+# OPTIMIZED: files that render images or search texts themselves and would run for minutes.
+# COST: approximate duration [s]; ctest starts the longest first.
+# RELEASE: files that are also in test-NAME-release, which tries more without a sanitizer (release_cases in
+# scripts/lib/suites.sh).
+# THREADS: files that are also in test-NAME-threads in a build under the thread sanitizer (thread_cases there).
+# HALVES: ctest runs the cases as two parallel tests, NAME and NAME-2; the program itself runs all of them.
 function(omnimapper_test name)
   cmake_parse_arguments(ARG "HALVES" "COST" "FILES;OPTIMIZED;RELEASE;THREADS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" "*Test.cpp")
@@ -247,7 +248,7 @@ function(omnimapper_test name)
     omnimapper_compile_options(test-${each})
     target_compile_options(test-${each} PRIVATE -O0)
     if(optimized)
-      # The files are a target of their own, for only whole targets are compiled in batches with options of their own.
+      # Only whole targets are compiled in batches with options of their own, so these files are a target.
       add_library(test-${each}-optimized OBJECT ${optimized})
       target_link_libraries(test-${each}-optimized PRIVATE ${ARG_UNPARSED_ARGUMENTS} omnimapper-testing GTest::gtest_main)
       target_include_directories(test-${each}-optimized PRIVATE $<TARGET_PROPERTY:test-${each},INCLUDE_DIRECTORIES>)

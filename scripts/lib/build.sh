@@ -1,9 +1,10 @@
 # Configures and builds. Sourced, never run.
 # shellcheck shell=bash
 
-# What a checkout has compiled serves the next one in the same folder: unity files name their sources by absolute path.
+# Unity files name their sources by absolute path, so the compiler cache serves another checkout only in the same
+# folder.
 export CCACHE_BASEDIR=$project_root CCACHE_NOHASHDIR=yes
-# What a file includes is what the compiler says it read, so that nothing is preprocessed twice.
+# ccache takes the list of included files from the compiler, so that nothing is preprocessed twice.
 export CCACHE_DEPEND=yes
 
 # Compilers at once: one for each core, as far as 2 GiB for each goes. OMNIMAPPER_JOBS overrides.
@@ -22,8 +23,8 @@ readonly with_tests=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=ON
 
 is_configured() { [ -e "$project_root/build/$1/build.ninja" ]; }
 
-# configure FOLDER [CMAKE-ARGUMENT...]: build/FOLDER. One that is new is set up for building all of it in the least time;
-# one that is there stays as it was, so that who changes single files can have it their way.
+# configure FOLDER [CMAKE-ARGUMENT...]: configures build/FOLDER. A new folder is set up for the fastest complete build;
+# an existing one keeps its settings, so that a developer can choose them.
 configure() {
   local folder=$1 unity=()
   shift
@@ -45,7 +46,7 @@ build() {
 has_option() { grep -qs "^OMNIMAPPER_$2:BOOL=ON" "$project_root/build/$1/CMakeCache.txt"; }
 
 # choose_release none|simulator: sets release_options and release_packages for a build/release that holds at least that.
-# A folder that is there keeps what it is set up for, with the packages that this needs.
+# An existing folder keeps its settings, and the packages include those that they need.
 choose_release() {
   release_options=("${without_simulator[@]}")
   release_packages=(scripts/packages.txt)

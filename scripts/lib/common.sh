@@ -23,8 +23,9 @@ as_root() {
   fi
 }
 
-# Started as "sudo scripts/...": goes on as the person who called sudo, so that the build belongs to them.
-# Arguments: the script and its own arguments. Returns when there is nobody to hand over to.
+# If the script was started with sudo, runs it again as the user who called sudo, so that the build belongs to this
+# user. Arguments: the script and its own arguments. Returns if there is no such user or the project's folders are not
+# writable to this user.
 leave_root() {
   [ "$(id -u)" -eq 0 ] && [ -n "${SUDO_USER:-}" ] && [ "$SUDO_USER" != root ] || return 0
   local place

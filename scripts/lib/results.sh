@@ -37,8 +37,8 @@ list_ctest_tests() {
 }
 
 # collect_results FOLDER: every case of the run whose files are in FOLDER (ctest.xml, test-NAME.xml).
-# A binary that ended badly without a failed case (crash, sanitizer report), or in which no case ran, adds a failed case
-# of its own. Only the tests that are no binaries of GoogleTest, package and scripts, count as one case each.
+# A program that ended badly without a failed case (crash, sanitizer report), or without any case, adds a failed case.
+# Tests that are no GoogleTest programs (package, scripts) count as one case each.
 collect_results() {
   local folder=$1 state name seconds cases
   list_ctest_tests "$folder/ctest.xml" | while IFS=$'\t' read -r state name _ seconds; do

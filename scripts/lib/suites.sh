@@ -3,17 +3,17 @@
 
 # The system tests: programs, installed package and scripts, optimized, as users have them.
 readonly system_tests=(system system-mapping system-mapping-2 system-input system-live system-robust system-simulate system-perceive system-query system-viewer fuzz-runs-share package scripts)
-# Unit tests that run in the optimized build alone, unless scripts/test is asked to be --thorough: the simulator reads
-# nothing that a stranger made, and takes an eighth of the sanitizers' build; calibration reads logs by the library source,
-# which is tested under the sanitizers, and would adjust its bundles there for minutes; signs_simulated renders pictures.
+# Unit tests that run only in the optimized build, except with --thorough. The simulator reads only its user's files and
+# would take an eighth of the sanitizers' build. Calibration reads logs by the library source, which is tested under
+# sanitizers, and its bundle adjustments would take minutes there. signs_simulated renders pictures.
 readonly trusted_tests=(sim_world sim calibration signs_simulated)
 # The unit tests of all other libraries, under the address and undefined-behaviour sanitizers.
 readonly unit_tests=(drivers live net perception signs tesseract plugins export graph plugin mapper mapper-2 source matching geometry base obs map query check eval fuzz)
-# Left out: stock tools, which cannot load a library built with a sanitizer; walks over every place, which would take
-# minutes, of which one seed is left; and false closures in Manhattan, which take half a minute, of which Intel's and those
-# of a simulated town are left.
+# Left out: stock tools, which cannot load a library with a sanitizer; walks over every place (one seed remains), which
+# take minutes; and false closures in Manhattan, which take half a minute (those of Intel and of a simulated town
+# remain).
 readonly address_cases='-StockTools.*:FalseClosuresInManhattanTest.*:Generators.aRobotComesToEveryRoomAtAllLevelsOfClutter:Generators.planesAreExactInEveryPlace:PlacesAndSeeds/*_2'
-# What scripts/test --thorough runs under these sanitizers, too: that, and the system tests of input that does harm.
+# --thorough runs these too, and the system tests of hostile and damaged input.
 readonly thorough_tests=("${trusted_tests[@]}" system-input system-robust fuzz-runs-share)
 # The unit cases that a sanitizer forbids, and those that try more seeds, bytes, logs and places without one.
 readonly release_tests=(obs-release source-release graph-release mapper-release mapper-release-2)

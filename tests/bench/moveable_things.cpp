@@ -290,7 +290,7 @@ struct Statistics {
 void carriedAway(const Setting& setting, std::size_t first, std::size_t seeds, const std::string& svg) {
   std::printf(
       "| seed | moved | seen in both | found of these | of others | false | error [m] | without the moved [m] | "
-      "not found out [m] | time [s] | search alone [s] |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "without this plugin [m] | time [s] | search alone [s] |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   Statistics statistics;
   for (std::size_t seed = first; seed < first + seeds; ++seed) {
     const Outcome one = runSeed(setting, {}, seed, seed == first ? svg : "");

@@ -197,7 +197,7 @@ void run(const std::string& log, const std::string& trajectory, const std::strin
   add(odometry, truth, lag, recorded);
   for (std::uint64_t seed = 0; seed < 40; ++seed) add(simulate(truth, keys, seed), truth, 0, simulated);
   std::printf(
-      "| distance travelled [m] | ACES: place [m] | simulated | ACES: bent [m] | simulated | ACES: heading [deg], its "
+      "| distance travelled [m] | ACES: place [m] | simulated | ACES: shape [m] | simulated | ACES: heading [deg], its "
       "mean | simulated |\n");
   std::printf("|---|---|---|---|---|---|---|\n");
   for (const double distance : kDistances) {

@@ -93,7 +93,7 @@ TEST(MapQuality, TwoTrueSurfacesCloseBehindEachOtherAreNoDouble) {
 }
 
 TEST(MapQuality, WhatLiesMostlyOnNothingIsSpurious) {
-  // 1.5 m of 4 m are on the wall; and one a metre before it.
+  // One wall lies on the true one with 1.5 of its 4 m; the other is a metre in front of it.
   const auto quality = judgeMap(setOf({wall(2.5, 6.5, 3), wall(0, 4, 2)}), setOf({wall(0, 4, 3)}));
   EXPECT_EQ(quality.spurious(), 2u);
   EXPECT_NEAR(quality.drawn.front().share_on_true, 1.5 / 4, 1e-9);

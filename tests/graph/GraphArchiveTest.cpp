@@ -132,7 +132,8 @@ TEST(GraphArchive, EveryCutIsNoticed) {
     EXPECT_EQ(codeOf(bytes.substr(0, length)), ExitCode::damaged_input) << length;
 }
 
-// Unused ids take memory: in all sessions together, and whatever number of entries is stated to follow.
+// Unused ids take memory, so their number is bounded, over all sessions together, whatever number of entries the file
+// states.
 TEST(GraphArchive, SessionsThatSayTheyGaveTooManyIdsAreRefused) {
   const auto graph = [](std::uint64_t sessions, std::uint64_t ids, std::uint64_t entries) {
     std::stringstream out;

@@ -78,7 +78,7 @@ TEST(PoseFactors, WhatIsReportedAsExactIsGivenALeastVariance) {
 
 TEST(PoseFactors, WhatIsNoCovarianceCountsByItsVariances) {
   Covariance contradiction = diagonal(0.04, 0.01);
-  contradiction(0, 1) = contradiction(1, 0) = 1;  // correlated 25 times more than fully
+  contradiction(0, 1) = contradiction(1, 0) = 1;  // the correlation is impossible: 25 instead of at most 1
   graph::Graph graph;
   const auto a = graph.addVariable(poseVariable(Motion::planar), poseValue(Motion::planar, {}), true);
   const auto b = graph.addVariable(poseVariable(Motion::planar), poseValue(Motion::planar, {}));

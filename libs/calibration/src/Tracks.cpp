@@ -205,7 +205,8 @@ std::vector<Track> findTracks(const std::vector<CalibrationView>& views, const D
     }
   }
   std::map<std::size_t, Track> tracks;
-  std::map<std::size_t, bool> is_twice;  // whether one view has two of its corners; then a link is wrong
+  // By group: whether one view has two of its corners, which shows a wrong link.
+  std::map<std::size_t, bool> is_twice;
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (std::size_t i = 0; i < corners[v].pixels.size(); ++i) {
       const auto group = groups.find(first[v] + i);

@@ -34,7 +34,7 @@ bool all(const mrpt::obs::CObservation2DRangeScan& scan, Test test) {
 }  // namespace
 
 bool ScanFacts::isAtOrigin() const {
-  // Importers turn the sensor by half a beam.
+  // A small angle is no mounting angle: importers rotate the sensor by half a beam.
   constexpr double kLittle = 2 * base::option_text::kRadiansPerDegree;
   const auto& p = base_from_sensor;
   return p.translation().norm() < 1e-6 && std::abs(p.yaw()) < kLittle && std::abs(p.pitch()) < kLittle &&

@@ -84,7 +84,8 @@ double StampStatistics::period() const {
   return stepQuantile(0.5);
 }
 
-// Whether the log was recorded by the distance driven: then its steps differ anyway, and there are none at rest.
+// Whether the log was recorded at fixed distances instead of fixed times. Its time steps differ, and there are none
+// while the robot rests.
 bool StampStatistics::isByDistance() const {
   return stepQuantile(0.9) > kUnevenSteps * period();
 }

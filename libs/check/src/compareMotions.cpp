@@ -20,7 +20,7 @@ using Mounting = MotionFacts::Mounting;
 constexpr double kMoved = 0.1, kTurned = 0.1;  // [m] [rad] smallest motion that a match distinguishes from rest
 constexpr double kStillTravel = 1e-4, kStillTurn = 1e-4;
 constexpr std::size_t kFewestMotions = 8;
-constexpr double kMatchSigma = 0.01;        // [m] of a match at best
+constexpr double kMatchSigma = 0.01;        // [m] standard deviation of a good match
 constexpr double kMatchAngleSigma = 0.003;  // [rad]
 
 // Rows of the equations R(yaw) t_scans - (R_odometry - 1) c = t_odometry, in (a, b, c_x, c_y) with a = s cos yaw, b = s

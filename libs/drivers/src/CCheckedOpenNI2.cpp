@@ -130,7 +130,7 @@ class CCheckedOpenNI2::Watch : private openni::OpenNI::DeviceDisconnectedListene
   std::condition_variable changed_;
   std::array<bool, 3> came_{};
   bool is_gone_ = false;
-  const Registration registration_;  // the last member: its calls need all the others
+  const Registration registration_;  // must be the last member: its callback uses the others
 };
 
 CCheckedOpenNI2::CCheckedOpenNI2() {

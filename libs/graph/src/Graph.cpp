@@ -81,7 +81,7 @@ void Graph::checkBinding(const FactorRecord& record) const {
 
 void Graph::bind(base::FactorId id) {
   for (const base::VariableId variable : factor(id).variables) {
-    // Ids grow, so this is the end unless the session number went back.
+    // Ids grow, so this inserts at the end, unless a session with a lower number adds the factor.
     std::vector<base::FactorId>& list = mutableVariable(variable).factors;
     list.insert(std::upper_bound(list.begin(), list.end(), id), id);
   }

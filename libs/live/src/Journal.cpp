@@ -102,7 +102,7 @@ std::string findJournal(const std::string& path) {
     for (const auto& entry : fs::directory_iterator(folder, none))
       if (entry.path().extension() == kExtension) found.push_back(entry.path().string());
   }
-  if (found.empty()) refuse(path, "no journal of a live run is in this folder, nor in its folder recording");
+  if (found.empty()) refuse(path, "neither this folder nor its subfolder recording has the journal of a live run");
   if (found.size() == 1) return found.front();
   std::sort(found.begin(), found.end());
   refuse(path, "several live runs were recorded there; name the journal of one: " + found.front() + " or " +

@@ -56,7 +56,7 @@ mrpt::obs::CObservation::ConstPtr readObservation(ByteReader& in) {
            "an observation cannot be read; load the library that has its class. MRPT says: " + base::sentenceOf(error));
   }
   auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-  if (!observation) refuse(kFramesName, "has an object that is no observation in the place of one");
+  if (!observation) refuse(kFramesName, "has an object of another kind where an observation should be");
   return observation;
 }
 

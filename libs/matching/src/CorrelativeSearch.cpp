@@ -70,7 +70,7 @@ struct Sweep {
 // The blocks of one level that share their headings.
 struct Row {
   std::vector<Sweep> sweeps;
-  int unbounded = -1;  // number of points whose sweep no square covers; -1: not made yet
+  int unbounded = -1;  // number of points whose sweep no square covers; -1 if not computed yet
 };
 
 // Steps of a lattice along one axis, counted from the window's centre.

@@ -139,7 +139,7 @@ bool SteadySpans::add(const mrpt::obs::CObservationIMU& imu) {
 void SteadySpans::close() {
   constexpr std::size_t kFewest = 4;  // readings
   constexpr double kFastest = 0.35;   // [rad/s] on average
-  constexpr double kTurned = 0.17;    // [rad] from half to half, where no rate is measured
+  constexpr double kTurned = 0.17;    // [rad] largest rotation between the halves of a span, if no rates are measured
   const Sum sum = *sum_;
   sum_.reset();
   if (sum.readings < kFewest || sum.of_first_half == 0 || sum.of_first_half == sum.readings) return;

@@ -86,8 +86,8 @@ std::shared_ptr<const MatchReference> PointToLineMatcher::prepare(ScanWithNormal
 }
 
 // The search is wide at first: correspondences may be far from each other, and their distance along the walls counts
-// too, because lines alone would mislead from a distant pose. Then only points count that lie on the same wall as well
-// as most points do.
+// too, because lines alone would mislead from a distant pose. Later, only points on the same wall count; how far off
+// they may lie follows from the residuals of most points.
 ScanMatch PointToLineMatcher::match(const MatchReference& reference, const ScanWithNormals& scan,
                                     const MatchGuess& guess) const {
   Correspondences correspondences(dynamic_cast<const PointIndex&>(reference), scan);
@@ -105,7 +105,7 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const ScanW
       settled = true;
       const ObservableSubspace directions(correspondences.equations(pose, loss_scale, kPointObservabilityWeight, 0));
       if (directions.all()) break;
-      // Take back what the wide search moved along directions that have turned out to be open.
+      // Undo the part of the wide search's motion along directions that have turned out to be open.
       const Eigen::Vector3d observable = directions.observablePart(motion(guess.reference_from_scan, pose));
       pose = guess.reference_from_scan + TPose2D(observable.x(), observable.y(), observable.z());
     }

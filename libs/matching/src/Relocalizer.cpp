@@ -34,8 +34,8 @@ double mean(const std::vector<double>& values) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-// By how much `best` is better than `other`, in the mean, less `lead_sigmas` standard errors of that mean. Neighbouring
-// beams see the same objects, so the standard error is that of the means of kSectors sectors.
+// Mean difference of log-likelihood between `best` and `other`, less `lead_sigmas` standard errors of that mean.
+// Neighbouring beams see the same objects, so the standard error is that of the means of kSectors sectors.
 double leadOf(const std::vector<double>& best, const std::vector<double>& other, double lead_sigmas) {
   const std::size_t size = (best.size() + kSectors - 1) / kSectors;
   double sum = 0, squares = 0;

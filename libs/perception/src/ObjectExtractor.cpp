@@ -94,8 +94,8 @@ std::vector<DerivedName> ObjectExtractor::namesOf(const mrpt::obs::CObservation&
 std::vector<std::string> ObjectExtractor::warnings() const {
   if (scans_ == 0 || with_surface_ > 0 || !options_.objects.on_surfaces_only) return {};
   return {"none of " + std::to_string(scans_) +
-          " scans shows a level surface for objects to stand on: is the sensor's pose on the base right, which "
-          "determines what is level? For a camera in the hand set max_tilt_deg = 75"};
+          " scans shows a level surface for objects to stand on: is the sensor's pose on the base right? It "
+          "determines what is level. For a hand-held camera set max_tilt_deg = 75"};
 }
 
 }  // namespace omnimapper::perception

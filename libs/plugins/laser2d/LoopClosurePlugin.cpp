@@ -129,10 +129,11 @@ double LoopClosurePlugin::travelSince(std::optional<base::Stamp> stamp, const Hi
 // because searching it costs more.
 void LoopClosurePlugin::seekGlobally(const std::string& label, const History& history, std::size_t index,
                                      const mapper::State& state) {
-  constexpr double kSpacing = 3;                                 // [m]
-  constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;  // of the travel since the last answer
-  constexpr double kShareOfAll = 0.01;                           // of all travel
-  constexpr double kGrown = 1.2;                                 // growth of the map at which the database is rebuilt
+  constexpr double kSpacing = 3;  // [m]
+  // Spacing of searches as a share of the travel since the last answer; kShareOfAll is a share of all travel.
+  constexpr double kShareOfLost = 0.1, kShareOnNewGround = 0.5;
+  constexpr double kShareOfAll = 0.01;
+  constexpr double kGrown = 1.2;  // growth of the map at which the database is rebuilt
   if (context_.map_is_held || !state.map.sessions.back().aligned) return;
   const double travel = history[index].key_scan.travel;
   const auto tied = closures_.newestTied(state.graph);

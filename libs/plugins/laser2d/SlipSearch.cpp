@@ -158,8 +158,8 @@ std::vector<SlipSearch::Closure> SlipSearch::closures(const mapper::State& state
   return all;
 }
 
-// The closures that agree with the newest one, which is included; sorted by their later key frame. The cycle of two
-// closures uses only the short spans between their ends, so it is valid however wrong the map is between place and end.
+// The closures that agree with the newest one, which is included; sorted by their later key frame. Two closures are
+// compared over the short spans between their ends, so an error of the map between place and end does not matter.
 std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state) const {
   auto all = closures(state);
   if (all.empty()) return all;
@@ -189,7 +189,8 @@ std::vector<SlipSearch::Closure> SlipSearch::agreeing(const mapper::State& state
   return all;
 }
 
-// The spans between all places and all ends whose required motion a base could have driven.
+// The spans of consecutive key frames, after all places and before all ends, over which a base could have driven the
+// required motion.
 std::vector<SlipSearch::Span> SlipSearch::spans(const std::vector<Closure>& agreeing,
                                                 const mapper::State& state) const {
   constexpr double kMostMotion = 3;  // [m] between consecutive key frames, beyond the estimated motion

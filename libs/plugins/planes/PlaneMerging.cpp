@@ -133,8 +133,9 @@ Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& option
   known.update(view);
   const auto floor = is_end ? floorOf(known, view) : std::nullopt;
   const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
-  // Two different surfaces may have any difference within those bounds: that they are one must be min_likelihood_ratio
-  // times likelier. If their relative pose is too uncertain for that, they are not merged yet.
+  // Two different surfaces could differ by anything within kOff and kTurn. They are merged only if it is
+  // min_likelihood_ratio times likelier that they are one. If their relative pose is too uncertain for that, they are
+  // not merged yet.
   const int turns = known.form().variable()->tangentSize() - 1;
   const double least_density =
       std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);

@@ -60,9 +60,8 @@ const base::OptionTable<CameraOdometryOptions>& CameraOdometryOptions::table() {
 
 namespace {
 
-// Variance of the motion in directions that nothing measures: a hand may change its motion at any time. Its speed is
-// correlated over kWhile, and so are the errors of the spans in it; a variance that is linear in time adds up to the
-// right one over longer spans.
+// Variance of the motion in directions that nothing measures: a hand may change its motion at any time. The speed is
+// correlated over kWhile; a variance that grows linearly with time gives the right sum over several spans.
 double unconstrainedVariance(base::Stamp begin, base::Stamp end) {
   constexpr double kUsualSpeed = 0.5, kWhile = 1;  // [m/s] and [rad/s]; [s]
   return kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(begin, end);
@@ -168,7 +167,8 @@ std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geom
 }
 
 // Estimates the gyroscope's bias over a second or so, because images share the error of the key frame they were
-// registered with. An image that shows an earlier view again is left out: it corrects drift at once, which is no turn.
+// registered with. An image that shows an earlier view again is left out, because it corrects all drift at once, which
+// would look like a rotation.
 void CameraOdometry::learnBias(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera) {
   constexpr double kWhile = 1;      // [s]
   constexpr double kAngle = 0.005;  // [rad]

@@ -24,7 +24,7 @@ std::optional<TimeSpan> spanOf(const SourceReport& report) {
 
 // Whether one log lies so far from all others in time that it is not part of the same drive.
 bool isOneFarFromOthers(const std::vector<TimeSpan>& spans) {
-  constexpr double kNextPart = 60;  // [s] within which the next part of a log that was split follows
+  constexpr double kNextPart = 60;  // [s] longest pause between two parts of a log that was split
   const auto areNear = [](const TimeSpan& a, const TimeSpan& b) {
     return base::secondsBetween(a.end, b.begin) < kNextPart && base::secondsBetween(b.end, a.begin) < kNextPart;
   };

@@ -132,7 +132,7 @@ TEST_F(OddObservations, AScanFarBehindGetsItsPlaceAndOdometryThatLeapsBackIsRefu
                                  [](const auto& o) { return o->sensorLabel == "laser"; });
   std::rotate(late, late + 1, late + 100);
   odometry(100).timestamp -= omnimapper::base::durationFromSeconds(2);
-  expectMap(stamps_, {"backwards in time"});
+  expectMap(stamps_, {"back in time"});
   EXPECT_EQ(counts_["late"], 1);
   EXPECT_EQ(counts_["unusable"], 1);
 }

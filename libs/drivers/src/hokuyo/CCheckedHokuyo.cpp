@@ -85,7 +85,8 @@ void CCheckedHokuyo::initialize() {
   try {
     answers = turnOn();
   } catch (const std::exception&) {
-    if (stream_->connection().isOpen()) throw;  // if closed, MRPT's message is only about its code
+    // If the connection is closed, MRPT's message names only its source code; the one below says more.
+    if (stream_->connection().isOpen()) throw;
   }
   if (!answers)
     throw std::runtime_error(

@@ -65,9 +65,9 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
           .number("pose_pitch", &Options::pose_pitch, {},
                   "Rotation of the depth camera on the robot about y [deg], positive downwards.")
           .number("pose_roll", &Options::pose_roll, {}, "Rotation of the depth camera on the robot about x [deg].")
-          .flag("grab_image", &Options::grab_image, "Take the colour picture along with the depth image.")
+          .flag("grab_image", &Options::grab_image, "Takes the colour picture along with the depth image.")
           .flag("grab_IMU", &Options::grab_imu,
-                "Read the accelerometer; false also leaves the motor's USB device alone.")
+                "Reads the accelerometer; if false, the motor's USB device is not touched.")
           .number("imu_rate_hz", &Options::imu_rate, {0.1, 100}, "Rate at which the accelerometer is read.")
           .choice(
               "registration", &Options::registration,
@@ -113,8 +113,8 @@ const base::OptionTable<KinectOptions>& KinectOptions::table() {
                   "Second tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
           .number("depth_k3", &Options::depth_k3, lens,
                   "Third radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("picture_fx_px", &Options::picture_fx, focal, "Focal length of the colour camera, along the columns.")
-          .number("picture_fy_px", &Options::picture_fy, focal, "Focal length of the colour camera, along the rows.")
+          .number("picture_fx_px", &Options::picture_fx, focal, "Horizontal focal length of the colour camera.")
+          .number("picture_fy_px", &Options::picture_fy, focal, "Vertical focal length of the colour camera.")
           .number("picture_cx_px", &Options::picture_cx, centre, "Column of the colour camera's optical axis.")
           .number("picture_cy_px", &Options::picture_cy, centre, "Row of the colour camera's optical axis.")
           .number("picture_k1", &Options::picture_k1, lens,

@@ -10,8 +10,8 @@
 
 namespace omnimapper::mapper {
 
-/// Keeps track of the hypotheses, factors that would bend the map if they were wrong, from the batch that adds them to
-/// their verdict and to a later one that revokes it. They have no weight until they are tested. Every verdict is
+/// Keeps track of the hypotheses, factors that would distort the map if they were wrong, from the batch that adds them
+/// to their verdict and to a later one that revokes it. They have no weight until they are tested. Every verdict is
 /// logged.
 class Hypotheses {
  public:

@@ -51,7 +51,7 @@ void warnOfCounts(const RunCounts& counts, std::size_t key_frames, Engine& engin
   warn(counts.hurried,
        "processed before [mapper] window_s was over, because more than queue_limit stamps were waiting: do the stamps "
        "not advance?");
-  warn(counts.unusable, "of odometry or poses that run backwards in time or jump: left out");
+  warn(counts.unusable, "of odometry or poses left out, because they go back in time or jump");
   warn(counts.unconnected,
        "without a pose: left out, because no pose plugin has the motion; add a NoMotionPlugin to pose_plugins");
   if (key_frames == 1)

@@ -86,7 +86,7 @@ class CloudSearch {
   double medianDistance() const;
   const Se3& targetFromSource() const { return target_from_source_; }
   const Matrix6d& information() const { return information_; }
-  // The information that normals with an error of `noise` [rad] seem to give sideways, where they give none.
+  // The information about sideways motions that normals with an error of `noise` [rad] only seem to give.
   Matrix6d informationOfNoise(double noise) const;
 
  private:

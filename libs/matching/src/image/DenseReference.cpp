@@ -226,7 +226,7 @@ std::shared_ptr<const DenseReference> DenseMatcher::prepare(const RgbdPyramid& i
       if (!change) continue;
       eight.grey[lane] = change->grey;
       // Where the picture is plain its gradients are noise, and noise must not determine a motion.
-      constexpr float kLeastGradient = 2;  // [1/px] of 255
+      constexpr float kLeastGradient = 2;  // [1/px] in grey levels from 0 to 255
       const Eigen::Vector3f& by_place = change->by_place;
       const float per_pixel = by_place.norm() * z / fx;
       if (per_pixel < kLeastGradient) continue;

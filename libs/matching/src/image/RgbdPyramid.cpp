@@ -55,8 +55,8 @@ std::vector<float> greys(const ColourImage& picture) {
   return grey;
 }
 
-// The mean inverse depth of the surface nearest to the camera; 0 for fewer than three pixels, whose centre is not that
-// of the four.
+// The mean inverse depth of the surface nearest to the camera; 0 if fewer than three pixels lie on it, because
+// their centre would differ from that of the four.
 float nearestMean(float a, float b, float c, float d) {
   const float nearest = std::max(std::max(a, b), std::max(c, d));
   const float least = nearest * (1 - kDiscontinuity);

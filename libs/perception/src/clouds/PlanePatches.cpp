@@ -51,7 +51,8 @@ Eigen::Matrix3d covarianceOf(const LoosePoints& points, const std::vector<int>& 
   const auto basis = geometry::tangentBasis(plane.normal);
   const auto across = geometry::tangentBasis(centroid.normalized());
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();  // of the sums, by a shared error and its slopes over the rays
+  // Effect on the weighted sums of an error that all points share: constant, or linear over the rays.
+  Eigen::Matrix3d shared = Eigen::Matrix3d::Zero();
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   double weights = 0;
   for (const int member : members) {

@@ -30,7 +30,7 @@ class Ransac : public LineFinder {
         };
         left.erase(std::remove_if(left.begin(), left.end(), is_on), left.end());
       }
-      // Stop if no point was removed: nothing was found, or only lines that their own points are not on.
+      // Stop if no point was removed: no line was found, or the lines miss the points that they were fitted to.
       if (left.size() == before) break;
     }
     std::sort(found.begin(), found.end(), [](const Stretch& a, const Stretch& b) { return a.first < b.first; });

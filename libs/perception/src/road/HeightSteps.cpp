@@ -9,8 +9,9 @@ namespace omnimapper::perception::road {
 
 namespace {
 
-constexpr double kFaint = 0.6;  // of the threshold: a step that exceeds it somewhere continues where it exceeds this
-constexpr int kMostTurn = 1;    // largest change of direction from one block of a step to the next
+// Share of the threshold: a step that exceeds the threshold somewhere is followed as long as it exceeds this share.
+constexpr double kFaint = 0.6;
+constexpr int kMostTurn = 1;                        // largest change of direction from one block of a step to the next
 constexpr double kLeastDiscontinuity = 0.5;         // share of the difference that is not a slope
 constexpr double kMargin = 1, kMostHalfWidth = 14;  // [px] margin and limit of a step's half width
 constexpr int kBlock = LineDifferences::kBlock;

@@ -86,7 +86,7 @@ std::vector<Eigen::Vector2d> placesToSee(const Room& room, const RobotSpace& pla
     return gain + 0.5 * plan.clearance(places[i]);
   };
   // The gain of a place can only shrink, so it is computed again only when it seems to be the largest.
-  using Candidate = std::pair<double, int>;  // gain and minus the number, so that of equals the first is taken
+  using Candidate = std::pair<double, int>;  // gain, and minus the number, so that of equal gains the first is taken
   std::priority_queue<Candidate> candidates;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) candidates.emplace(gainOf(i), -i);
   const auto visible = static_cast<double>(std::count(open.begin(), open.end(), 1));

@@ -251,7 +251,8 @@ std::vector<Echo> LaserOptics::measure(const Scene& scene, const std::vector<Bea
   }
   std::vector<Echo> echoes;
   for (int i = 0; i < count; ++i) {
-    // Scout rays at the sides only look for edges; in a filled cone they would count its rim twice.
+    // Side scouts only look for edges. A beam that casts a filled cone drops them, because they would count the rim
+    // twice.
     if (static_cast<int>(returns[i].size()) > scouts_ && scouts_ > 1)
       returns[i].erase(returns[i].begin() + 1, returns[i].begin() + scouts_);
     echoes.push_back(combine(returns[i], randoms[i]));

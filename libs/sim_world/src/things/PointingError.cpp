@@ -14,9 +14,11 @@ PointingError pointingErrorOf(const Eigen::Vector3d& hand, const Eigen::Vector3d
   return {std::atan2(to_target.dot(x), to_target.dot(z)), std::atan2(to_target.dot(y), to_target.dot(z))};
 }
 
-// With the target's unit direction t, t.z : t.x : t.y = 1 : tan(theta) : tan(psi). The axis x depends on the ray's
-// azimuth a alone: t.x = cos(elevation of t) sin(azimuth of t - a). A turn by psi in the vertical plane of the ray then
-// remains.
+// theta and psi are the errors of the direction in two planes. With the target's unit direction t,
+//   t.z : t.x : t.y = 1 : tan(theta) : tan(psi).
+// The axis x depends on the ray's azimuth a alone:
+//   t.x = cos(elevation of t) sin(azimuth of t - a).
+// A turn by psi in the vertical plane of the ray then remains.
 Eigen::Vector3d directionWithError(const Eigen::Vector3d& hand, const Eigen::Vector3d& target,
                                    const PointingError& error) {
   const Eigen::Vector3d t = (target - hand).normalized();

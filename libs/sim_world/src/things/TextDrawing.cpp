@@ -83,7 +83,7 @@ class Font {
       FT_Done_FreeType(library_);
       throw base::Error(base::ExitCode::unreadable_input, file + ": not a font that FreeType reads");
     }
-    double capital = 0.73;  // of the em, DejaVu's
+    double capital = 0.73;  // height of capitals relative to the em, as in DejaVu
     if (FT_Load_Char(face_, 'H', FT_LOAD_NO_SCALE) == 0 && face_->units_per_EM > 0) {
       capital = static_cast<double>(face_->glyph->metrics.horiBearingY) / face_->units_per_EM;
     }
