@@ -66,7 +66,7 @@ std::vector<std::string> findInis(const std::vector<std::string>& names, const s
     const auto near = base::nearestName(fs::path(name).has_extension() ? name : name + ".ini", known);
     throw base::Error(base::ExitCode::unreadable_input,
                       name + ": there is no such INI file here, and none of that name comes with the program" +
-                          (near.empty() ? "." : "; did you mean " + near + "?") + " It comes with " +
+                          (near.empty() ? "." : "; did you mean " + near + "?") + " This program comes with " +
                           base::option_text::format(known));
   }
   return paths;

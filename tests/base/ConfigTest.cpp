@@ -127,6 +127,33 @@ TEST(Config, KeysThatSomebodyElseReadsArePassed) {
   EXPECT_EQ(config.section("trigger").read<TriggerOptions>({"class"}).every, 2);
 }
 
+struct Searches {
+  double min_travel = 1;
+
+  static const OptionTable<Searches>& table() {
+    static const auto table =
+        OptionTable<Searches>().number("min_travel_m", &Searches::min_travel, Range::positive(), "Distance travelled.");
+    return table;
+  }
+};
+
+TEST(Config, ARenamedKeyIsAnsweredWithItsPresentName) {
+  expectError([] { parsed("[loops]\nmin_way_m = 4\n").section("loops").read<Searches>(); }, ExitCode::unknown_key,
+              {"test.ini:2", "[loops] has no key 'min_way_m'", "called 'min_travel_m' now"});
+}
+
+TEST(Config, FilesThatAProgramWroteKeepTheFormerNamesOfKeys) {
+  const omnimapper::testing::ScratchFolder folder;
+  const auto read = [&](const std::string& keys) {
+    writeFile(folder / "run.ini", [&](std::ostream& out) { out << kWrittenFromALog << ".\n[loops]\n" << keys; });
+    return Config::fromFile(folder / "run.ini").section("loops").read<Searches>().min_travel;
+  };
+  EXPECT_EQ(read("min_way_m = 4\n"), 4);
+  EXPECT_EQ(read("min_travel_m = 5\n"), 5);
+  expectError([&] { read("min_trvel_m = 5\n"); }, ExitCode::unknown_key, {"did you mean 'min_travel_m'?"});
+  expectError([&] { read("min_way_m = -4\n"); }, ExitCode::out_of_range, {"min_travel_m", "-4"});
+}
+
 TEST(Config, AWrongTypeNamesFileSectionKeyValueAndDefault) {
   expectError([] { trigger("[trigger]\nevery = often\n"); }, ExitCode::wrong_type,
               {"test.ini:2: [trigger]", "every = 'often'", "whole number", "default 1"});

@@ -21,6 +21,11 @@ TEST(IniDifferences, sensorsAndSectionsWithoutSettingsDoNotCount) {
             Lines());
 }
 
+TEST(IniDifferences, keysAreComparedByTheirPresentNames) {
+  EXPECT_EQ(iniDifferences("[a]\nmin_travel_m = 4\n", "[a]\nmin_way_m = 4\n"), Lines());
+  EXPECT_EQ(iniDifferences("[a]\nmin_travel_m = 4\n", "[a]\nmin_way_m = 5\n"), Lines({"[a] min_travel_m (4, was 5)"}));
+}
+
 TEST(IniDifferences, numbersAreComparedAsNumbers) {
   EXPECT_EQ(iniDifferences("[a]\nx = 0.50\n", "[a]\nx = 0.5\n"), Lines());
   EXPECT_EQ(iniDifferences("[a]\nx = 1e2\n", "[a]\nx = 100.5\n"), Lines({"[a] x (1e2, was 100.5)"}));

@@ -122,7 +122,7 @@ TEST_F(EvalApp, KnowsRelativeErrorAndRelations) {
   EXPECT_TRUE(printed("48 spans")) << text_;
   std::ofstream(folder_ / "r.relations") << "1000000000 1000000001 0 0 0 0 0 0\n";
   EXPECT_EQ(run("relations " + estimate_ + " " + folder_ / "r.relations" + " -o " + folder_ / "r"), 0) << text_;
-  EXPECT_TRUE(printed("1 relations judged, 0 missed")) << text_;
+  EXPECT_TRUE(printed("1 relation judged, 0 missed")) << text_;
 }
 
 TEST_F(EvalApp, HelpShowsExamples) {

@@ -22,7 +22,7 @@ TEST(Verdict, IsSuspiciousForAnythingAgainstTheMapWhateverElseThereIs) {
 TEST(Verdict, CannotTellWhereSomethingIsMissing) {
   const auto verdict = conclude({kGood, kTooLittle});
   EXPECT_EQ(verdict.answer, Answer::cannot_tell);
-  EXPECT_EQ(sentenceOf(verdict), "It is undetermined whether the map is right: the robot never came back.");
+  EXPECT_EQ(sentenceOf(verdict), "The run cannot tell whether the map is right: the robot never came back.");
 }
 
 TEST(Verdict, TakesWhatAnotherPluginKnowsInPlaceOfTooLittle) {
@@ -36,7 +36,7 @@ TEST(Verdict, TakesWhatAnotherPluginKnowsInPlaceOfTooLittle) {
 
 TEST(Verdict, CannotTellWhereNobodyJudges) {
   EXPECT_EQ(conclude({}).answer, Answer::cannot_tell);
-  EXPECT_EQ(sentenceOf(conclude({})), "It is undetermined whether the map is right: no plugin checks maps.");
+  EXPECT_EQ(sentenceOf(conclude({})), "The run cannot tell whether the map is right: no plugin checks maps.");
 }
 
 TEST(Verdict, IsConsistentWhereAllIsGood) {

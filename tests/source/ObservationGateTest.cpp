@@ -48,16 +48,16 @@ std::string reasonOf(Observation good, const std::function<void(Observation&)>& 
 
 TEST(ObservationGate, SensorPosesAreFiniteAndOnTheBase) {
   using Scan = CObservation2DRangeScan;
-  EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.y(kNan); }), "their sensor pose is not valid");
+  EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.y(kNan); }), "the sensor pose is not valid");
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.x(1e300); }),
-            "their sensor is more than 1 km from the base");
+            "the sensor is more than 1 km from the base");
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.sensorPose.x(999); }), "");
   const auto stretched = [](double factor) {
     return [factor](Scan& s) {
       s.sensorPose.setRotationMatrix(mrpt::math::CMatrixDouble33(factor * Eigen::Matrix3d::Identity()));
     };
   };
-  EXPECT_EQ(reasonOf<Scan>(laser(), stretched(1e200)), "their sensor pose is not valid")
+  EXPECT_EQ(reasonOf<Scan>(laser(), stretched(1e200)), "the sensor pose is not valid")
       << "of a quaternion of any length";
   EXPECT_EQ(reasonOf<Scan>(laser(), stretched(1.00001)), "") << "rounded";
 }
@@ -65,10 +65,10 @@ TEST(ObservationGate, SensorPosesAreFiniteAndOnTheBase) {
 TEST(ObservationGate, ScansHaveAnAperture) {
   using Scan = CObservation2DRangeScan;
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.aperture = static_cast<float>(kNan); }),
-            "their aperture is not finite");
+            "the aperture is not finite");
   for (const double wrong : {0.0, -1.0, 7.0, 1e30}) {
     EXPECT_EQ(reasonOf<Scan>(laser(), [&](Scan& s) { s.aperture = static_cast<float>(wrong); }),
-              "their aperture is not between 0 and 400 deg");
+              "the aperture is not between 0 and 400 deg");
   }
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.aperture = static_cast<float>(2 * M_PI); }), "");
   EXPECT_EQ(reasonOf<Scan>(laser(), [](Scan& s) { s.setScanRange(3, static_cast<float>(kNan)); }), "") << "one beam";
@@ -78,31 +78,31 @@ TEST(ObservationGate, ScansHaveAnAperture) {
 TEST(ObservationGate, DepthImagesHaveACalibrationAndAUnit) {
   using Scan = CObservation3DRangeScan;
   EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.cameraParams.fx(kNan); }),
-            "their camera's calibration is not finite");
+            "the camera's calibration is not finite");
   EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.cameraParams.dist[2] = kInf; }),
-            "their camera's calibration is not finite");
+            "the camera's calibration is not finite");
   EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.cameraParams.fy(0); }), "")
       << "extractors report that the camera is not calibrated";
-  EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.rangeUnits = -0.001F; }), "their unit of depth is not positive");
+  EXPECT_EQ(reasonOf<Scan>(camera(), [](Scan& s) { s.rangeUnits = -0.001F; }), "the unit of depth is not positive");
 }
 
 TEST(ObservationGate, MotionsAndTheirCovariancesAreFinite) {
   using Odometry = CObservationOdometry;
-  EXPECT_EQ(reasonOf<Odometry>({}, [](Odometry& o) { o.odometry.phi(kInf); }), "their pose is not finite");
+  EXPECT_EQ(reasonOf<Odometry>({}, [](Odometry& o) { o.odometry.phi(kInf); }), "the pose is not finite");
   using Motion = obs::CObservationRelativeMotion;
-  EXPECT_EQ(reasonOf<Motion>({}, [](Motion& m) { m.begin_from_end.x(kNan); }), "their motion is not valid");
+  EXPECT_EQ(reasonOf<Motion>({}, [](Motion& m) { m.begin_from_end.x(kNan); }), "the motion is not valid");
   const auto covariance = [](const std::function<void(Eigen::Matrix<double, 6, 6>&)>& spoil) {
     return reasonOf<Motion>({}, [&](Motion& m) { spoil(m.covariance); });
   };
   const std::string none =
-      "their covariance is not valid: it is not finite, not symmetric, or has a negative variance in some direction";
+      "the covariance is not valid: it is not finite, not symmetric, or has a negative variance in some direction";
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = kInf; }), none);
   EXPECT_EQ(covariance([](auto& c) { c(0, 1) = 0.1; }), none) << "not symmetric";
   EXPECT_EQ(covariance([](auto& c) { c(5, 5) = -0.1; }), none);
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = c(1, 1) = 1, c(0, 1) = c(1, 0) = 1.1; }), none) << "correlation 1.1";
   EXPECT_EQ(covariance([](auto& c) { c(0, 0) = 1; }), "") << "what cannot move has no variance";
   using Pose = CObservationRobotPose;
-  EXPECT_EQ(reasonOf<Pose>({}, [](Pose& p) { p.pose.mean.z(kNan); }), "their pose is not valid");
+  EXPECT_EQ(reasonOf<Pose>({}, [](Pose& p) { p.pose.mean.z(kNan); }), "the pose is not valid");
   EXPECT_EQ(reasonOf<Pose>({}, [&](Pose& p) { p.pose.cov(3, 3) = -1; }), none);
 }
 
@@ -114,7 +114,7 @@ TEST(ObservationGate, MeasurementsAreFinite) {
   good.sensedData[0].yaw = 0.1;
   good.sensedData[0].pitch = 0;
   EXPECT_EQ(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].yaw = static_cast<float>(kNan); }),
-            "one of their bearings or ranges is not finite");
+            "one of the bearings or ranges is not finite");
   good.validCovariances = true;
   good.sensedData[0].covariance.setIdentity();
   EXPECT_NE(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].covariance(1, 1) = -1; }), "");
@@ -122,7 +122,7 @@ TEST(ObservationGate, MeasurementsAreFinite) {
 
 TEST(ObservationGate, ImagesHaveAFiniteCalibration) {
   using Image = CObservationImage;
-  EXPECT_EQ(reasonOf<Image>({}, [](Image& i) { i.cameraParams.cx(kNan); }), "their camera's calibration is not finite");
+  EXPECT_EQ(reasonOf<Image>({}, [](Image& i) { i.cameraParams.cx(kNan); }), "the camera's calibration is not finite");
 }
 
 TEST(ObservationGate, AnImageOfAnotherSizeIsLeftOutUntilItIsTheUsualOne) {

@@ -251,9 +251,18 @@ std::vector<std::string> Config::switchedOffPlugins() const {
 }
 
 bool ConfigSection::find(const std::string& key, std::string& text) const {
-  if (!config_->ini_.keyExists(name_, key)) return false;
-  text = trimmed(config_->ini_.read_string(name_, key, ""));
-  return true;
+  if (config_->ini_.keyExists(name_, key)) {
+    text = trimmed(config_->ini_.read_string(name_, key, ""));
+    return true;
+  }
+  // An INI that a program wrote, such as that of a recording, keeps the names that the keys had then.
+  if (!config_->is_written_from_a_log_) return false;
+  for (const auto& [old, present] : renamedKeys()) {
+    if (present != key || !config_->ini_.keyExists(name_, old)) continue;
+    text = trimmed(config_->ini_.read_string(name_, old, ""));
+    return true;
+  }
+  return false;
 }
 
 void ConfigSection::refuseUnknownKeys(const std::vector<OptionSpec>& specs,
@@ -267,6 +276,7 @@ void ConfigSection::refuseUnknownKeys(const std::vector<OptionSpec>& specs,
     const auto renamed = renamedKeys().find(key);
     const bool is_old =
         renamed != renamedKeys().end() && std::find(known.begin(), known.end(), renamed->second) != known.end();
+    if (is_old && config_->is_written_from_a_log_) continue;
     throw Error(ExitCode::unknown_key,
                 config_->placeOf(name_, key) + ": [" + name_ + "] has no key '" + key + "'" +
                     (is_old ? ": it is called '" + renamed->second + "' now" : suggestion(key, known)));

@@ -2,6 +2,8 @@
 #include <omnimapper/base/IniDifferences.h>
 #include <omnimapper/base/OptionTable.h>
 
+#include "RenamedKeys.h"
+
 namespace omnimapper::base {
 
 namespace {
@@ -47,12 +49,27 @@ void addDifferences(const CConfigFileMemory& listed, const CConfigFileMemory& no
   }
 }
 
+// The INI with the present names of its keys.
+CConfigFileMemory withPresentNames(const std::string& text) {
+  CConfigFileMemory read, renamed;
+  read.setContent(text);
+  std::vector<std::string> sections, keys;
+  read.getAllSections(sections);
+  for (const auto& section : sections) {
+    read.getAllKeys(section, keys);
+    for (const auto& key : keys) {
+      const auto present = renamedKeys().find(key);
+      renamed.write(section, present == renamedKeys().end() ? key : present->second,
+                    read.read_string(section, key, ""));
+    }
+  }
+  return renamed;
+}
+
 }  // namespace
 
 std::vector<std::string> iniDifferences(const std::string& now, const std::string& before) {
-  CConfigFileMemory ini_now, ini_before;
-  ini_now.setContent(now);
-  ini_before.setContent(before);
+  const CConfigFileMemory ini_now = withPresentNames(now), ini_before = withPresentNames(before);
   std::vector<std::string> all;
   addDifferences(ini_now, ini_now, ini_before, false, all);
   addDifferences(ini_before, ini_now, ini_before, true, all);

@@ -80,7 +80,7 @@ std::string odometryLines(const LogFacts& facts) {
 }
 
 std::string findingLines(const std::vector<Finding>& findings) {
-  if (findings.empty()) return "\nNothing is wrong with this log.\n";
+  if (findings.empty()) return "\nNothing is wrong with the observations.\n";
   std::string text = "\n";
   for (const auto& finding : findings) {
     const char* weight = finding.weight == Weight::problem   ? "PROBLEM  "

@@ -41,7 +41,7 @@ class Gatherer {
     if (const auto image = std::dynamic_pointer_cast<const mrpt::obs::CObservation3DRangeScan>(observation)) {
       const bool is_calibrated = image->cameraParams.fx() > 0 && image->cameraParams.fy() > 0;
       if (image->hasRangeImage && !is_calibrated) {
-        auto& left_out = uncalibrated_[{label, "their camera is not calibrated: its focal length is not positive"}];
+        auto& left_out = uncalibrated_[{label, "the camera is not calibrated: its focal length is not positive"}];
         if (left_out.observations++ == 0) left_out.first_stamp = stamp;
       }
     }

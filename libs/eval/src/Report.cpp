@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/eval/Plot.h>
 #include <omnimapper/eval/Report.h>
 
@@ -42,8 +43,8 @@ void saveNumbersAndCurves(const std::string& folder, const std::string& title, c
 }  // namespace
 
 std::string table(const AbsoluteTrajectoryError& error) {
-  std::string title = "absolute trajectory error: " + std::to_string(error.translation.count) + " pairs, " +
-                      std::to_string(error.paired.unpaired) + " unpaired poses";
+  std::string title = "absolute trajectory error: " + base::counted(error.translation.count, "pair") + ", " +
+                      base::counted(error.paired.unpaired, "unpaired pose");
   if (error.paired.reference_from_estimate.scale != 1) {
     title += ", scale " + std::to_string(error.paired.reference_from_estimate.scale);
   }
@@ -51,15 +52,15 @@ std::string table(const AbsoluteTrajectoryError& error) {
 }
 
 std::string table(const RelativePoseError& error) {
-  return head("relative pose error: " + std::to_string(error.translation.count) + " spans, " +
-              std::to_string(error.unpaired) + " unpaired poses") +
+  return head("relative pose error: " + base::counted(error.translation.count, "span") + ", " +
+              base::counted(error.unpaired, "unpaired pose")) +
          row("translation", error.translation, 1, "m") + row("rotation", error.rotation, kDegrees, "deg");
 }
 
 std::string table(const RelationError& error) {
   char share[80];
   std::snprintf(share, sizeof share, "%.2f %% within both thresholds\n", 100 * error.share_within);
-  return head("relation metric: " + std::to_string(error.translation.count) + " relations judged, " +
+  return head("relation metric: " + base::counted(error.translation.count, "relation") + " judged, " +
               std::to_string(error.missed) + " missed") +
          row("translation", error.translation, 1, "m") + row("rotation", error.rotation, kDegrees, "deg") +
          row("translation^2", error.squared_translation, 1, "m^2") +

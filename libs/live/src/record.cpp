@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/live/record.h>
 
 #include <chrono>
@@ -67,7 +68,9 @@ std::vector<std::string> troublesOf(const Recorded& recorded) {
     } else {
       continue;
     }
-    if (sensor.left_out > 0) trouble += "; " + std::to_string(sensor.left_out) + " invalid messages were discarded";
+    if (sensor.left_out > 0)
+      trouble += "; " + base::counted(sensor.left_out, "invalid message") + " " + base::wasOrWere(sensor.left_out) +
+                 " discarded";
     if (!sensor.problem.empty()) trouble += "; " + sensor.problem;
     all.push_back("sensor [" + sensor.name + "] " + trouble);
   }

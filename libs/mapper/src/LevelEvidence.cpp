@@ -21,7 +21,9 @@ void LevelEvidence::add(const mrpt::obs::CObservation& observation) {
     level_base_ = "wheel odometry '" + observation.sensorLabel + "'";
   } else if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(&observation)) {
     const double up = std::abs(scan->sensorPose.getRotationMatrix()(2, 2));
-    if (std::acos(std::min(1.0, up)) < matching::kLargestTilt) level_base_ = "the 2D laser '" + scan->sensorLabel + "'";
+    if (std::acos(std::min(1.0, up)) < matching::kLargestTilt)
+      level_base_ =
+          scan->sensorLabel.empty() ? "a 2D laser without a label" : "the 2D laser '" + scan->sensorLabel + "'";
   }
 }
 

@@ -60,7 +60,7 @@ std::string sentenceOf(const Verdict& verdict) {
       break;
   }
   const std::string why = reasons(Evidence::Says::too_little);
-  return "It is undetermined whether the map is right: " + (why.empty() ? "no plugin checks maps" : why) + ".";
+  return "The run cannot tell whether the map is right: " + (why.empty() ? "no plugin checks maps" : why) + ".";
 }
 
 }  // namespace omnimapper::mapper

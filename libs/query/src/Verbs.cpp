@@ -47,8 +47,8 @@ const std::vector<Verb>& verbs() {
 
 void expectWords(const Verb& verb, const Request& request) {
   if (request.words.size() < static_cast<std::size_t>(verb.least_words))
-    throw base::Error(base::ExitCode::command_line, "after MAP give what to " + verb.name + ": " + verb.words + ", " +
-                                                        verb.words_help + "; see --help");
+    throw base::Error(base::ExitCode::command_line,
+                      "after MAP, " + verb.name + " needs " + verb.words + ": " + verb.words_help + "; see --help");
 }
 
 }  // namespace omnimapper::query

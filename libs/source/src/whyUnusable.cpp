@@ -22,7 +22,7 @@ namespace {
 using Reason = std::optional<std::string>;
 
 constexpr const char* kNoCovariance =
-    "their covariance is not valid: it is not finite, not symmetric, or has a negative variance in some direction";
+    "the covariance is not valid: it is not finite, not symmetric, or has a negative variance in some direction";
 
 // A stored quaternion that is not of length 1 gives a matrix that rotates and scales.
 bool isPose(const mrpt::poses::CPose3D& pose) {
@@ -60,28 +60,28 @@ Reason whyNot(const mrpt::img::TCamera& camera) {
   const bool is_finite = std::isfinite(camera.fx()) && std::isfinite(camera.fy()) && std::isfinite(camera.cx()) &&
                          std::isfinite(camera.cy()) &&
                          std::all_of(camera.dist.begin(), camera.dist.end(), [](double d) { return std::isfinite(d); });
-  if (!is_finite) return "their camera's calibration is not finite";
+  if (!is_finite) return "the camera's calibration is not finite";
   return std::nullopt;
 }
 
 Reason whyNot(const CObservation2DRangeScan& scan) {
   constexpr double kWidest = 400 * M_PI / 180;  // some lasers measure slightly more than a full turn
-  if (!std::isfinite(scan.aperture)) return "their aperture is not finite";
-  if (!(scan.aperture > 0) || scan.aperture > kWidest) return "their aperture is not between 0 and 400 deg";
+  if (!std::isfinite(scan.aperture)) return "the aperture is not finite";
+  if (!(scan.aperture > 0) || scan.aperture > kWidest) return "the aperture is not between 0 and 400 deg";
   return std::nullopt;
 }
 
 Reason whyNot(const CObservation3DRangeScan& scan) {
   if (auto reason = whyNot(scan.cameraParams)) return reason;
   if (!scan.hasRangeImage) return std::nullopt;
-  if (!std::isfinite(scan.rangeUnits) || !(scan.rangeUnits > 0)) return "their unit of depth is not positive";
+  if (!std::isfinite(scan.rangeUnits) || !(scan.rangeUnits > 0)) return "the unit of depth is not positive";
   return std::nullopt;
 }
 
 Reason whyNot(const CObservationBearingRange& measurement) {
   for (const auto& one : measurement.sensedData) {
     if (!std::isfinite(one.range) || !std::isfinite(one.yaw) || !std::isfinite(one.pitch))
-      return "one of their bearings or ranges is not finite";
+      return "one of the bearings or ranges is not finite";
     if (measurement.validCovariances && !isCovariance(one.covariance.asEigen())) return kNoCovariance;
   }
   return std::nullopt;
@@ -90,18 +90,18 @@ Reason whyNot(const CObservationBearingRange& measurement) {
 Reason whyNot(const CObservationOdometry& odometry) {
   const auto& pose = odometry.odometry;
   if (!std::isfinite(pose.x()) || !std::isfinite(pose.y()) || !std::isfinite(pose.phi()))
-    return "their pose is not finite";
+    return "the pose is not finite";
   return std::nullopt;
 }
 
 Reason whyNot(const CObservationRobotPose& pose) {
-  if (!isPose(pose.pose.mean)) return "their pose is not valid";
+  if (!isPose(pose.pose.mean)) return "the pose is not valid";
   if (!isCovariance(pose.pose.cov.asEigen())) return kNoCovariance;
   return std::nullopt;
 }
 
 Reason whyNot(const obs::CObservationRelativeMotion& motion) {
-  if (!isPose(motion.begin_from_end)) return "their motion is not valid";
+  if (!isPose(motion.begin_from_end)) return "the motion is not valid";
   if (!isCovariance(motion.covariance)) return kNoCovariance;
   return std::nullopt;
 }
@@ -115,10 +115,10 @@ Reason whyNot(const obs::CObservationPlanes& found) {
   for (const auto& plane : found.planes) {
     const auto& [normal, distance] = plane.plane_in_sensor;
     if (!(std::abs(normal.norm() - 1) < kRounding) || !std::isfinite(distance))
-      return "one of their planes has no unit normal or no finite distance";
+      return "one of the planes has no unit normal or no finite distance";
     if (!plane.centroid.allFinite() || !isFinite(plane.outline) ||
         !std::all_of(plane.holes.begin(), plane.holes.end(), isFinite))
-      return "one of their outlines is not finite";
+      return "one of the outlines is not finite";
     if (!isCovariance(plane.covariance)) return kNoCovariance;
   }
   return std::nullopt;
@@ -128,7 +128,7 @@ Reason whyNot(const obs::CObservationLaserLines& found) {
   for (const auto& line : found.lines) {
     const auto& [from, to] = line.segment_in_sensor;
     if (!from.allFinite() || !to.allFinite() || !std::isfinite(line.angle) || !std::isfinite(line.distance))
-      return "one of their lines is not finite";
+      return "one of the lines is not finite";
     if (!isCovariance(line.covariance)) return kNoCovariance;
   }
   return std::nullopt;
@@ -147,8 +147,8 @@ std::optional<std::string> whyUnusable(const CObservation& observation) {
   constexpr double kFarthest = 1000;  // [m] of a sensor from the base that carries it
   mrpt::poses::CPose3D base_from_sensor;
   observation.getSensorPose(base_from_sensor);
-  if (!isPose(base_from_sensor)) return "their sensor pose is not valid";
-  if (base_from_sensor.norm() > kFarthest) return "their sensor is more than 1 km from the base";
+  if (!isPose(base_from_sensor)) return "the sensor pose is not valid";
+  if (base_from_sensor.norm() > kFarthest) return "the sensor is more than 1 km from the base";
   for (const auto& reason :
        {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),
         whyNotAs<CObservationBearingRange>(observation), whyNotAs<CObservationOdometry>(observation),

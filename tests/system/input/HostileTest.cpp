@@ -109,13 +109,13 @@ TEST_F(Hostile, ValuesThatAreNoNumbersAreLeftOutAndReported) {
   };
   auto log = ring();
   anyScan(log)->aperture = std::numeric_limits<float>::quiet_NaN();
-  expectLeftOut(log, "their aperture is not finite");
+  expectLeftOut(log, "the aperture is not finite");
   log = ring();
   anyScan(log)->aperture = 0;
-  expectLeftOut(log, "their aperture is not between 0 and 400 deg");
+  expectLeftOut(log, "the aperture is not between 0 and 400 deg");
   log = ring();
   anyScan(log)->sensorPose.x(1e300);
-  expectLeftOut(log, "their sensor is more than 1 km from the base");
+  expectLeftOut(log, "the sensor is more than 1 km from the base");
 }
 
 TEST_F(Hostile, CheckReportsWhatIsWrongWithACamera) {

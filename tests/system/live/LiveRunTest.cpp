@@ -170,7 +170,7 @@ TEST(LiveRun, checksOrRecordsWithoutMapping) {
   EXPECT_TRUE(endedWith(ExitCode::ok, map({rawlogs.front()}, run.folder / "map")));
   const auto ended = check.wait();
   EXPECT_TRUE(endedWith(ExitCode::ok, ended));
-  EXPECT_NE(ended.out.find("Nothing is wrong with this log"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("Nothing is wrong with the observations"), std::string::npos) << ended.out;
   EXPECT_NE(ended.err.find("a key that its driver CHokuyoURG does not read: poze_z (did you mean pose_z?)"),
             std::string::npos)
       << ended.err;

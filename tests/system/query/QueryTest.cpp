@@ -186,7 +186,7 @@ TEST_F(Query, WhatCannotBeAskedIsAnErrorThatSaysWhy) {
     EXPECT_EQ(ended.err.find('\x1b'), std::string::npos);
     EXPECT_LT(ended.err.size(), 600U) << ended.err;
   };
-  refuses({}, ExitCode::command_line, "after MAP give what to find: TEXT");
+  refuses({}, ExitCode::command_line, "after MAP, find needs TEXT");
   refuses({""}, ExitCode::command_line, "empty");
   refuses({"a\x1b[31m"}, ExitCode::command_line, "\\x1b");
   refuses({"\xff\xfe"}, ExitCode::command_line, "UTF-8");

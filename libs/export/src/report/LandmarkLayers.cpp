@@ -20,7 +20,7 @@ std::string cssColour(const draw::Rgb& colour) {
 std::string titleOf(const ShapedLandmark& shaped) {
   const auto& [landmark, shape, moved] = shaped;
   std::string text = shape.label + " " + (shape.caption.empty() ? toString(landmark->id) : shape.caption) +
-                     (moved ? " (moved)" : "") + ": " + std::to_string(landmark->evidence) + " measurements";
+                     (moved ? " (moved)" : "") + ": " + base::counted(landmark->evidence, "measurement");
   for (const auto& [name, value] : shape.properties) text += "\n" + name + " " + value;
   return "<title>" + draw::escapeMarkup(text) + "</title>";
 }

@@ -1,6 +1,7 @@
 #include "run/LiveFeed.h"
 
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/plugin/DecisionLog.h>
 #include <omnimapper/source/SourceOptions.h>
@@ -165,7 +166,9 @@ void LiveFeed::warnOfSensors(Engine& engine) const {
       add("was silent or lost " + times(sensor.losses) + ", and came back " + times(sensor.reopened) +
           (sensor.problem.empty() ? "" : " (last: " + sensor.problem + ")"));
     }
-    if (sensor.left_out > 0) add("sent " + std::to_string(sensor.left_out) + " invalid messages, which were discarded");
+    if (sensor.left_out > 0)
+      add("sent " + base::counted(sensor.left_out, "invalid message") + ", which " + base::wasOrWere(sensor.left_out) +
+          " discarded");
     if (sensor.clock_jumps > 0) {
       char text[120];
       std::snprintf(text, sizeof text, "has another clock than the host: %.3f s are added to its latest stamps",

@@ -98,13 +98,16 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
                           report);
   }
   throw base::Error(
-      code, request.localize_map +
-                ": the log was located nowhere in the map: was it recorded in another place? If not, set " +
-                (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
-                "another start (origin, pose). " +
-                (was_compared ? "The refused closures with their reasons are in " + report
-                              : "None of its scans was compared with the map: if both have a laser, use an INI with "
-                                "loop_closure; else the map needs landmarks of the kinds that the INI measures"));
+      code,
+      request.localize_map +
+          ": the log was located nowhere in the map: was it recorded in another place? If not, set " +
+          (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
+          "another start (origin, pose). " +
+          (was_compared
+               ? "The refused closures with their reasons are in " + report
+               : "No loop closure with the map was considered; what was tried is among the decisions in " + report +
+                     ". To compare laser scans, use an INI with a LoopClosurePlugin; without scans the "
+                     "map needs landmarks of the kinds that the INI measures"));
 }
 
 RunResult resultOf(const View& view) {

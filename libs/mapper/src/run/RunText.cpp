@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SessionAlignment.h>
@@ -36,7 +37,7 @@ std::string liveLines(const LiveMetrics& live) {
   std::string sensors;
   for (const auto& sensor : live.sensors) {
     sensors += (sensors.empty() ? "" : ", ") + sensor.name + " " + std::to_string(sensor.observations);
-    if (sensor.reopened > 0) sensors += " (came back " + std::to_string(sensor.reopened) + " times)";
+    if (sensor.reopened > 0) sensors += " (came back " + base::counted(sensor.reopened, "time") + ")";
   }
   constexpr double kMegabyte = 1e6;
   const double megabytes = static_cast<double>(live.recorded_bytes) / kMegabyte;
@@ -76,7 +77,7 @@ std::string toText(const RunResult& result) {
   } else if (result.sessions.size() > 1) {
     const auto& session = result.sessions.back();
     sessions = "sessions          " + std::to_string(result.sessions.size()) + ", the new one with " +
-               std::to_string(result.new_key_frames) + " key frames; " + alignedText(session) + "\n";
+               base::counted(result.new_key_frames, "key frame") + "; " + alignedText(session) + "\n";
   }
   const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
   const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which is not changed)" : "";

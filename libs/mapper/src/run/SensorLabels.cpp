@@ -17,8 +17,8 @@ std::string sentence(const std::string& place, const std::string& label, const L
   }
   const std::string near = base::nearestName(label, {existing.begin(), existing.end()});
   return place + ": no observation of the log has the label '" + label + "'" +
-         (near.empty() ? "" : "; did you mean '" + near + "'?") +
-         "; existing labels: " + (known.empty() ? "none" : known);
+         (near.empty() ? "; existing labels: " : "; did you mean '" + near + "'? Existing labels: ") +
+         (known.empty() ? "none" : known);
 }
 
 void check(const base::Config& config, const std::string& section, const std::string& key, const Labels& existing,
