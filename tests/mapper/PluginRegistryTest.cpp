@@ -6,6 +6,7 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 
@@ -119,41 +120,58 @@ TEST_F(PluginRegistry, EveryClassIsListedWithItsSentence) {
   }
 }
 
+// Expects that the printed section of the class has all its options, and makes the plugin from it. Throws as
+// makePlugins() does. Output plugins are not made, because they need a folder; their own tests read their options.
+void expectPrintedSection(const PluginFactory& factory) {
+  const std::string ini = printIni(factory.name());
+  EXPECT_TRUE(holds(ini, "class = " + factory.name() + "\n"));
+  for (const auto& spec : factory.options()) {
+    EXPECT_TRUE(holds(ini, "\n" + spec.key + " = " + spec.default_value)) << factory.name() << " " << spec.key;
+    EXPECT_TRUE(holds(ini, spec.help)) << factory.name() << " " << spec.key;
+  }
+  const auto begin = ini.find('[') + 1;
+  const std::string section = ini.substr(begin, ini.find(']') - begin);
+  const auto config = base::Config::fromText(ini, "printed.ini");
+  PluginSections sections;
+  switch (factory.kind()) {
+    case PluginKind::pose:
+      sections.pose = {section};
+      break;
+    case PluginKind::measurement:
+      sections.measurement = {section};
+      break;
+    case PluginKind::extractor:
+      sections.extractors = {section};
+      break;
+    case PluginKind::output:
+      return;
+  }
+  makePlugins(sections, config, {});
+}
+
+constexpr char kNeedsNetworks[] = "DoorSignExtractor";
+
 TEST_F(PluginRegistry, PrintedSectionsHoldEveryOptionAndReadBackAsTheDefaults) {
   for (const auto& factory : registeredFactories()) {
-    const std::string ini = printIni(factory->name());
-    EXPECT_TRUE(holds(ini, "class = " + factory->name() + "\n"));
-    for (const auto& spec : factory->options()) {
-      EXPECT_TRUE(holds(ini, "\n" + spec.key + " = " + spec.default_value)) << factory->name() << " " << spec.key;
-      EXPECT_TRUE(holds(ini, spec.help)) << factory->name() << " " << spec.key;
-    }
-    const auto begin = ini.find('[') + 1;
-    const std::string section = ini.substr(begin, ini.find(']') - begin);
-    const auto config = base::Config::fromText(ini, "printed.ini");
-    PluginSections sections;
-    switch (factory->kind()) {
-      case PluginKind::pose:
-        sections.pose = {section};
-        break;
-      case PluginKind::measurement:
-        sections.measurement = {section};
-        break;
-      case PluginKind::extractor:
-        sections.extractors = {section};
-        break;
-      case PluginKind::output:
-        continue;  // needs a folder; the tests of the outputs read these options
-    }
-    try {
-      makePlugins(sections, config, {});
-    } catch (const base::Error& error) {
-      // The section was read, but the extractor of door signs needs networks, which are not on every machine.
-      EXPECT_TRUE(holds(error.what(), "scripts/models fetches networks")) << error.what() << "\n" << ini;
-    }
+    if (factory->name() == kNeedsNetworks) continue;
+    EXPECT_NO_THROW(expectPrintedSection(*factory)) << factory->name();
   }
   const auto error = errorOf([] { printIni("LoopClosurPlugin"); });
   EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
   EXPECT_TRUE(holds(error.what(), "did you mean 'LoopClosurePlugin'")) << error.what();
+}
+
+TEST_F(PluginRegistry, ThePrintedSectionOfAnExtractorWithNetworksReadsBackToo) {
+  const auto factories = registeredFactories();
+  const auto found = std::find_if(factories.begin(), factories.end(),
+                                  [](const auto& factory) { return factory->name() == kNeedsNetworks; });
+  if (found == factories.end()) GTEST_SKIP() << "this build has no door signs";
+  try {
+    expectPrintedSection(**found);
+  } catch (const base::Error& error) {
+    if (!holds(error.what(), "the network is missing")) throw;
+    GTEST_SKIP() << error.what();
+  }
 }
 
 TEST_F(PluginRegistry, TheReferenceHoldsEverySectionEveryClassAndEveryKey) {

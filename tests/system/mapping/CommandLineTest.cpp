@@ -127,6 +127,8 @@ TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
   expected.insert({"floorplan.geojson", "landmarks.ply",
                    "surfaces.json"});  // outputs of walls, which ini/laser2d.ini does not have
   EXPECT_EQ(filesIn(file("all")), expected);
+  if (!hasSignNetworks())
+    GTEST_SKIP() << "ran without DoorSignExtractor: its networks are missing; scripts/models fetches them";
 }
 
 TEST_F(CommandLine, UnknownPluginToPrintIsAnsweredWithTheNearest) {
