@@ -34,7 +34,7 @@ TEST_F(SensorLabels, ThatTheLogHasNeedNoWord) {
 TEST_F(SensorLabels, ThatNothingHasAreNamedWithTheNearestAndAll) {
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"odometry.label=odometri"}),
                         {"warning: [odometry] label", "'odometri'", "did you mean 'odometry'?",
-                         "existing labels: laser, laser.points, odometry"}));
+                         "Existing labels: laser, laser.points, odometry"}));
   EXPECT_TRUE(endedWith(ExitCode::ok, mapWith({"loop_closure.labels=laser", "scan_odometry.label=odometry"}),
                         {"nothing was measured"}))
       << "the points have another label than the laser";
@@ -52,7 +52,7 @@ TEST_F(SensorLabels, OfAPluginThatGetsNothingAreReportedByItsName) {
 
 TEST_F(SensorLabels, ThatTheSourceLeavesOutAreThereForIt) {
   EXPECT_TRUE(endedWith(ExitCode::nothing_to_map, mapWith({"source.labels=lasr, odometry"}),
-                        {"[source] labels", "'lasr'", "did you mean 'laser'?", "existing labels: laser, odometry"}));
+                        {"[source] labels", "'lasr'", "did you mean 'laser'?", "Existing labels: laser, odometry"}));
 }
 
 TEST_F(SensorLabels, OfTheReferenceMustExist) {
