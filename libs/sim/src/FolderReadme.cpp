@@ -37,6 +37,10 @@ std::string meaningOf(const std::string& file, const std::string& name) {
   if (file == "README.md") return "this page";
   if (ends(".png"))
     return "what that sensor measured in the middle of the run; depth from blue to red, points from above";
+  if (ends("_bodies.csv"))
+    return "the beams of each scan of that sensor that ended on a person: successive beams in one line, with the name "
+           "of "
+           "the person and the body, which is a part of the person";
   if (ends(".jsonl"))
     return "the truth of each measurement of that sensor in the log, one line each, in the log's order";
   return "one file of ground truth for each measurement";

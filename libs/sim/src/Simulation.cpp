@@ -1,3 +1,4 @@
+#include <omnimapper/sim/Companions.h>
 #include <omnimapper/sim/Drive.h>
 #include <omnimapper/sim/Odometry.h>
 #include <omnimapper/sim/Simulation.h>
@@ -65,14 +66,21 @@ const base::OptionTable<SimulationOptions>& SimulationOptions::table() {
   return table;
 }
 
+DrivenWorld readDrivenWorld(const base::Config& config) {
+  const WorldPlan plan = readWorldPlan(config);
+  World world = makeWorld(plan);
+  Track map_from_base = planDrive(config, world);
+  addCompanions(world, plan, map_from_base, config.section("robot").read<DriveOptions>().radius);
+  return {std::move(world), std::move(map_from_base)};
+}
+
 Simulation::Simulation(const base::Config& config)
     : options_(config.section("simulation").read<SimulationOptions>()),
-      world_(readWorld(config)),
-      scenes_(world_),
-      map_from_base_(planDrive(config, world_)),
-      duration_(durationOf(options_, map_from_base_)),
+      driven_(readDrivenWorld(config)),
+      scenes_(driven_.world),
+      duration_(durationOf(options_, driven_.map_from_base)),
       ini_text_(config.text()) {
-  validate(world_);
+  validate(driven_.world);
   if (options_.sensors.empty()) {
     throw base::Error(base::ExitCode::out_of_range,
                       config.file() + ": [simulation] sensors is empty: name the sections of the sensors");
@@ -81,9 +89,9 @@ Simulation::Simulation(const base::Config& config)
   context.seed = static_cast<std::uint64_t>(options_.seed);
   context.start = start();
   context.duration = duration_;
-  context.world = &world_;
+  context.world = &driven_.world;
   context.scenes = &scenes_;
-  context.map_from_base = &map_from_base_;
+  context.map_from_base = &driven_.map_from_base;
   for (const std::string& name : options_.sensors) {
     context.number = hashOf(name);
     sensors_.push_back(makeSensor(config, name, context));
@@ -95,7 +103,7 @@ Simulation::Simulation(const base::Config& config)
       warnings_.push_back(config.file() + ": [" + options_.sensors[i] + "] first_s is after the end of the run at " +
                           base::option_text::format(duration_) + " s; the sensor measures nothing");
   }
-  for (const std::string& seen : visibleMoves(world_, map_from_base_, duration_))
+  for (const std::string& seen : visibleMoves(driven_.world, driven_.map_from_base, duration_))
     warnings_.push_back(config.file() + ": " + seen);
   config.refuseUnreadSections();
   const bool is_meant = config.placeOf("simulation", "sensors").rfind("--set", 0) == 0;

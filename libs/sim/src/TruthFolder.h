@@ -24,11 +24,11 @@ class TruthFolder {
   std::vector<std::string> files() const;
 
  private:
-  std::string pathOf(const std::string& label) const;
+  void addLine(const std::string& file, const std::string& first_line, const std::string& text);
 
   std::string folder_;
-  std::map<std::string, std::ofstream> lines_;  // by label
-  std::vector<std::string> labels_;
+  std::map<std::string, std::ofstream> open_;  // files of many measurements, by their names in truth/
+  std::vector<std::string> closed_;
   std::map<std::string, int> folders_;  // folders of separate files, with the number of files
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "OptionChecks.h"
+#include "PersonBeams.h"
 #include "TruthText.h"
 #include "opticsTable.h"
 
@@ -96,7 +97,10 @@ const base::OptionTable<Laser2dOptions>& Laser2dOptions::table() {
 }
 
 Laser2d::Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context)
-    : Sensor(mount, context), options_(options), optics_(options, *context.scenes, 3) {
+    : Sensor(mount, context),
+      options_(options),
+      optics_(options, *context.scenes, 3),
+      person_beams_(std::make_shared<PersonBeams>(*context.world)) {
   requireBelow(context.place(), "min_range_m", options.min_range, "max_range_m", options.max_range);
 }
 
@@ -151,7 +155,10 @@ Measurement Laser2d::measure(int k) const {
   }
   nlohmann::ordered_json truth = truthOf(all);
   if (options_.truth_ranges) truth["ranges"] = truth_ranges;
-  return {scan, truth.dump(), {}, seenPoints(all)};
+  Measurement measurement{scan, truth.dump(), {}, seenPoints(all)};
+  if (person_beams_->hasPeople())
+    measurement.body_rows = person_beams_->rows(all, k, base::formatUnix(stampOf(k)), timeOf(k));
+  return measurement;
 }
 
 SensorClass laser2dClass() {

@@ -41,6 +41,7 @@ void refuseTwins(const WorldPlan& plan) {
   check(plan.markers);
   check(plan.landmarks);
   check(plan.people);
+  check(plan.companions);
 }
 
 void refuseHugePlaces(const WorldPlan& plan) {

@@ -78,6 +78,16 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
                    "there is not enough room.")
           .text("hall_wall", &WorldOptions::hall_wall,
                 "Material of the corridor walls of a generated place. Empty means the usual material there.")
+          .choice(
+              "companions", &WorldOptions::companions,
+              {{"none", CompanionGroup::none},
+               {"guide", CompanionGroup::guide},
+               {"guests", CompanionGroup::guests},
+               {"group", CompanionGroup::group},
+               {"crowd", CompanionGroup::crowd}},
+              "People who accompany the robot, in addition to those of sections: nobody, one who leads it and stops "
+              "at doors, one beside and one behind it, five who hide the walls, or these five with one behind and "
+              "one who crosses the path.")
           .list("rooms", &WorldOptions::rooms, "Names of the sections that describe rooms.")
           .list("doors", &WorldOptions::doors, "Names of the sections that describe doors, passages and windows.")
           .list("furniture", &WorldOptions::furniture, "Names of the sections that describe furniture.")
@@ -213,6 +223,34 @@ const OptionTable<LandmarkIni>& LandmarkIni::table() {
           .number("x_m", &LandmarkIni::x, kAnywhere, "x coordinate of the landmark in the map.")
           .number("y_m", &LandmarkIni::y, kAnywhere, "y coordinate of the landmark in the map.")
           .number("z_m", &LandmarkIni::z, kAnywhere, "z coordinate of the landmark in the map, upwards.");
+  return table;
+}
+
+const OptionTable<CompanionIni>& CompanionIni::table() {
+  using Place = CompanionPlan::Place;
+  static const auto table =
+      OptionTable<CompanionIni>()
+          .number("height_m", &CompanionIni::height, {0.8, 2.3}, "Height of the person.")
+          .choice("place", static_cast<Place CompanionIni::*>(&CompanionIni::place),
+                  {{"ahead", Place::ahead},
+                   {"behind", Place::behind},
+                   {"beside", Place::beside},
+                   {"crossing", Place::crossing},
+                   {"stops", Place::stops}},
+                  "Where the person walks: on the robot's path ahead of it or behind it, beside the robot, ahead of it "
+                  "on one side of the path and now and then across to the other, or ahead of it with stops, mostly at "
+                  "doors, where the person waits for the robot.")
+          .number("distance_m", &CompanionIni::distance, {0.6, 10},
+                  "Distance of the person from the robot along the robot's path. Beside the robot it does not count.")
+          .number("side_m", &CompanionIni::side, {-5, 5},
+                  "Offset of the person to the left of the robot's path. Beside the robot, 0 means 0.75 m to the left; "
+                  "for one who crosses the path, the person changes from this offset to its opposite, and 0 means "
+                  "0.9 m.")
+          .number("from_s", &CompanionIni::from, Range::notNegative(),
+                  "Time at which the person begins to accompany the robot. Until then it stands where it begins.")
+          .number("until_s", &CompanionIni::until, Range::notNegative(),
+                  "Time at which the person stops accompanying the robot. From then on it stands there. 0 means the "
+                  "end of the drive.");
   return table;
 }
 

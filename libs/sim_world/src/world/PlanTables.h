@@ -47,6 +47,9 @@ struct LandmarkIni : LandmarkPlan {
   static const base::OptionTable<LandmarkIni>& table();
 };
 
+struct CompanionIni : CompanionPlan {
+  static const base::OptionTable<CompanionIni>& table();
+};
 struct PersonIni {
   double height = 1.72, yaw = 0;
   std::vector<std::string> path_words, pointing_words;

@@ -4,7 +4,9 @@
 #include <omnimapper/sim_world/WorldIni.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "CompanionGroups.h"
 #include "PlanTables.h"
 #include "WallThings.h"
 
@@ -31,9 +33,9 @@ struct Entry {
 };
 
 Entry open(const base::Config& config, const WorldPlan& plan, const std::string& name,
-           const std::vector<std::string>& classes) {
+           const std::vector<std::string>& classes, const std::string& usual_class = "") {
   if (!config.has(name)) refuse(plan, "world", "lists", "there is no section [" + name + "]");
-  Entry entry{plan, config.section(name), name, classes.size() == 1 ? classes.front() : ""};
+  Entry entry{plan, config.section(name), name, classes.size() == 1 ? classes.front() : usual_class};
   entry.section.find("class", entry.class_name);
   if (std::find(classes.begin(), classes.end(), entry.class_name) == classes.end()) {
     const std::string near = base::nearestName(entry.class_name, classes);
@@ -163,6 +165,15 @@ PersonSpec readPerson(const Entry& entry, std::uint64_t seed) {
   return person;
 }
 
+CompanionPlan readCompanion(const Entry& entry) {
+  const CompanionIni ini = read<CompanionIni>(entry);
+  if (ini.until > 0 && ini.until <= ini.from) entry.refuse("until_s", "must be after from_s, or 0");
+  const bool is_inside = ini.place == CompanionPlan::Place::beside && ini.side != 0 && std::abs(ini.side) < 0.5;
+  if (is_inside)
+    entry.refuse("side_m", "must be at least 0.5 m to either side, so that the person is not in the robot");
+  return ini;
+}
+
 PlacePlan placeOf(const PlaceIni& ini) {
   return {ini.x, ini.y, ini.yaw, ini.on};
 }
@@ -221,7 +232,7 @@ std::vector<std::string> furnitureNames() {
 }
 
 const std::vector<std::string> kRoomClasses{"room", "outdoors"}, kDoorClasses{"door", "passage", "window"},
-    kMarkerClasses{"wall", "stand"}, kLandmarkClasses{"point"}, kPersonClasses{"person"};
+    kMarkerClasses{"wall", "stand"}, kLandmarkClasses{"point"}, kPersonClasses{"person", "companion"};
 
 }  // namespace
 
@@ -247,8 +258,16 @@ WorldPlan readWorldPlan(const base::Config& config) {
   each(options.markers, kMarkerClasses, [&](const Entry& entry) { plan.markers.push_back(readMarker(entry)); });
   each(options.landmarks, kLandmarkClasses,
        [&](const Entry& entry) { plan.landmarks.push_back(read<LandmarkIni>(entry)); });
-  each(options.people, kPersonClasses,
-       [&](const Entry& entry) { plan.people.push_back(readPerson(entry, plan.seed * 1000 + plan.people.size())); });
+  for (const std::string& name : options.people) {
+    const Entry entry = open(config, plan, name, kPersonClasses, kPersonClasses.front());
+    if (entry.class_name == "person")
+      plan.people.push_back(readPerson(entry, plan.seed * 1000 + plan.people.size()));
+    else
+      plan.companions.push_back(readCompanion(entry));
+  }
+  const std::vector<CompanionPlan> group = companionsOf(options.companions, plan.seed);
+  plan.companions.insert(plan.companions.end(), group.begin(), group.end());
+  for (std::size_t i = 0; i < plan.companions.size(); ++i) plan.companions[i].seed = plan.seed * 1000 + 500 + i;
   return plan;
 }
 
@@ -265,7 +284,8 @@ std::vector<WorldSectionReference> worldSectionReferences() {
           {"posters", posterKindNames(), PosterIni::table().specs()},
           {"markers", kMarkerClasses, MarkerIni::table().specs()},
           {"landmarks", kLandmarkClasses, LandmarkIni::table().specs()},
-          {"people", kPersonClasses, PersonIni::table().specs()}};
+          {"people", {kPersonClasses[0]}, PersonIni::table().specs()},
+          {"people", {kPersonClasses[1]}, CompanionIni::table().specs()}};
 }
 
 }  // namespace omnimapper::sim

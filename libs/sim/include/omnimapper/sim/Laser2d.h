@@ -3,9 +3,12 @@
 #include <omnimapper/sim/LaserOptics.h>
 #include <omnimapper/sim/Sensor.h>
 
+#include <memory>
 #include <utility>
 
 namespace omnimapper::sim {
+
+class PersonBeams;
 
 enum class Laser2dModel { sick_lms291, sick_pls, hokuyo_utm30, hokuyo_urg04, ideal };
 
@@ -31,7 +34,8 @@ struct Laser2dOptions : LaserOpticsOptions {
 /// truth has one line for each scan. "surfaces" [[number + 1, count], ...] lists, in the order of the beams, the
 /// surfaces that were met (0: none in reach), each with the number of successive beams that met it. "missed", "mixed"
 /// and "mirrored" are indices of beams; a missed beam met a surface but has no echo, because the echo was too weak, too
-/// near, too far or lost. "ranges" [m] are there if truth_ranges is set.
+/// near, too far or lost. "ranges" [m] are there if truth_ranges is set. If there are people in the world, the file
+/// truth/<label>_bodies.csv lists the beams that ended on them.
 class Laser2d : public Sensor {
  public:
   Laser2d(const Laser2dOptions& options, const SensorOptions& mount, const SensorContext& context);
@@ -42,6 +46,7 @@ class Laser2d : public Sensor {
 
   Laser2dOptions options_;
   LaserOptics optics_;
+  std::shared_ptr<const PersonBeams> person_beams_;
 };
 
 /// The sensor class of Laser2d. Keys that an INI does not give take the values of its model.

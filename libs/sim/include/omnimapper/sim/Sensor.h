@@ -68,6 +68,8 @@ struct Measurement {
   std::vector<TruthFile> truth_files;
   std::vector<VisiblePoint> seen = {};
   std::vector<SignView> signs = {};  ///< the signs in the picture, if the observation has a picture
+  /// Lines for truth/<label>_bodies.csv, the beams that ended on people; none: the sensor has no such file.
+  std::optional<std::string> body_rows = {};
 };
 
 /// Whether a name is not empty and has no '/', no leading '.' and no control characters.

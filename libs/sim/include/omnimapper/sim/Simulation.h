@@ -28,6 +28,15 @@ struct SimulationOptions {
   static const base::OptionTable<SimulationOptions>& table();
 };
 
+/// A world and the true track of the robot's base in it.
+struct DrivenWorld {
+  World world;
+  Track map_from_base;
+};
+/// Reads [world], [robot] and the sections that they name: the world, the drive, and the people who accompany the robot
+/// on it.
+DrivenWorld readDrivenWorld(const base::Config& config);
+
 /// A world, a robot that drives through it and its sensors, read from an INI and ready to run.
 class Simulation {
  public:
@@ -37,9 +46,9 @@ class Simulation {
   Simulation& operator=(const Simulation&) = delete;
 
   const SimulationOptions& options() const { return options_; }
-  const World& world() const { return world_; }
+  const World& world() const { return driven_.world; }
   const Scenes& scenes() const { return scenes_; }
-  const Track& mapFromBase() const { return map_from_base_; }
+  const Track& mapFromBase() const { return driven_.map_from_base; }
   const std::vector<std::unique_ptr<Sensor>>& sensors() const { return sensors_; }
   double duration() const { return duration_; }
   base::Stamp start() const { return base::stampFromUnix(options_.start); }
@@ -49,9 +58,8 @@ class Simulation {
 
  private:
   SimulationOptions options_;
-  World world_;
+  DrivenWorld driven_;
   Scenes scenes_;
-  Track map_from_base_;
   double duration_;
   std::string ini_text_;
   std::vector<std::string> warnings_;

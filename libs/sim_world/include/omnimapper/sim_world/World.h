@@ -74,6 +74,7 @@ struct Person {
   std::vector<std::string> bodies;
   std::vector<Joint> joints;
   std::vector<Pointing> pointing;
+  bool accompanies = false;  ///< its path follows from that of the robot
 };
 
 /// The whole simulated world, in the map's frame: z up, floor of the first room at 0. Times are seconds since the

@@ -12,6 +12,15 @@ namespace omnimapper::sim {
 
 enum class ClutterLevel { low, medium, high };
 
+/// People who accompany the robot without sections of their own.
+enum class CompanionGroup {
+  none,
+  guide,   ///< one who leads the robot
+  guests,  ///< one beside and one behind it
+  group,   ///< five who hide the walls ahead and on both sides
+  crowd,   ///< the group, one behind, and one who crosses the path
+};
+
 /// Section [world] of an INI: what a generator makes, and what sections add to it.
 struct WorldOptions {
   int seed = 1;
@@ -25,6 +34,7 @@ struct WorldOptions {
   int repeated_signs = 0;  ///< number of additional door signs that say a repeated word, such as Storage
   bool exit_signs = false;
   int announcements = 0;  ///< largest number of posters with numbers in the corridors of the place
+  CompanionGroup companions = CompanionGroup::none;
   std::string hall_wall;  ///< material of the walls of the corridors; empty: the generator's
   std::vector<std::string> rooms, doors, furniture, objects, signs, posters, markers, landmarks, people;
   static const base::OptionTable<WorldOptions>& table();

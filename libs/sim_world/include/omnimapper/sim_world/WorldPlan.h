@@ -117,6 +117,26 @@ struct LandmarkPlan {
   double x = 0, y = 0, z = 0;  ///< [m]
 };
 
+/// A person who accompanies the robot. The path of such a person follows from the drive of the robot, which is planned
+/// first.
+struct CompanionPlan {
+  enum class Place {
+    ahead,     ///< on the robot's path, a distance ahead of it
+    behind,    ///< on the robot's path, a distance behind it
+    beside,    ///< beside the robot
+    crossing,  ///< ahead on one side of the path; changes the side now and then
+    stops,     ///< leads the robot: walks farther ahead now and then, mostly to a door, and waits there for the robot
+  };
+  std::string name;
+  double height = 1.72;  ///< [m]
+  std::uint64_t seed = 0;
+  Place place = Place::ahead;
+  double distance = 1;  ///< from the robot along its path; not for the place beside [m]
+  double side = 0;      ///< offset to the left of the path; 0, for beside and crossing: as is usual [m]
+  double from = 0,
+         until = 0;  ///< before and after, the person stands where it is then; until 0: as long as it drives [s]
+};
+
 struct WorldPlan {
   std::string file;  ///< the INI that it is from, for messages
   std::uint64_t seed = 0;
@@ -129,7 +149,8 @@ struct WorldPlan {
   std::vector<PosterPlan> posters;
   std::vector<MarkerPlan> markers;
   std::vector<LandmarkPlan> landmarks;
-  std::vector<PersonSpec> people;  ///< a target that has a name needs no position; its position is looked up
+  std::vector<PersonSpec> people;         ///< a target that has a name needs no position; its position is looked up
+  std::vector<CompanionPlan> companions;  ///< makeWorld() only checks their names, since they need the robot's drive
 };
 
 /// Builds the described world. Throws base::Error(out_of_range) naming section and key if that is impossible.
