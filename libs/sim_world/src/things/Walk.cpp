@@ -12,6 +12,10 @@ namespace {
 constexpr double kLift = 0.07;         // of a foot in the middle of its swing [m]
 constexpr double kHeadingReach = 0.3;  // a heading is that of the path from this far behind to this far ahead [m]
 
+bool isBefore(const PersonSpec::Waypoint& waypoint, double time) {
+  return waypoint.time < time;
+}
+
 double headingOf(const Eigen::Vector2d& travel) {
   return std::atan2(travel.y(), travel.x());
 }
@@ -34,12 +38,11 @@ Walk::Walk(const std::vector<PersonSpec::Waypoint>& waypoints, double half_hips,
 
 double Walk::Run::travelAt(double time) const {
   if (time <= begin()) return 0;
-  for (std::size_t i = 0; i + 1 < waypoints.size(); ++i) {
-    if (time > waypoints[i + 1].time) continue;
-    const double share = (time - waypoints[i].time) / (waypoints[i + 1].time - waypoints[i].time);
-    return along[i] + share * (along[i + 1] - along[i]);
-  }
-  return length();
+  if (time > end()) return length();
+  const auto after = std::lower_bound(waypoints.begin(), waypoints.end(), time, isBefore);
+  const auto i = static_cast<std::size_t>(after - waypoints.begin()) - 1;
+  const double share = (time - waypoints[i].time) / (waypoints[i + 1].time - waypoints[i].time);
+  return along[i] + share * (along[i + 1] - along[i]);
 }
 
 Eigen::Vector2d Walk::Run::placeAt(double travel) const {
@@ -66,7 +69,9 @@ Stance::Foot Walk::printOf(const Run& run, double travel, bool right) const {
 Stance::Foot Walk::footAt(const Run& run, double travel, bool right) const {
   const double step = run.length() / run.steps;
   int before = -1;  // the last swing of this foot that has begun
-  for (int j = right ? 1 : 0; j <= run.steps && travel > std::max(0.0, (j - 0.5) * step); j += 2) before = j;
+  // Swings that begin more than two steps back have begun.
+  const int past = std::max(0, static_cast<int>(travel / step) - 2), first = past - past % 2 + (right ? 1 : 0);
+  for (int j = first; j <= run.steps && travel > std::max(0.0, (j - 0.5) * step); j += 2) before = j;
   if (before < 0) return printOf(run, 0, right);
   const double begin = std::max(0.0, (before - 0.5) * step), end = std::min(run.length(), (before + 0.5) * step);
   const double share = std::clamp((travel - begin) / (end - begin), 0.0, 1.0);
@@ -80,16 +85,18 @@ Stance::Foot Walk::footAt(const Run& run, double travel, bool right) const {
 Stance Walk::at(double time) const {
   Stance stance;
   stance.body = waypoints_.front().in_map;
-  for (const auto& waypoint : waypoints_) {
-    if (waypoint.time <= time) stance.body = waypoint.in_map;
-  }
+  const auto after = std::upper_bound(waypoints_.begin(), waypoints_.end(), time,
+                                      [](double t, const PersonSpec::Waypoint& waypoint) { return t < waypoint.time; });
+  if (after != waypoints_.begin()) stance.body = (after - 1)->in_map;
   if (!runs_.empty()) stance.heading = runs_.front().first_heading;
-  for (const Run& run : runs_) {
-    if (time < run.begin()) break;
-    const double travel = run.travelAt(time);
-    stance.heading = run.headingAt(travel);
-    stance.walks = time < run.end();
-    if (!stance.walks) continue;
+  const auto next =
+      std::upper_bound(runs_.begin(), runs_.end(), time, [](double t, const Run& run) { return t < run.begin(); });
+  if (next == runs_.begin()) return stance;
+  const Run& run = *(next - 1);
+  const double travel = run.travelAt(time);
+  stance.heading = run.headingAt(travel);
+  stance.walks = time < run.end();
+  if (stance.walks) {
     stance.body = run.placeAt(travel);
     stance.left = footAt(run, travel, false);
     stance.right = footAt(run, travel, true);
@@ -103,10 +110,9 @@ bool Walk::stands(double begin, double end) const {
 }
 
 const double* Walk::headingSoon(double time, double ahead) const {
-  for (const Run& run : runs_) {
-    if (run.begin() >= time) return run.begin() <= time + ahead ? &run.first_heading : nullptr;
-  }
-  return nullptr;
+  const auto next =
+      std::lower_bound(runs_.begin(), runs_.end(), time, [](const Run& run, double t) { return run.begin() < t; });
+  return next != runs_.end() && next->begin() <= time + ahead ? &next->first_heading : nullptr;
 }
 
 }  // namespace omnimapper::sim
