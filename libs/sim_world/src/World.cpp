@@ -2,6 +2,7 @@
 #include <omnimapper/sim_world/World.h>
 
 #include <set>
+#include <stdexcept>
 
 namespace omnimapper::sim {
 
@@ -87,6 +88,13 @@ std::vector<SurfaceRef> numberSurfaces(const World& world) {
       refs.push_back({static_cast<int>(body), static_cast<int>(surface)});
   }
   return refs;
+}
+
+const Person::Joint& jointOf(const Person& person, const std::string& name) {
+  for (const Person::Joint& joint : person.joints) {
+    if (joint.name == name) return joint;
+  }
+  throw std::invalid_argument("jointOf: " + person.name + " has no joint " + name);
 }
 
 namespace {

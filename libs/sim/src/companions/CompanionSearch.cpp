@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 namespace {
 
 constexpr double kOffsetCell = 0.1;  // [m]
-constexpr int kReach = 3;            // largest change of the offset in a step [cells]
+constexpr int kReach = 2;            // largest change of the offset in a step [cells]
 constexpr double kSlack = 0.06;      // the search keeps farther away from the robot than smoothing does [m]
 constexpr double kNearRobot = 0.15;  // companions do not like to be this near to the least distance [m]
 constexpr double kNearOthers = 0.6;  // companions do not like to be nearer to other people [m]
@@ -84,6 +84,7 @@ class WalkSearch {
     cost += kRobotCost * std::max(0.0, obstacles_.robot_distance + kNearRobot - from_robot);
     for (const Polyline& other : obstacles_.others) {
       const double distance = distanceToSegment(place, other[k > 0 ? k - 1 : 0], other[k]);
+      if (distance < obstacles_.others_distance) return kNever;
       if (distance < kNearOthers) cost += kOthersCost * (kNearOthers - distance);
       if (distance < kTouching) cost += kTouchCost;
     }

@@ -12,6 +12,7 @@ struct CompanionObstacles {
   const Polyline& robot;           ///< places of the robot [m]
   double robot_distance = 0.52;    ///< least distance from the robot's place [m]
   std::vector<Polyline> others{};  ///< places of other people [m]
+  double others_distance = 0;      ///< least distance from the places of other people [m]
 };
 
 /// Fastest motion of a companion [m/s].

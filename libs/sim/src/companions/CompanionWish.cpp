@@ -157,6 +157,15 @@ void limitSpeed(Polyline& places) {
   }
 }
 
+// Rounds changes of speed and direction; a steady motion stays as it is.
+void roundChanges(Polyline& places) {
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Polyline before = places;
+    for (std::size_t i = 1; i + 1 < places.size(); ++i) places[i] = (before[i - 1] + 2 * before[i] + before[i + 1]) / 4;
+  }
+}
+
 }  // namespace
 
 Polyline wishedPlaces(const CompanionPlan& plan, const RobotPath& robot, const RobotSpace& space,
@@ -188,6 +197,7 @@ Polyline wishedPlaces(const CompanionPlan& plan, const RobotPath& robot, const R
     }
   }
   limitSpeed(places);
+  roundChanges(places);
   return places;
 }
 

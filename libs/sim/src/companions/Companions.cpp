@@ -20,6 +20,7 @@ constexpr double kRobotDistance = 0.52;   // least distance at the times of the 
 constexpr double kBesideRobot = 0.27;     // least distance from the rim of the robot [m]
 constexpr double kSettle = 4;             // time after the end of the drive in which a companion may still walk [s]
 constexpr double kLongestCompany = 7190;  // [s]
+constexpr double kOthersDistance = 0.38;  // least distance between the middles of two people [m]
 constexpr double kWindow = 2, kWideWindow = 4;  // largest distances from the wished place [m]
 
 std::vector<Vector2d> doorsOf(const World& world) {
@@ -34,10 +35,9 @@ std::vector<Vector2d> doorsOf(const World& world) {
 
 Polyline placesOf(const Person& person, std::size_t count) {
   Polyline places;
-  const auto torso = std::find_if(person.joints.begin(), person.joints.end(),
-                                  [](const Person::Joint& joint) { return joint.name == "torso"; });
+  const Track& torso = jointOf(person, "torso").in_map;
   for (std::size_t i = 0; i < count; ++i)
-    places.push_back(torso->in_map.at(static_cast<double>(i) * kCompanionStep)->translation.head<2>());
+    places.push_back(torso.at(static_cast<double>(i) * kCompanionStep)->translation.head<2>());
   return places;
 }
 
@@ -91,13 +91,17 @@ class Company {
 
  private:
   Polyline walkOf(const CompanionPlan& companion) const {
-    CompanionObstacles obstacles{space_, robot_, robot_distance_, {}};
+    CompanionObstacles obstacles{space_, robot_, robot_distance_, {}, kOthersDistance};
     for (const Person& person : world_.people) obstacles.others.push_back(placesOf(person, count_));
     const Polyline wished = wishedPlaces(companion, path_, space_, doors_, count_);
     for (const double window : {kWindow, kWideWindow}) {
       Polyline walk = walkNear(wished, obstacles, window);
       if (!walk.empty()) return walk;
     }
+    // In a crowd one may have to squeeze past others.
+    obstacles.others_distance = 0;
+    Polyline walk = walkNear(wished, obstacles, kWideWindow);
+    if (!walk.empty()) return walk;
     refuse(plan_, companion.name, "place", "there is no room for a person near the robot");
   }
 

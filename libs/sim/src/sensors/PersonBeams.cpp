@@ -2,7 +2,6 @@
 
 #include <omnimapper/base/Numbers.h>
 
-#include <algorithm>
 #include <map>
 
 namespace omnimapper::sim {
@@ -32,10 +31,8 @@ PersonBeams::PersonBeams(const World& world) : world_(world) {
 
 double PersonBeams::speedOf(int person, double time) const {
   constexpr double kHalf = 0.1;  // [s]
-  const auto& joints = world_.people[person].joints;
-  const auto torso =
-      std::find_if(joints.begin(), joints.end(), [](const Person::Joint& joint) { return joint.name == "torso"; });
-  const auto at = [&](double when) { return torso->in_map.at(when)->translation; };
+  const Track& torso = jointOf(world_.people[person], "torso").in_map;
+  const auto at = [&](double when) { return torso.at(when)->translation; };
   return (at(time + kHalf) - at(time - kHalf)).head<2>().norm() / (2 * kHalf);
 }
 

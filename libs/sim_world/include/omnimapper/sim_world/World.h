@@ -77,6 +77,9 @@ struct Person {
   bool accompanies = false;  ///< its path follows from that of the robot
 };
 
+/// The joint of this name. Throws std::invalid_argument if the person has no such joint.
+const Person::Joint& jointOf(const Person& person, const std::string& name);
+
 /// The whole simulated world, in the map's frame: z up, floor of the first room at 0. Times are seconds since the
 /// start.
 struct World {
