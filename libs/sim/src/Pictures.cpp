@@ -9,6 +9,7 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/sim_world/PlanDrawing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,21 @@ std::vector<std::string> drawPictures(const Simulation& simulation, const std::s
     }
   }
   return files;
+}
+
+std::string drawnPlan(const Simulation& simulation, double duration) {
+  constexpr double kPlanStep = 0.25;  // [s] between points of a path
+  PlanDrawingOptions plan;
+  const auto pathOf = [&](const Track& track) {
+    std::vector<Eigen::Vector2d> path;
+    for (double time = 0; time < duration; time += kPlanStep) path.push_back(track.at(time)->translation.head<2>());
+    return path;
+  };
+  plan.path = pathOf(simulation.mapFromBase());
+  for (const Person& person : simulation.world().people) {
+    if (person.accompanies) plan.paths_of_people.push_back(pathOf(jointOf(person, "torso").in_map));
+  }
+  return drawPlan(simulation.world(), plan);
 }
 
 }  // namespace omnimapper::sim

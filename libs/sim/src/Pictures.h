@@ -12,4 +12,7 @@ namespace omnimapper::sim {
 /// Throws base::Error(disk_full, unwritable_output).
 std::vector<std::string> drawPictures(const Simulation& simulation, const std::string& folder);
 
+/// The plan of the world as SVG, with the paths of the robot and of the people who accompany it until a time [s].
+std::string drawnPlan(const Simulation& simulation, double duration);
+
 }  // namespace omnimapper::sim

@@ -4,7 +4,6 @@
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/geometry/TumLine.h>
 #include <omnimapper/sim/SimulationRun.h>
-#include <omnimapper/sim_world/PlanDrawing.h>
 #include <omnimapper/source/ExternalImages.h>
 
 #include <algorithm>
@@ -32,7 +31,6 @@ namespace {
 // Number of measurements that each thread makes ahead; many, because slow ones of cameras are rare among quick ones.
 constexpr std::size_t kAhead = 32;
 constexpr std::size_t kMostAheadBytes = 256 << 20;  // memory of all measurements that are made ahead
-constexpr double kPlanStep = 0.25;                  // [s] between points of the path on the plan
 
 /// A measurement that arrives in the log.
 struct Arrival {
@@ -237,10 +235,7 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   writeText(folder + "/landmarks.json", landmarksJson(simulation));
   writeText(folder + "/surfaces.json", surfaces::toJson(surfaces.surfaces(request.name)));
   base::writeFile(folder + "/world.ply", [&](std::ostream& out) { writeMesh(out, simulation.world()); });
-  PlanDrawingOptions plan;
-  for (double time = 0; time < result.duration; time += kPlanStep)
-    plan.path.push_back(simulation.mapFromBase().at(time)->translation.head<2>());
-  writeText(folder + "/plan.svg", drawPlan(simulation.world(), plan));
+  writeText(folder + "/plan.svg", drawnPlan(simulation, result.duration));
   writeText(folder + "/" + request.name + ".ini", simulation.iniText());
   writeText(folder + "/README.md", folderReadme(simulation, request.name, result));
   return result;

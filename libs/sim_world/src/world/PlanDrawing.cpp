@@ -179,6 +179,7 @@ std::string drawPlan(const World& world, const PlanDrawingOptions& options) {
     if (const auto pose = body.track.at(options.time)) drawWalls(body, *pose, drawing);
   }
   drawItems(world, options.time, drawing);
+  for (const auto& path : options.paths_of_people) drawing.line(path, "stroke:#2060c0;stroke-width:1");
   if (!options.path.empty()) drawing.line(options.path, "stroke:#d02080;stroke-width:1.5");
   for (const Room& room : world.rooms) {
     Vector2d low = room.outline.front(), high = low;
