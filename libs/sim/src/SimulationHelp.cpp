@@ -4,6 +4,7 @@
 #include <omnimapper/sim/SimulationHelp.h>
 #include <omnimapper/sim_world/WorldIni.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace omnimapper::sim {
@@ -71,9 +72,14 @@ std::string iniReference() {
       << base::optionsAsMarkdown(SimulationOptions::table().specs()) << "## [robot]\n\n"
       << base::optionsAsMarkdown(DriveOptions::table().specs()) << "## [world]\n\n"
       << base::optionsAsMarkdown(WorldOptions::table().specs());
-  for (const auto& section : worldSectionReferences()) {
-    out << "## Sections of `[world] " << section.list << "`\n\n`class` is one of " << joined(section.class_names)
-        << ".\n\n"
+  const auto sections = worldSectionReferences();
+  for (const auto& section : sections) {
+    const bool is_split = std::count_if(sections.begin(), sections.end(),
+                                        [&](const auto& other) { return other.list == section.list; }) > 1;
+    out << "## Sections of `[world] " << section.list << "`"
+        << (is_split ? " with `class = " + joined(section.class_names) + "`"
+                     : "\n\n`class` is one of " + joined(section.class_names) + ".")
+        << "\n\n"
         << base::optionsAsMarkdown(section.options);
   }
   out << "# Sensors\n\nEach has a section of its own, named in `[simulation] sensors`, with a line `class = ...`.\n\n"

@@ -46,7 +46,8 @@ WorldPlan readWorldPlan(const base::Config& config);
 /// The world that makeWorld() builds from readWorldPlan().
 World readWorld(const base::Config& config);
 
-/// For the reference of keys: each kind of section that [world] may name, with its classes and options.
+/// For the reference of keys: each kind of section that [world] may name, with its classes and options. A list whose
+/// classes have different options is there once for each class.
 struct WorldSectionReference {
   std::string list;                       ///< key of [world] that names such sections
   std::vector<std::string> class_names;   ///< what its key `class` may be
