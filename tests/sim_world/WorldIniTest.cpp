@@ -153,6 +153,17 @@ TEST(WorldIni, impossibleWorldsAreRefusedWithTheirPlace) {
        "[s]\nclass = dark\ntext = A\nx_m = 2\ny_m = 0.1\nwidth_m = 100000\nheight_m = 2\n", "s", "width_m"},
       {"a person who points with a foot", "people = p",
        "[p]\nclass = person\npath = 0 2 1 | 9 2 1\npointing = 2 4 2 3 1 foot\n", "p", "pointing"},
+      {"a companion without a known place", "people = p", "[p]\nclass = companion\nplace = besides\n", "p", "place"},
+      {"a companion at a negative distance", "people = p", "[p]\nclass = companion\ndistance_m = -1\n", "p",
+       "distance_m"},
+      {"a companion in the robot", "people = p", "[p]\nclass = companion\nplace = beside\nside_m = 0.2\n", "p",
+       "side_m"},
+      {"a companion who leaves before it comes", "people = p", "[p]\nclass = companion\nfrom_s = 20\nuntil_s = 10\n",
+       "p", "until_s"},
+      {"a companion with a path", "people = p", "[p]\nclass = companion\npath = 0 2 1\n", "p", "path"},
+      {"an unknown group of companions", "companions = mob", "", "world", "companions"},
+      {"a person with the name of a companion", "people = companion_1\ncompanions = guide",
+       "[companion_1]\nclass = person\npath = 0 2 1\n", "companion_1", "name"},
       {"a person who points at nothing", "people = p",
        "[p]\nclass = person\npath = 0 2 1 | 9 2 1\npointing = 2 4 vase\n", "p", "pointing"},
   };
@@ -249,9 +260,25 @@ TEST(WorldIni, aPersonPointsWithTheArmThatIsSaid) {
   EXPECT_GT(handHeight("left_hand", 22), handHeight("right_hand", 22) + 0.1);
 }
 
+TEST(WorldIni, groupsOfCompanionsFollowThoseOfSectionsAndChangeNothingElse) {
+  const auto planOf = [](const std::string& keys) {
+    return sim::readWorldPlan(base::Config::fromText("[world]\ngenerator = box\n" + keys, "w.ini"));
+  };
+  const auto alone = planOf(""), crowd = planOf("companions = crowd\npeople = p\n[p]\nclass = companion\nside_m = 1\n");
+  EXPECT_TRUE(alone.companions.empty());
+  ASSERT_EQ(crowd.companions.size(), 8u);
+  EXPECT_EQ(crowd.companions[0].name, "p");
+  EXPECT_EQ(crowd.companions[0].side, 1);
+  EXPECT_EQ(crowd.companions[1].name, "companion_1");
+  EXPECT_EQ(crowd.furniture.size(), alone.furniture.size());
+  EXPECT_EQ(planOf("companions = guide\n").companions.size(), 1u);
+  EXPECT_EQ(planOf("companions = guests\n").companions.size(), 2u);
+  EXPECT_EQ(planOf("companions = group\n").companions.size(), 5u);
+}
+
 TEST(WorldIni, everyKindOfSectionSaysItsOptions) {
   const auto references = sim::worldSectionReferences();
-  EXPECT_EQ(references.size(), 9u);
+  EXPECT_EQ(references.size(), 10u);
   for (const auto& reference : references) {
     EXPECT_FALSE(reference.class_names.empty()) << reference.list;
     EXPECT_FALSE(reference.options.empty()) << reference.list;
