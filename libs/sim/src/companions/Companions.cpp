@@ -20,8 +20,12 @@ constexpr double kRobotDistance = 0.52;   // least distance at the times of the 
 constexpr double kBesideRobot = 0.27;     // least distance from the rim of the robot [m]
 constexpr double kSettle = 4;             // time after the end of the drive in which a companion may still walk [s]
 constexpr double kLongestCompany = 7190;  // [s]
-constexpr double kOthersDistance = 0.38;  // least distance between the middles of two people [m]
-constexpr double kWindow = 2, kWideWindow = 4;  // largest distances from the wished place [m]
+
+/// Limits of a search for a walk. If it fails, wider ones follow; in a crowd one may have to squeeze past others.
+struct Attempt {
+  double window, others_distance;  // largest distance from the wished place, least between two people [m]
+};
+constexpr Attempt kAttempts[] = {{2, 0.38}, {4, 0.38}, {4, 0.25}, {4, 0}};
 
 std::vector<Vector2d> doorsOf(const World& world) {
   std::vector<Vector2d> middles;
@@ -91,17 +95,14 @@ class Company {
 
  private:
   Polyline walkOf(const CompanionPlan& companion) const {
-    CompanionObstacles obstacles{space_, robot_, robot_distance_, {}, kOthersDistance};
+    CompanionObstacles obstacles{space_, robot_, robot_distance_, {}, 0};
     for (const Person& person : world_.people) obstacles.others.push_back(placesOf(person, count_));
     const Polyline wished = wishedPlaces(companion, path_, space_, doors_, count_);
-    for (const double window : {kWindow, kWideWindow}) {
-      Polyline walk = walkNear(wished, obstacles, window);
+    for (const Attempt& attempt : kAttempts) {
+      obstacles.others_distance = attempt.others_distance;
+      Polyline walk = walkNear(wished, obstacles, attempt.window);
       if (!walk.empty()) return walk;
     }
-    // In a crowd one may have to squeeze past others.
-    obstacles.others_distance = 0;
-    Polyline walk = walkNear(wished, obstacles, kWideWindow);
-    if (!walk.empty()) return walk;
     refuse(plan_, companion.name, "place", "there is no room for a person near the robot");
   }
 
