@@ -3,7 +3,10 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/sim_world/People.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "SensorRun.h"
 #include "SmallWorlds.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/sim/Sensor.h>
 #include <omnimapper/sim_world/Random.h>
 #include <omnimapper/sim_world/Scene.h>
 
