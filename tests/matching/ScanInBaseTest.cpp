@@ -50,15 +50,15 @@ TEST(ScanInBase, AnUpsideDownSensorSeesItsLeftOnTheRight) {
 TEST(ScanInBase, ASweepMovesItsEndsHalfItsMotionEitherWayAndItsMiddleNotAtAll) {
   const auto cloud = threePoints({});
   const mrpt::math::TPose2D motion(0.4, 0, 0);
-  expectPoints(scanInBase(cloud, {kPi, true, motion}), {{-0.2F, -1}, {2, 0}, {0.2F, 1}});
-  expectPoints(scanInBase(cloud, {kPi, false, motion}), {{0.2F, -1}, {2, 0}, {-0.2F, 1}});
+  expectPoints(scanInBaseWithThings(cloud, {kPi, true, motion}), {{-0.2F, -1}, {2, 0}, {0.2F, 1}});
+  expectPoints(scanInBaseWithThings(cloud, {kPi, false, motion}), {{0.2F, -1}, {2, 0}, {-0.2F, 1}});
   // With an aperture of a full turn, these points are half the aperture from its ends: a quarter of the motion.
-  expectPoints(scanInBase(cloud, {2 * kPi, true, motion}), {{-0.1F, -1}, {2, 0}, {0.1F, 1}});
+  expectPoints(scanInBaseWithThings(cloud, {2 * kPi, true, motion}), {{-0.1F, -1}, {2, 0}, {0.1F, 1}});
 }
 
 TEST(ScanInBase, ASweepOfAnUpsideDownSensorGoesTheOtherWayRound) {
   const auto cloud = threePoints({0, 0, 0.3, 0, 0, kPi});
-  expectPoints(scanInBase(cloud, {kPi, true, {0.4, 0, 0}}), {{-0.2F, 1}, {2, 0}, {0.2F, -1}});
+  expectPoints(scanInBaseWithThings(cloud, {kPi, true, {0.4, 0, 0}}), {{-0.2F, 1}, {2, 0}, {0.2F, -1}});
 }
 
 }  // namespace

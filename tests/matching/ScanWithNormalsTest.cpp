@@ -74,6 +74,36 @@ TEST(ScanWithNormals, PointsByThemselvesHaveNoNormalAndStayWhereTheyAre) {
   EXPECT_EQ(fitLines({{1, 2}}).size(), 1U);
 }
 
+// Beams of half a degree along a corridor of 2.4 m: from 12 m on they end over 0.6 m apart on its walls.
+TEST(ScanWithNormals, AWallThatIsSeenAlongItsLengthHasItsNormalFarAway) {
+  std::vector<Vector2f> points;
+  for (int i = 6; i <= 120; ++i) {
+    const double angle = 0.5 * i * 3.14159265358979 / 180;
+    points.emplace_back(1.2 / std::tan(angle), 1.2);
+  }
+  const auto scan = fitLines(points);
+  EXPECT_GT((points[1] - points[0]).norm(), 1.5F) << "the farthest two";
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(std::abs(scan.normals[i].y()), 1, 1e-3) << i;
+  auto bent = points;
+  bent[1].y() += 0.3F;
+  EXPECT_TRUE(fitLines(bent).normals[1].isZero()) << "no line without its neighbours";
+}
+
+TEST(ScanWithNormals, WithoutAndNeighboursKeepWhatIsKnownOfThePoints) {
+  auto scan = fitLines(wall(10, 0));
+  scan.things.assign(10, ScanWithNormals::kNoThing);
+  scan.things[3] = 7;
+  scan.weights.assign(10, 0.5F);
+  std::vector<bool> marked(10, false);
+  marked[4] = true;
+  const auto kept = without(marked, scan);
+  ASSERT_EQ(kept.size(), 9U);
+  EXPECT_EQ(kept.things[3], 7);
+  EXPECT_EQ(kept.weights.size(), 9U);
+  const auto wider = withNeighbours(marked, scan);
+  EXPECT_EQ(wider, (std::vector<bool>{true, true, true, true, true, true, true, true, true, false}));
+}
+
 TEST(ScanWithNormals, AppendingMovesPointsAndTurnsNormals) {
   const auto scan = fitLines(wall(10, 0));
   ScanWithNormals both = scan;

@@ -67,6 +67,12 @@ TEST(WallCrossings, WhoLooksAlongAWallDoesNotCrossIt) {
   EXPECT_EQ(crossedWalls(scans).scans.back().crossed, 0u);
 }
 
+TEST(WallCrossings, StepsOfTheTrackThroughTheWallAreTold) {
+  const std::vector<TrackStep> track{
+      {{1.5, 0}, {2.5, 0}}, {{1.5, 0}, {1.9, 0}}, {{1.5, 2}, {2.5, 2}}, {{2.5, 0}, {1.5, 0.4}}, {{1, 0}, {1, 0}}};
+  EXPECT_EQ(crossedWalls(wallSeenFiveTimes(), {}, track).steps, (std::vector<bool>{true, false, false, true, false}));
+}
+
 TEST(WallCrossings, InATrueMapNoScanCrossesAndInABentOneThoseThatAreOffDo) {
   const auto plan = testing::FloorPlan::ring();
   std::vector<MapScan> scans;

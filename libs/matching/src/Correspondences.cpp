@@ -32,6 +32,7 @@ void Correspondences::find(const TPose2D& pose, double max_distance) {
   const auto tx = static_cast<float>(pose.x), ty = static_cast<float>(pose.y);
   const auto limit = static_cast<float>(max_distance);
   count_ = 0;
+  index_.clear();
   int before = PointIndex::kNone;
   for (std::size_t i = 0; i < scan_.size(); ++i) {
     const auto& p = scan_.points[i];
@@ -46,13 +47,27 @@ void Correspondences::find(const TPose2D& pose, double max_distance) {
     const float nx = nx_[count_] = reference_.normalXs()[nearest];
     const float ny = ny_[count_] = reference_.normalYs()[nearest];
     const bool has_line = nx != 0 || ny != 0;
-    on_line_[count_] = has_line ? 1 : 0;
-    on_point_[count_] = has_line ? 0 : 1;
+    const float weight = weighed_ ? scan_.weights[i] : 1;
+    on_line_[count_] = has_line ? weight : 0;
+    on_point_[count_] = has_line ? 0 : weight;
+    index_.push_back(i);
     ++count_;
   }
   for (std::size_t i = count_; i % kLane != 0; ++i) {
     for (Values* values : {&px_, &py_, &qx_, &qy_, &nx_, &ny_, &on_line_, &on_point_}) (*values)[i] = 0;
   }
+}
+
+bool Correspondences::weighPoints() {
+  const auto& weights = scan_.weights;
+  if (std::none_of(weights.begin(), weights.end(), [](float weight) { return weight < 1; })) return false;
+  weighed_ = true;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const float weight = weights[index_[k]];
+    on_line_[k] = on_line_[k] > 0 ? weight : 0;
+    on_point_[k] = on_point_[k] > 0 ? weight : 0;
+  }
+  return true;
 }
 
 double Correspondences::quantile(const TPose2D& pose, double share) const {
@@ -153,6 +168,11 @@ Eigen::Vector3d ObservableSubspace::step(const LineEquations& equations, const E
 Eigen::Vector3d ObservableSubspace::observablePart(const Eigen::Vector3d& motion) const {
   const Eigen::Array3d counts = (information_.array() > 0).cast<double>();
   return basis_ * (counts * (basis_.inverse() * motion).array()).matrix();
+}
+
+Eigen::Matrix3d ObservableSubspace::information() const {
+  const Eigen::Matrix3d back = basis_.inverse();
+  return back.transpose() * information_.asDiagonal() * back;
 }
 
 Eigen::Matrix3d ObservableSubspace::covariance() const {

@@ -34,18 +34,23 @@ class Correspondences {
   /// [m] The distance across the lines that is larger than a share `share` of them.
   double quantile(const mrpt::math::TPose2D& reference_from_scan, double share) const;
   /// `loss_scale` [m] of the Cauchy weight. `point_weight`: weight of the whole distance of correspondences without a
-  /// line; `along`: weight of the whole distance of the others, in addition to that across their lines.
+  /// line; `along`: weight of the whole distance of the others, in addition to that across their lines. The weights of
+  /// the scan's points count only after weighPoints().
   LineEquations equations(const mrpt::math::TPose2D& reference_from_scan, double loss_scale, double point_weight,
                           double along) const;
+  /// From now on each point counts by its weight in the scan. Returns whether that makes a difference.
+  bool weighPoints();
 
  private:
   const PointIndex& reference_;
   const ScanWithNormals& scan_;
   std::vector<int> likely_;  // of each point, from the last search
   using Values = std::vector<float>;
+  bool weighed_ = false;
   // For each point with a correspondence, padded to a whole number of lanes: the point of the scan, the point of the
-  // reference, its normal, and two flags (1 or 0) for a reference with and without a line.
+  // reference, its normal, and its weight for a reference with and without a line (0 in one of them).
   Values px_, py_, qx_, qy_, nx_, ny_, on_line_, on_point_;
+  std::vector<std::size_t> index_;  // of the point in the scan
   mutable Values scratch_;
   std::size_t count_ = 0;
 };
@@ -65,6 +70,8 @@ class ObservableSubspace {
   /// Along open directions only the guess counts; the step is zero there if it has no information either.
   Eigen::Vector3d step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
                        const Eigen::Vector3d& from_guess) const;
+  /// Inverse of the covariance, for unit variance of the points; zero along open directions.
+  Eigen::Matrix3d information() const;
   /// Open directions have variance ScanMatch::kOpen.
   Eigen::Matrix3d covariance() const;
 

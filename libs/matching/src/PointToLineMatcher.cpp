@@ -15,8 +15,9 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kJudgedWithin = 0.3;  // [m] largest distance of a correspondence that counts for the overlap
-constexpr double kJudgedLoss = 0.1;    // [m] scale of the loss for the covariance
+constexpr double kJudgedWithin = 0.3;         // [m] largest distance of a correspondence that counts for the overlap
+constexpr double kJudgedLoss = 0.1;           // [m] scale of the loss for the covariance
+constexpr double kSmallestPointSigma = 0.02;  // [m] of the points of a match that seems to be better
 // The scale of the loss is kSpreads times this quantile of the points' distances from their lines.
 constexpr double kQuantile = 0.5, kSpreads = 4.5;
 constexpr double kSmallestLoss = 0.07;  // [m]
@@ -66,6 +67,8 @@ ScanMatch toMatch(const Correspondences& correspondences, const ScanWithNormals&
   match.point_sigma = match.wall_distance * std::sqrt(static_cast<double>(scan.smoothing));
   match.unit_covariance = directions.covariance();
   match.degenerate = !directions.all();
+  const double sigma = std::max(kSmallestPointSigma, match.point_sigma);
+  match.information = directions.information() / (sigma * sigma);
   return match;
 }
 
@@ -111,6 +114,14 @@ ScanMatch PointToLineMatcher::match(const MatchReference& reference, const ScanW
     }
     wide = wide && moved > kNear;
     if (!wide) reach = std::max(options_.min_distance, std::min(kShrink * reach, kReachOfLoss * loss_scale));
+  }
+  // Points that count less have helped to find the basin; now the others decide where in it the pose is.
+  constexpr int kMostWeighed = 3;
+  if (correspondences.weighPoints()) {
+    for (int i = 0; i < kMostWeighed; ++i) {
+      if (refine(correspondences, guess, loss_scale, false, pose) < kStill) break;
+      correspondences.find(pose, reach);
+    }
   }
   correspondences.find(pose, kJudgedWithin);
   return toMatch(correspondences, scan, pose);

@@ -97,7 +97,7 @@ Relocalizer::Query Relocalizer::queryOf(std::vector<LocalScan> scans) const {
     const ScanWithNormals lines = fitLines(scan.scan.hits);
     append(lines, scan.local_from_sensor, query.lines);
     const auto points = thinned(lines.points, options_.spacing);
-    append({points, {points.size(), Eigen::Vector2f::Zero()}}, scan.local_from_sensor, sought);
+    append({points, {points.size(), Eigen::Vector2f::Zero()}, {}, {}}, scan.local_from_sensor, sought);
   }
   if (scans.size() > 1) sought = voxelDownsample(sought, options_.spacing);
   query.sought = std::move(sought.points);

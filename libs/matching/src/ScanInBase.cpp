@@ -1,4 +1,5 @@
 #include <omnimapper/matching/ScanInBase.h>
+#include <omnimapper/matching/Things.h>
 #include <omnimapper/matching/deskew.h>
 
 #include <algorithm>
@@ -32,6 +33,11 @@ Points pointsOf(const mrpt::obs::CObservationPointCloud& cloud) {
   return points;
 }
 
+// Position of the laser on the base [m].
+Eigen::Vector2f placeOf(const mrpt::obs::CObservationPointCloud& cloud) {
+  return {static_cast<float>(cloud.sensorPose.x()), static_cast<float>(cloud.sensorPose.y())};
+}
+
 }  // namespace
 
 double tiltOf(const mrpt::poses::CPose3D& base_from_sensor) {
@@ -42,12 +48,25 @@ ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
   return fitLines(pointsOf(cloud).in_base);
 }
 
-ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep) {
+namespace {
+
+ScanWithNormals withThings(ScanWithNormals scan, const mrpt::obs::CObservationPointCloud& cloud) {
+  scan.things = numberThings(scan.points, placeOf(cloud));
+  return scan;
+}
+
+}  // namespace
+
+ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud) {
+  return withThings(scanInBase(cloud), cloud);
+}
+
+ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep) {
   const auto points = pointsOf(cloud);
   auto fractions = points.directions;
   const double per_angle = sweep.aperture > 0 ? (sweep.right_to_left ? 1 : -1) / sweep.aperture : 0;
   for (auto& value : fractions) value = static_cast<float>(std::clamp(per_angle * value, -0.5, 0.5));
-  return fitLines(deskew(points.in_base, fractions, sweep.begin_from_end));
+  return withThings(fitLines(deskew(points.in_base, fractions, sweep.begin_from_end)), cloud);
 }
 
 }  // namespace omnimapper::matching

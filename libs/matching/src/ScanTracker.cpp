@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "CombinedMotion.h"
+
 namespace omnimapper::matching {
 
 using mrpt::math::TPose2D;
@@ -61,6 +63,13 @@ bool isAmong(const std::vector<ScanTracker::Tracked>& found, const TPose2D& moti
 bool isSure(const ScanTracker::Tracked& one, const std::vector<MotionPrediction>& predictions) {
   return one.match.overlap >= kSurely &&
          logPrior(one.match.reference_from_scan, predictions) > std::log(2 * kUnpredicted);
+}
+
+ScanTracker::Tracked trackedBy(const ScanMatch& match, std::size_t prediction) {
+  ScanTracker::Tracked tracked;
+  tracked.match = match;
+  tracked.prediction = prediction;
+  return tracked;
 }
 
 // The beams of a scan, from its laser.
@@ -134,32 +143,74 @@ ScanTracker::~ScanTracker() = default;
 ScanTracker::ScanTracker(ScanTracker&&) noexcept = default;
 ScanTracker& ScanTracker::operator=(ScanTracker&&) noexcept = default;
 
-void ScanTracker::restart(const ScanWithNormals& scan, const Eigen::Vector2f& sensor) {
+void ScanTracker::restart(ScanWithNormals scan, const Eigen::Vector2f& sensor, double seconds) {
   locals_.clear();
+  moving_ = {};
   track_from_last_ = {};
-  remember(scan, sensor);
+  if (scan.things.empty()) scan.things.assign(scan.size(), ScanWithNormals::kNoThing);
+  moving_.add({}, sensor, seconds, scan);
+  remember(std::move(scan), sensor);
 }
 
-std::optional<ScanTracker::Tracked> ScanTracker::track(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
-                                                       const std::vector<MotionPrediction>& predictions) {
+std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, const Eigen::Vector2f& sensor,
+                                                       const std::vector<MotionPrediction>& predictions, double seconds,
+                                                       const std::optional<MeasuredMotion>& measured) {
+  constexpr std::size_t kFew = 10;     // points that stand, too few to match
+  constexpr double kMostMoving = 0.5;  // share of the points, of which the rest is matched without a doubt
   if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
+  if (scan.things.empty()) scan.things.assign(scan.size(), ScanWithNormals::kNoThing);
+  const auto& expected = measured ? measured->motion : predictions.front().guess.reference_from_scan;
+  const auto moving = moving_.recognize(track_from_last_ + expected, seconds, scan);
+  auto standing = without(withNeighbours(moving, scan), scan);
+  if (measured) standing.weights = moving_.weights(track_from_last_ + expected, seconds, standing);
+  std::optional<Tracked> tracked;
+  if (standing.size() >= std::min(kFew, scan.size())) tracked = matched(standing, sensor, predictions);
+  const double hidden = 1 - static_cast<double>(standing.size()) / static_cast<double>(scan.size());
+  if (!tracked && measured && hidden > kMostMoving) {
+    tracked.emplace();
+    tracked->match.reference_from_scan = measured->motion;
+  }
+  if (!tracked) return std::nullopt;
+  tracked->covariance = covarianceOf(tracked->match);
+  tracked->is_determined = isDetermined(tracked->covariance);
+  if (measured) combine(*measured, *tracked);
+  const TPose2D track_from_scan = track_from_last_ + tracked->match.reference_from_scan;
+  const auto recognized = moving_.add(track_from_scan, sensor, seconds, scan);
+  tracked->recognized = recognized.size();
+  tracked->points = scan.size();
+  auto moves = moving_.moving(scan);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    moves[i] = moves[i] || moving[i];
+    if (moves[i]) tracked->moving.push_back(scan.points[i]);
+  }
+  const TPose2D local_from_scan = track_from_scan - locals_.back().track_from_scan;
+  track_from_last_ = track_from_scan;
+  const bool is_trimmed = forget(recognized);
+  if (isBeyond(local_from_scan, options_.local_distance, options_.local_angle)) {
+    remember(without(withNeighbours(moves, scan), scan), sensor);
+  } else if (is_trimmed) {
+    prepare();
+  }
+  return tracked;
+}
+
+// The match of a scan without what moves, before other sensors count.
+std::optional<ScanTracker::Tracked> ScanTracker::matched(const ScanWithNormals& standing, const Eigen::Vector2f& sensor,
+                                                         const std::vector<MotionPrediction>& predictions) {
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
-  auto found = matchesOf(scan, predictions, local_from_last);
+  auto found = matchesOf(standing, predictions, local_from_last);
   const bool is_blind = predictions.front().is_blind;
   if (found.size() > 1 || is_blind || !isSure(found.front(), predictions)) {
-    Candidates candidates{scan, beamsOf(scan, sensor), sensor, predictions, local_from_last, std::move(found), {}};
+    Candidates candidates{standing,        beamsOf(standing, sensor), sensor, predictions,
+                          local_from_last, std::move(found),          {}};
     weigh(candidates);
     if (is_blind || candidates.bestFit() < kPoor) search(candidates);
     addPredictions(candidates);
     weigh(candidates);
     found = {mostProbable(candidates)};
   }
-  const Tracked& tracked = found.front();
-  if (tracked.match.overlap < options_.min_overlap) return std::nullopt;
-  const TPose2D local_from_scan = local_from_last + tracked.match.reference_from_scan;
-  track_from_last_ = locals_.back().track_from_scan + local_from_scan;
-  if (isBeyond(local_from_scan, options_.local_distance, options_.local_angle)) remember(scan, sensor);
-  return tracked;
+  if (found.front().match.overlap < options_.min_overlap) return std::nullopt;
+  return found.front();
 }
 
 // The distinct matches, each with the first prediction that led to it, and the predictions that led to no match.
@@ -177,7 +228,7 @@ std::vector<ScanTracker::Tracked> ScanTracker::matchesOf(const ScanWithNormals& 
       match = {};
       match.reference_from_scan = guess.reference_from_scan;
     }
-    if (!isAmong(found, match.reference_from_scan, kSame, kSameTurn)) found.push_back({match, i});
+    if (!isAmong(found, match.reference_from_scan, kSame, kSameTurn)) found.push_back(trackedBy(match, i));
   }
   return found;
 }
@@ -208,7 +259,7 @@ void ScanTracker::search(Candidates& candidates) {
     match.reference_from_scan = match.reference_from_scan - candidates.local_from_last;
     if (match.overlap < kSomeOverlap || isAmong(candidates.found, match.reference_from_scan, kSame, kSameTurn))
       continue;
-    candidates.found.push_back({match, 0});
+    candidates.found.push_back(trackedBy(match, 0));
   }
 }
 
@@ -266,9 +317,28 @@ const grid::HitMissGrid& ScanTracker::beams() {
   return *beams_;
 }
 
-void ScanTracker::remember(const ScanWithNormals& scan, const Eigen::Vector2f& sensor) {
-  locals_.push_back({track_from_last_, scan, sensor});
+void ScanTracker::remember(ScanWithNormals scan, const Eigen::Vector2f& sensor) {
+  locals_.push_back({track_from_last_, std::move(scan), sensor});
   if (locals_.size() > static_cast<std::size_t>(options_.local_scans)) locals_.pop_front();
+  prepare();
+}
+
+// Removes the traces of things that were recognized as moving. Returns whether there were any.
+bool ScanTracker::forget(const std::vector<int>& things) {
+  bool is_trimmed = false;
+  for (auto& local : locals_) {
+    std::vector<bool> moves(local.scan.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      moves[i] = std::find(things.begin(), things.end(), local.scan.things[i]) != things.end();
+    }
+    if (std::find(moves.begin(), moves.end(), true) == moves.end()) continue;
+    local.scan = without(withNeighbours(moves, local.scan), local.scan);
+    is_trimmed = true;
+  }
+  return is_trimmed;
+}
+
+void ScanTracker::prepare() {
   reference_ = matcher_->prepare(localMap());
   beams_.reset();
   walls_.reset();

@@ -49,20 +49,6 @@ class Sums {
   std::vector<Five> sums_;
 };
 
-// [m] Standard deviation of the noise along the beams, from the lower quartile of the second differences: walls are
-// straight enough not to contribute, while corners, edges and clutter may be most of all points.
-float rangeNoise(const std::vector<Eigen::Vector2f>& points) {
-  if (points.size() < 3) return 0;
-  constexpr float kQuarter = 0.780F;  // lower quartile for noise of standard deviation 1: 0.3186 sqrt(1 + 4 + 1)
-  std::vector<float> squares(points.size() - 2);
-  for (std::size_t i = 0; i < squares.size(); ++i) {
-    squares[i] = (points[i] - 2 * points[i + 1] + points[i + 2]).squaredNorm();
-  }
-  const auto quarter = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 4);
-  std::nth_element(squares.begin(), quarter, squares.end());
-  return std::sqrt(*quarter) / kQuarter;
-}
-
 // For each point the first and the last one of its stretch without gaps.
 struct Stretches {
   std::vector<int> first, last;
@@ -144,10 +130,51 @@ std::optional<WindowLine> lineAround(const std::vector<Eigen::Vector2f>& points,
   return std::nullopt;
 }
 
+// Far along a corridor, neighbouring beams end metres apart on the wall. Such points have no neighbour near them, but
+// several in a row on one line. Without the normal of the wall they would move with the laser, as the pattern of its
+// beams does, and hold a scan back.
+constexpr int kSparse = 2;                                  // neighbours on each side that must be on the line
+constexpr float kLongestStep = 6;                           // [m] between them
+constexpr float kShortestSparse = 2.4F;                     // [m] from the first of them to the last
+constexpr float kOffSparse = 0.03F, kOffSparseOfNoise = 3;  // [m] and times the noise: largest distance from the line
+constexpr float kPastLaser = 0.3F;  // [m] by which the line must pass the origin: no wall is seen along a beam
+
+std::optional<Eigen::Vector2f> sparseNormal(const std::vector<Eigen::Vector2f>& points, int i, float noise) {
+  const int count = static_cast<int>(points.size());
+  const int first = std::clamp(i - kSparse, 0, count - 1 - 2 * kSparse), last = first + 2 * kSparse;
+  const Eigen::Vector2f span = points[last] - points[first];
+  const float length = span.norm();
+  if (!(length > kShortestSparse)) return std::nullopt;
+  const Eigen::Vector2f along = span / length, normal(-along.y(), along.x());
+  if (std::abs(normal.dot(points[i])) < kPastLaser) return std::nullopt;
+  const float off = std::max(kOffSparse, kOffSparseOfNoise * noise);
+  for (int k = first; k < last; ++k) {
+    const float step = along.dot(points[k + 1] - points[k]);
+    if (step <= 0 || step > kLongestStep || std::abs(normal.dot(points[k] - points[first])) > off) return std::nullopt;
+  }
+  return normal;
+}
+
 }  // namespace
 
+// From the lower quartile of the second differences: walls are
+// straight enough not to contribute, while corners, edges and clutter may be most of all points.
+float rangeNoise(const std::vector<Eigen::Vector2f>& points) {
+  if (points.size() < 3) return 0;
+  constexpr float kQuarter = 0.780F;  // lower quartile for noise of standard deviation 1: 0.3186 sqrt(1 + 4 + 1)
+  std::vector<float> squares(points.size() - 2);
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    squares[i] = (points[i] - 2 * points[i + 1] + points[i + 2]).squaredNorm();
+  }
+  const auto quarter = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 4);
+  std::nth_element(squares.begin(), quarter, squares.end());
+  return std::sqrt(*quarter) / kQuarter;
+}
+
 ScanWithNormals fitLines(const std::vector<Eigen::Vector2f>& points) {
-  ScanWithNormals scan{points, std::vector<Eigen::Vector2f>(points.size(), Eigen::Vector2f::Zero()), 1};
+  ScanWithNormals scan;
+  scan.points = points;
+  scan.normals.assign(points.size(), Eigen::Vector2f::Zero());
   const float noise = rangeNoise(points);
   const float gap = std::max(kLargestGap, kGapOfNoise * noise);
   const auto kept = inCompany(points, gap);
@@ -167,8 +194,46 @@ ScanWithNormals fitLines(const std::vector<Eigen::Vector2f>& points) {
     taken += line->count;
     ++fitted;
   }
+  std::vector<bool> is_alone(points.size(), true);
+  for (const int i : kept) is_alone[i] = false;
+  for (std::size_t i = 0; i < points.size() && points.size() > 2 * kSparse; ++i) {
+    if (!is_alone[i]) continue;
+    if (const auto normal = sparseNormal(points, static_cast<int>(i), noise)) scan.normals[i] = *normal;
+  }
   if (fitted > 0) scan.smoothing = static_cast<float>(taken) / static_cast<float>(fitted);
   return scan;
+}
+
+std::vector<bool> withNeighbours(std::vector<bool> marked, const ScanWithNormals& scan) {
+  const int count = static_cast<int>(marked.size()), window = kHalfWindows[1];
+  const auto given = marked;
+  const auto spread = [&](int from, int step) {
+    for (int k = 0, i = from; k < window; ++k, i += step) {
+      const int next = i + step;
+      if (next < 0 || next >= count || given[next]) return;
+      if ((scan.points[next] - scan.points[i]).squaredNorm() > kLargestGap * kLargestGap) return;
+      marked[next] = true;
+    }
+  };
+  for (int i = 0; i < count; ++i) {
+    if (!given[i]) continue;
+    spread(i, 1);
+    spread(i, -1);
+  }
+  return marked;
+}
+
+ScanWithNormals without(const std::vector<bool>& dropped, const ScanWithNormals& scan) {
+  ScanWithNormals kept;
+  kept.smoothing = scan.smoothing;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (dropped[i]) continue;
+    kept.points.push_back(scan.points[i]);
+    kept.normals.push_back(scan.normals[i]);
+    if (!scan.things.empty()) kept.things.push_back(scan.things[i]);
+    if (!scan.weights.empty()) kept.weights.push_back(scan.weights[i]);
+  }
+  return kept;
 }
 
 void append(const ScanWithNormals& scan, const mrpt::math::TPose2D& target_from_scan, ScanWithNormals& target) {

@@ -32,11 +32,12 @@ class Walls {
     return static_cast<std::size_t>(
         std::count_if(walls_.begin(), walls_.end(), [this](const Wall& wall) { return isSolid(wall); }));
   }
-  /// Calls use(wall) for the walls that a beam passes through before it ends, until `use` returns false.
+  /// Calls use(wall) for the walls that a line passes through until `short_of` [m] before its end, as long as `use`
+  /// returns true.
   template <class Use>
-  void forEachCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Use& use) {
+  void forEachCrossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double short_of, const Use& use) {
     const double length = (to - from).norm();
-    const Eigen::Vector2d direction = (to - from) / length, end = from + direction * (length - options_.min_distance);
+    const Eigen::Vector2d direction = (to - from) / length, end = from + direction * (length - short_of);
     // Angles are doubled, so that a direction and its opposite are the same.
     const Eigen::Vector2d doubled(direction.x() * direction.x() - direction.y() * direction.y(),
                                   2 * direction.x() * direction.y());
@@ -111,7 +112,8 @@ void Walls::add(std::size_t number, const TPose2D& map_from_sensor, const ScanWi
 
 }  // namespace
 
-WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options) {
+WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options,
+                           const std::vector<TrackStep>& track) {
   std::vector<MapScan> finite;
   for (const auto& scan : scans) finite.push_back({scan.map_from_sensor, grid::finitePart(scan.scan)});
   Walls walls(finite, options);
@@ -126,21 +128,31 @@ WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossing
     }
   };
   forEachBeam([&](std::size_t scan, const auto& from, const auto& to) {
-    walls.forEachCrossed(from, to, [&](Walls::Wall& wall) {
+    walls.forEachCrossed(from, to, options.min_distance, [&](Walls::Wall& wall) {
       wall.passed += wall.last_passed != scan;
       wall.last_passed = scan;
       return true;
     });
   });
-  WallCrossings result{walls.solid(), std::vector<CrossedWalls>(finite.size())};
+  WallCrossings result{walls.solid(), std::vector<CrossedWalls>(finite.size()), {}};
   forEachBeam([&](std::size_t scan, const auto& from, const auto& to) {
     ++result.scans[scan].beams;
-    walls.forEachCrossed(from, to, [&](const Walls::Wall& wall) {
+    walls.forEachCrossed(from, to, options.min_distance, [&](const Walls::Wall& wall) {
       const bool crossed = walls.isSolid(wall);
       result.scans[scan].crossed += crossed;
       return !crossed;
     });
   });
+  for (const auto& step : track) {
+    bool crosses = false;
+    if (step.from.allFinite() && step.to.allFinite() && step.from != step.to) {
+      walls.forEachCrossed(step.from, step.to, 0, [&](const Walls::Wall& wall) {
+        crosses = walls.isSolid(wall);
+        return !crosses;
+      });
+    }
+    result.steps.push_back(crosses);
+  }
   return result;
 }
 

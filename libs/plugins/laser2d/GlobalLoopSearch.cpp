@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "GlobalMatcher.h"
-#include "MapConsistency.h"
+#include "RevisitEvidence.h"
 #include "ScanFactor.h"
 
 namespace omnimapper::plugins {

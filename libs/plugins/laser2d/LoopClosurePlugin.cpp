@@ -12,7 +12,9 @@
 #include <tuple>
 #include <utility>
 
-#include "MapConsistency.h"
+#include "RevisitEvidence.h"
+#include "SlipEvidence.h"
+#include "WallEvidence.h"
 
 IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -252,7 +254,8 @@ std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& vi
   std::vector<std::string> labels;
   for (const auto& [label, history] : histories_) labels.push_back(label);
   auto all = revisits(view, context_.section, labels, options_.min_travel);
-  all.insert(all.begin(), scansThroughWalls(view.map, labels));
+  const auto walls = throughWalls(view.map, labels);
+  all.insert(all.begin(), walls.begin(), walls.end());
   for (auto& one : slips(view, context_.section, view.decisions)) all.push_back(std::move(one));
   return all;
 }

@@ -38,7 +38,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   void retired(const map::KeyFrame& frame) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   mapper::Batch atEnd(const mapper::View& view) override;
-  /// Beams that pass through walls, places revisited without a closure, and slips (MapConsistency.h).
+  /// Beams that pass through walls, places revisited without a closure, and slips (WallEvidence.h, RevisitEvidence.h,
+  /// SlipEvidence.h).
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
   /// Loads the scans of earlier sessions, to close loops with them.
   void restore(const map::MapSection* saved, const mapper::View& view) override;

@@ -2,19 +2,19 @@
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/plugin/SharedSection.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
 #include "PlanarMotion.h"
+#include "UsableScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
@@ -107,45 +107,6 @@ bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) 
   return true;
 }
 
-// A tilted laser is not reported if a level one was used instead.
-std::vector<std::string> ScanOdometryPlugin::warnings() const {
-  std::vector<std::string> sentences;
-  for (const auto& [label, tilted] : tilted_) {
-    if (label_ && label != *label_) continue;
-    const auto degrees = std::lround(tilted.tilt / base::option_text::kRadiansPerDegree);
-    sentences.push_back(base::counted(tilted.scans, "scan") + " of the laser '" + label + "' " +
-                        base::wasOrWere(tilted.scans) + " left out: by its sensor pose it is tilted by " +
-                        std::to_string(degrees) + " deg, but it measures motion on a floor only up to " +
-                        std::to_string(std::lround(matching::kLargestTilt / base::option_text::kRadiansPerDegree)) +
-                        " deg; name a level laser as label, correct the sensor pose in [mapper] sensors, or remove " +
-                        "the plugin from [mapper] pose_plugins");
-  }
-  return sentences;
-}
-
-std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
-  constexpr double kMostBlind = 10;  // [%]
-  const auto too_little = mapper::Evidence::Says::too_little;
-  std::vector<mapper::Evidence> all;
-  char text[200];
-  if (gaps_.count > 0) {
-    std::snprintf(text, sizeof text,
-                  "neither scan matching nor odometry measured the motion across some gaps (%zu, the first %.0f s "
-                  "after the start)",
-                  gaps_.count, gaps_.first);
-    all.push_back({"laser_gaps_without_motion", static_cast<double>(gaps_.count), too_little, text});
-  }
-  const double percent = 100 * blind_seconds_ / std::max(blind_seconds_ + seeing_seconds_, 1e-9);
-  if (percent > kMostBlind) {
-    std::snprintf(text, sizeof text,
-                  "for %.0f %% of the time the walls left a direction of the motion unconstrained, and no odometry "
-                  "measured it",
-                  percent);
-    all.push_back({"blind_along_percent", percent, too_little, text});
-  }
-  return all;
-}
-
 ScanOdometryPlugin::Taken ScanOdometryPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation2DRangeScan>(observation);
   if (!scan) addOdometry(*observation);
@@ -176,7 +137,7 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
   while (!queue_.empty() && (!reached_ || *reached_ < stamp)) {
     const auto next = queue_.extract(queue_.begin());
     reached_ = next.key();
-    follow(*next.mapped());
+    follow(next.mapped());
   }
   for (auto& odometry : odometries_) odometry.source.forgetBefore(last_.value_or(stamp));
 }
@@ -189,8 +150,8 @@ matching::ScanWithNormals ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservat
                                                       const TPose2D& velocity) const {
   const auto derived = extractor_.extract(scan);
   const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
-  if (options_.sweep == 0) return matching::scanInBase(cloud);
-  return matching::scanInBase(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
+  if (options_.sweep == 0) return matching::scanInBaseWithThings(cloud);
+  return matching::scanInBaseWithThings(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
 }
 
 void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation) {
@@ -205,7 +166,7 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
   odometry.label = label;
   matching::WheelOdometry source(odometry);
   if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
-    odometries_.push_back({label, std::move(source), {}, {}, {}});
+    odometries_.push_back({label, std::move(source), {}, {}, {}, {}});
 }
 
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
@@ -236,22 +197,58 @@ bool ScanOdometryPlugin::isMeasuredByOdometry() const {
                      [](const Odometry& odometry) { return odometry.measured.has_value(); });
 }
 
-void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) {
-  if (!last_) return restart(scan);
+bool ScanOdometryPlugin::isFrozen(const mrpt::obs::CObservation2DRangeScan& scan) const {
+  constexpr double kMoved = 0.02, kTurned = 0.02;  // [m] [rad]
+  const bool has_moved = std::any_of(odometries_.begin(), odometries_.end(), [](const Odometry& odometry) {
+    return odometry.measured && (std::hypot(odometry.measured->x, odometry.measured->y) > kMoved ||
+                                 std::abs(mrpt::math::wrapToPi(odometry.measured->phi)) > kTurned);
+  });
+  return has_moved && matched_ && haveSameRanges(scan, *matched_);
+}
+
+mrpt::obs::CObservation::ConstPtr ScanOdometryPlugin::usablePart(
+    const mrpt::obs::CObservation::ConstPtr& observation) const {
+  if (!label_ || observation->sensorLabel != *label_) return observation;
+  const auto found = unusable_.find(observation->timestamp);
+  const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
+  if (found == unusable_.end() || !scan) return observation;
+  if (!found->second) return nullptr;
+  return withoutBeamsNear(*found->second, *scan);
+}
+
+void ScanOdometryPlugin::forgetBefore(base::Stamp stamp) {
+  timeline_.forgetBefore(stamp);
+  unusable_.erase(unusable_.begin(), unusable_.lower_bound(stamp));
+}
+
+void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& observation) {
+  const auto& scan = *observation;
+  if (!last_) return restart(observation);
   const base::Stamp stamp = middleOf(scan);
   const double seconds = base::secondsBetween(*last_, stamp);
   const auto predictions = this->predictions(stamp);
+  if (isFrozen(scan)) {
+    if (frozen_.scans++ == 0) frozen_.first = base::secondsBetween(*begun_, stamp);
+    unusable_.emplace(scan.timestamp, std::nullopt);
+    return;
+  }
   // Between stamps that nearly coincide, noise would look like speed.
   constexpr double kShortest = 0.02;  // [s]
   const bool is_long = seconds > kShortest;
   const TPose2D velocity =
       is_long && !predictions.empty() ? perSecond(predictions.front().guess.reference_from_scan, seconds) : velocity_;
-  const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions);
+  const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions,
+                                      base::secondsBetween(*begun_, stamp), measuredMotion());
   if (!tracked) {
     if (seconds <= options_.max_gap) return;
     if (!isMeasuredByOdometry() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
-    return restart(scan);
+    return restart(observation);
   }
+  matched_ = observation;
+  moving_.things += tracked->recognized;
+  moving_.points += tracked->moving.size();
+  moving_.of_points += tracked->points;
+  if (!tracked->moving.empty()) unusable_.emplace(scan.timestamp, tracked->moving);
   const TPose2D& motion = tracked->match.reference_from_scan;
   const bool is_blind = tracked->match.degenerate && !isMeasuredByOdometry();
   auto guess = predictions[tracked->prediction].guess;
@@ -259,7 +256,8 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
     guess.information.topLeftCorner<2, 2>() =
         mrpt::square(noise_) / blindVariance(seconds) * Eigen::Matrix2d::Identity();
   (is_blind ? blind_seconds_ : seeing_seconds_) += seconds;
-  const auto measured = motionOf(*tracked, guess);
+  auto measured = motionOf(*tracked, guess);
+  measured.covariance.topLeftCorner<2, 2>() += contradictionOf(*tracked, stamp);
   if (is_first_ && is_long) {
     // The matched motion also covers the first half of the first sweep, from its stamp to its middle.
     const auto before = mrpt::poses::CPose2D(scaled(motion, 0.5 * options_.sweep / seconds));
@@ -276,16 +274,47 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan& scan) 
   }
   constexpr double kMemory = 0.98;  // long, because the noise is a property of laser and place
   noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
-  // If a direction is unconstrained, the match agrees with any prediction and cannot judge it.
-  if (!tracked->match.degenerate) {
-    for (auto& odometry : odometries_) {
-      judge(odometry.predictor, motion);
-      if (odometry.measured) odometry.calibration.learn(*odometry.measured, motion);
-    }
-    judge(by_velocity_, motion);
-  }
+  learn(*tracked);
   if (is_long) velocity_ = perSecond(motion, seconds);
   last_ = stamp;
+}
+
+// If a direction is unconstrained, the match agrees with any prediction and cannot judge it.
+void ScanOdometryPlugin::learn(const matching::ScanTracker::Tracked& tracked) {
+  const TPose2D& motion = tracked.match.reference_from_scan;
+  for (auto& odometry : odometries_) {
+    if (!tracked.is_determined || !odometry.measured) {
+      odometry.errors.interrupt();
+    } else {
+      odometry.errors.add(*odometry.predictor.motion, motion, 0.5 * tracked.covariance.topLeftCorner<2, 2>().trace(),
+                          tracked.covariance(2, 2));
+    }
+    if (tracked.match.degenerate) continue;
+    judge(odometry.predictor, motion);
+    if (odometry.measured && tracked.is_determined) odometry.calibration.learn(*odometry.measured, motion);
+  }
+  if (!tracked.match.degenerate) judge(by_velocity_, motion);
+}
+
+// What covers both the scans and the odometry where they contradict each other, in the scan's frame [m2].
+Eigen::Matrix2d ScanOdometryPlugin::contradictionOf(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp) {
+  heading_ += tracked.match.reference_from_scan.phi;
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(heading_).toRotationMatrix();
+  const Eigen::Matrix2d added = contradiction_.add(base::secondsBetween(*begun_, stamp), turn * tracked.difference,
+                                                   turn * tracked.difference_covariance * turn.transpose());
+  return turn.transpose() * added * turn;
+}
+
+// The motion to the current scan as the odometry that was most accurate recently measured it.
+std::optional<matching::MeasuredMotion> ScanOdometryPlugin::measuredMotion() const {
+  const Odometry* best = nullptr;
+  for (const auto& odometry : odometries_) {
+    if (!odometry.measured) continue;
+    const auto rank = [](const Odometry& one) { return std::tuple(!one.predictor.is_judged, one.predictor.error); };
+    if (!best || rank(odometry) < rank(*best)) best = &odometry;
+  }
+  if (!best) return std::nullopt;
+  return matching::MeasuredMotion{*best->predictor.motion, best->errors.covarianceOf(*best->measured)};
 }
 
 // The odometry whose motion is closest to a matched one; null if none is close.
@@ -329,15 +358,17 @@ void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end,
 }
 
 // Starts again at this scan, unless it has too few points for the next scans to match with. The velocity is unknown.
-void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan& scan) {
+void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan::ConstPtr& observation) {
+  const auto& scan = *observation;
   constexpr std::size_t kFewPoints = 10;
   last_.reset();
   const auto walls = wallsOf(scan, {});
   if (walls.size() < kFewPoints) return;
-  tracker_.restart(walls, placeOf(scan));
   velocity_ = {};
+  matched_ = observation;
   last_ = middleOf(scan);
   if (!begun_) begun_ = last_;
+  tracker_.restart(walls, placeOf(scan), base::secondsBetween(*begun_, *last_));
   is_first_ = true;
 }
 
@@ -422,10 +453,7 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
       std::min(1.0, 2 / static_cast<double>(options_.tracker.local_scans) *
                             (travel / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
                         0.001);
-  const double sigma = std::max(options_.point_sigma, match.point_sigma);
-  Eigen::Matrix3d covariance =
-      ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
-          .inverse();
+  Eigen::Matrix3d covariance = (match.information / share + guess.information / mrpt::square(noise_)).inverse();
   const double position = mrpt::square(options_.position_noise_per_root_m) * travel;
   covariance += tracked.search_covariance;
   covariance.diagonal() += Eigen::Vector3d(

@@ -2,9 +2,11 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/matching/OdometryCalibration.h>
+#include <omnimapper/matching/OdometryErrors.h>
 #include <omnimapper/matching/PoseTimeline.h>
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/matching/ScanTracker.h>
+#include <omnimapper/matching/SpanContradiction.h>
 #include <omnimapper/matching/WheelOdometry.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugin/PluginFactory.h>
@@ -57,6 +59,9 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
 
   Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   void processUntil(base::Stamp stamp) override;
+  /// A scan without the beams that ended on things that move; null for a scan that repeats the ranges of an earlier one
+  /// although the base had moved.
+  mrpt::obs::CObservation::ConstPtr usablePart(const mrpt::obs::CObservation::ConstPtr& observation) const override;
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
     return timeline_.between(begin, end);
   }
@@ -65,7 +70,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   /// Gaps across which neither laser nor odometry measured the motion, and, if it is large, the share of the time in
   /// which neither of them measured the motion along one direction.
   std::vector<mapper::Evidence> evidence() const override;
-  void forgetBefore(base::Stamp stamp) override { timeline_.forgetBefore(stamp); }
+  void forgetBefore(base::Stamp stamp) override;
 
  private:
   /// The motion to the next scan as one source predicts it, and the recent errors of that source.
@@ -80,6 +85,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     matching::WheelOdometry source;
     Predictor predictor;
     matching::OdometryCalibration calibration;
+    matching::OdometryErrors errors;
     std::optional<mrpt::math::TPose2D> measured;  // motion to the next scan, before it is corrected
   };
   /// Scans of a laser that were left out because of its tilt.
@@ -92,19 +98,32 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     std::size_t count = 0;
     double first = 0;  // [s] after the first scan
   };
+  /// Scans that repeated the ranges of an earlier one while the wheels moved.
+  struct Frozen {
+    std::size_t scans = 0;
+    double first = 0;  // [s] after the first scan
+  };
+  /// What moved, and was left out.
+  struct Moving {
+    std::size_t things = 0, points = 0, of_points = 0;
+  };
   static void judge(Predictor& predictor, const mrpt::math::TPose2D& motion);
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
   void addOdometry(const mrpt::obs::CObservation& observation);
-  void follow(const mrpt::obs::CObservation2DRangeScan& scan);
+  void follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& scan);
+  bool isFrozen(const mrpt::obs::CObservation2DRangeScan& scan) const;
   base::Stamp middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
   /// The deskewed scan in the base; `velocity` [m/s] [rad/s] of the base during the scan.
   matching::ScanWithNormals wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
                                     const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
   bool isMeasuredByOdometry() const;
+  std::optional<matching::MeasuredMotion> measuredMotion() const;
+  void learn(const matching::ScanTracker::Tracked& tracked);
+  Eigen::Matrix2d contradictionOf(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);
   const Odometry* odometryLike(const mrpt::math::TPose2D& motion) const;
   void insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& measured);
-  void restart(const mrpt::obs::CObservation2DRangeScan& scan);
+  void restart(const mrpt::obs::CObservation2DRangeScan::ConstPtr& scan);
   mapper::RelativeMotion motionOf(const matching::ScanTracker::Tracked& tracked,
                                   const matching::MatchGuess& guess) const;
 
@@ -119,6 +138,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;   // middle of the scan that was matched last
   std::optional<base::Stamp> begun_;  // middle of the first scan of all
   Gaps gaps_;
+  Frozen frozen_;
+  Moving moving_;
+  matching::SpanContradiction contradiction_;             // of scans and odometry
+  double heading_ = 0;                                    // [rad] since the first scan
+  mrpt::obs::CObservation2DRangeScan::ConstPtr matched_;  // the scan that was matched last, or restarted with
+  /// Of scans of which not all is usable, by stamp: points of things that move, in the base [m]; none if nothing is.
+  std::map<base::Stamp, std::optional<std::vector<Eigen::Vector2f>>> unusable_;
   // Time in which the walls left a direction unconstrained and no odometry measured the motion.
   double blind_seconds_ = 0;
   double seeing_seconds_ = 0;     // all other time in which scans were matched

@@ -91,6 +91,45 @@ TEST(ScanOdometryPlugin, FollowsTheLaserWhateverTheWheelsSay) {
              "a jump of 5 m");
 }
 
+// For 3 s the laser repeats one scan, while the wheels turn on.
+TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutAndCounted) {
+  const auto log = halfALap();
+  ScanOdometryPlugin plugin({}, {}, {});
+  CObservation2DRangeScan::Ptr last;
+  std::vector<CObservation::ConstPtr> scans;
+  std::size_t repeated = 0;
+  for (const auto& observation : log.observations()) {
+    auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation);
+    const double seconds = base::secondsBetween(log.begin(), observation->timestamp);
+    if (scan && seconds > 5 && seconds < 8 && last) {
+      const auto stamp = scan->timestamp;
+      scan = std::make_shared<CObservation2DRangeScan>(*last);
+      scan->timestamp = stamp;
+      ++repeated;
+    } else if (scan) {
+      last = scan;
+    }
+    plugin.add(scan ? scan : observation);
+    if (scan) scans.push_back(scan);
+  }
+  plugin.processUntil(scans.back()->timestamp);
+  std::size_t left_out = 0;
+  for (const auto& scan : scans) left_out += plugin.usablePart(scan) == nullptr;
+  EXPECT_GE(left_out, repeated - 1) << "of " << repeated;
+  EXPECT_LE(left_out, repeated);
+  const auto measured = plugin.between(scans.front()->timestamp, scans.back()->timestamp);
+  ASSERT_TRUE(measured);
+  const CPose2D error = CPose2D(measured->begin_from_end) -
+                        (log.truthAt(scans.back()->timestamp) - log.truthAt(scans.front()->timestamp));
+  EXPECT_LT(error.norm(), 0.3);
+  const auto evidence = plugin.evidence();
+  const auto frozen = std::find_if(evidence.begin(), evidence.end(),
+                                   [](const mapper::Evidence& one) { return one.name == "frozen_scans"; });
+  ASSERT_NE(frozen, evidence.end());
+  EXPECT_EQ(frozen->value, static_cast<double>(left_out));
+  EXPECT_NE(frozen->reason.find("although the wheels moved"), std::string::npos) << frozen->reason;
+}
+
 // A log with each odometry twice, as CARMEN's logs have it: each scan repeats the last reading, however old it is.
 TEST(ScanOdometryPlugin, TheOdometryThatAgreesWithTheMatchesBridgesAGap) {
   testing::SimulatedLogOptions options;
@@ -268,7 +307,8 @@ TEST(ScanOdometryPlugin, AGapThatNothingMeasuresIsEvidence) {
   }
 }
 
-// A scan of the two walls of a corridor, which are 2.4 m apart and have no visible end.
+// A scan of the two walls of a corridor, which are 2.4 m apart and have no visible end. Some noise distinguishes it
+// from one that the laser repeats.
 CObservation::Ptr scanOfACorridor(double seconds) {
   constexpr int kBeams = 181;
   constexpr float kReach = 8;
@@ -280,7 +320,8 @@ CObservation::Ptr scanOfACorridor(double seconds) {
   scan->resizeScan(kBeams);
   for (int i = 0; i < kBeams; ++i) {
     const double across = std::abs(std::sin(-M_PI / 2 + i * M_PI / (kBeams - 1)));
-    const auto range = static_cast<float>(1.2 / std::max(across, 1e-3));
+    const double noise = 0.002 * std::sin(12.9 * i + 78 * seconds);
+    const auto range = static_cast<float>(1.2 / std::max(across, 1e-3) + noise);
     scan->setScanRange(i, range);
     scan->setScanRangeValidity(i, range < kReach);
   }

@@ -119,6 +119,14 @@ bool FrontEnd::releaseNext() {
   return group.has_value();
 }
 
+// What all pose sources find usable of an observation; null if there is nothing.
+mrpt::obs::CObservation::ConstPtr FrontEnd::usablePart(mrpt::obs::CObservation::ConstPtr observation) const {
+  for (const auto& [section, plugin] : plugins_.pose) {
+    if (observation) observation = plugin->usablePart(observation);
+  }
+  return observation;
+}
+
 // Passes a group through the trigger. Perception of the observations that fire starts at once; the bundle is processed
 // after those before it.
 void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
@@ -130,11 +138,13 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
   FrameBundle bundle{group.stamp, false, {}};
   std::vector<mrpt::obs::CObservation::ConstPtr> fired;
   for (const auto& observation : group.observations) {
-    const bool fires = late ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)
-                            : trigger_.fires(observation->sensorLabel, group.stamp, motion);
+    const auto usable = usablePart(observation);
+    const bool fires = !usable ? false
+                       : late  ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)
+                               : trigger_.fires(observation->sensorLabel, group.stamp, motion);
     if (fires) {
       if (reference_sensor_.empty()) reference_sensor_ = observation->sensorLabel;
-      fired.push_back(observation);
+      fired.push_back(usable);
     } else {
       ++state_.counts.not_triggered;
     }

@@ -47,6 +47,7 @@ class FrontEnd {
 
  private:
   bool feedSources(const mrpt::obs::CObservation::ConstPtr& observation);
+  mrpt::obs::CObservation::ConstPtr usablePart(mrpt::obs::CObservation::ConstPtr observation) const;
   bool isCovered(base::Stamp stamp) const;
   void addLate(const mrpt::obs::CObservation::Ptr& observation);
   bool releaseNext();

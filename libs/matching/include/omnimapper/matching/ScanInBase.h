@@ -10,6 +10,8 @@ namespace omnimapper::matching {
 
 /// Projects the cloud of a 2D scan into the plane of the base and fits lines. Points that are not finite are left out.
 ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud);
+/// As scanInBase(cloud), with numbered things.
+ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud);
 
 /// Angle between the plane that a 2D laser scans and the floor, whichever side is up: 0 to pi / 2 [rad].
 double tiltOf(const mrpt::poses::CPose3D& base_from_sensor);
@@ -24,8 +26,8 @@ struct ScanSweep {
   mrpt::math::TPose2D begin_from_end;
 };
 
-/// As scanInBase(cloud), but the scan is deskewed to the middle of the sweep, because an error of the given motion
-/// moves it least there. The direction of a point determines when the point was measured.
-ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep);
+/// As scanInBaseWithThings(cloud), but the scan is deskewed to the middle of the sweep, because an error of the given
+/// motion moves it least there. The direction of a point determines when the point was measured.
+ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep);
 
 }  // namespace omnimapper::matching

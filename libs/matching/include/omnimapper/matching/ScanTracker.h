@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/grid/BeamScan.h>
+#include <omnimapper/matching/MovingThings.h>
 #include <omnimapper/matching/ScanMatcher.h>
 
 #include <deque>
@@ -40,6 +41,12 @@ struct MotionPrediction {
   bool is_blind = false;
 };
 
+/// The motion since the last scan as a sensor other than the laser measured it, such as wheels.
+struct MeasuredMotion {
+  mrpt::math::TPose2D motion;
+  Eigen::Matrix3d covariance;  ///< x y yaw at the end of the motion [m] [rad], as the recent errors of the sensor show
+};
+
 /// Tracks a laser from scan to scan: each scan is matched against a local map of some scans before it, so that the
 /// error of one scan is not passed on to the next. Poses are in the frame that the scans are given in.
 ///
@@ -47,6 +54,10 @@ struct MotionPrediction {
 /// tried, too. The matches are candidates, and so are predictions that led to no match. The most probable candidate is
 /// taken. Its probability follows from the walls and the free space of the local map and from all predictions together
 /// (Olson 2009; Thrun, Burgard and Fox 2005, 6.3). If the candidate taken is not a match, there is no result.
+///
+/// What moves (MovingThings) neither pulls a match nor enters the local map. A measured motion is combined with the
+/// match in each direction by what both say, where the match says only what standing points determine. If they differ
+/// by more than both allow, the measured motion counts the less, the more they differ: wheels slip, walls do not.
 class ScanTracker {
  public:
   ScanTracker(const ScanTrackerOptions& options, std::shared_ptr<const ScanMatcher> matcher);
@@ -54,18 +65,33 @@ class ScanTracker {
   ScanTracker(ScanTracker&&) noexcept;
   ScanTracker& operator=(ScanTracker&&) noexcept;
 
-  /// Forgets all scans and begins with this one. `sensor`: position of the laser in the scan's frame [m].
-  void restart(const ScanWithNormals& scan, const Eigen::Vector2f& sensor);
+  /// Forgets all scans and begins with this one. `sensor`: position of the laser in the scan's frame [m]; `seconds`:
+  /// time of the scan.
+  void restart(ScanWithNormals scan, const Eigen::Vector2f& sensor, double seconds);
   struct Tracked {
     ScanMatch match;             ///< match with the local map, but its pose is the motion since the last scan
     std::size_t prediction = 0;  ///< index of the prediction that led to the match
     /// What other, less probable matches add to the covariance, in the scan's frame: x y yaw [m] [rad].
     Eigen::Matrix3d search_covariance = Eigen::Matrix3d::Zero();
+    /// From the motion that was taken to the match, x y in the scan's frame [m], and the covariance of that difference.
+    /// Both are zero without a measured motion.
+    Eigen::Vector2d difference = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d difference_covariance = Eigen::Matrix2d::Zero();
+    /// Of the match, by what stands: x y yaw in the scan's frame.
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    /// Whether standing points alone determine the motion in all directions, to kDetermined and kDeterminedYaw.
+    bool is_determined = false;
+    std::vector<Eigen::Vector2f> moving;  ///< points of the scan that belong to things that move, in its frame [m]
+    std::size_t points = 0;               ///< number of points of the scan, with these
+    std::size_t recognized = 0;           ///< number of things that were recognized as moving by this scan
   };
-  /// Matches a scan and makes it the last one. `predictions`: the most trusted one first. None, and nothing changes, if
-  /// no prediction leads to a match, or if the most probable candidate is not a match.
-  std::optional<Tracked> track(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
-                               const std::vector<MotionPrediction>& predictions);
+  static constexpr double kDetermined = 0.02, kDeterminedYaw = 0.01;  ///< [m] [rad] standard deviations
+  /// Matches a scan and makes it the last one. `predictions`: the most trusted one first. `seconds`: as in restart().
+  /// None, and nothing changes, if no prediction leads to a match, or if the most probable candidate is not a match.
+  /// Where things that move hide nearly all that stands, the measured motion is taken as it is.
+  std::optional<Tracked> track(ScanWithNormals scan, const Eigen::Vector2f& sensor,
+                               const std::vector<MotionPrediction>& predictions, double seconds,
+                               const std::optional<MeasuredMotion>& measured = std::nullopt);
 
  private:
   struct Local {
@@ -76,17 +102,22 @@ class ScanTracker {
   struct Candidates;
   std::vector<Tracked> matchesOf(const ScanWithNormals& scan, const std::vector<MotionPrediction>& predictions,
                                  const mrpt::math::TPose2D& local_from_last) const;
+  std::optional<Tracked> matched(const ScanWithNormals& standing, const Eigen::Vector2f& sensor,
+                                 const std::vector<MotionPrediction>& predictions);
   void search(Candidates& candidates);
   static void addPredictions(Candidates& candidates);
   void weigh(Candidates& candidates);
   static Tracked mostProbable(const Candidates& candidates);
-  void remember(const ScanWithNormals& scan, const Eigen::Vector2f& sensor);
+  void remember(ScanWithNormals scan, const Eigen::Vector2f& sensor);
+  bool forget(const std::vector<int>& things);
+  void prepare();
   ScanWithNormals localMap() const;
   const grid::HitMissGrid& beams();
 
   ScanTrackerOptions options_;
   std::shared_ptr<const ScanMatcher> matcher_;
   std::deque<Local> locals_;
+  MovingThings moving_;
   std::shared_ptr<const MatchReference> reference_;       // of locals_, in the frame of the newest of them
   std::unique_ptr<const grid::HitMissGrid> beams_;        // the same as a grid; made when it is needed
   std::unique_ptr<const grid::LikelihoodPyramid> walls_;  // the same as a pyramid; made when it is needed

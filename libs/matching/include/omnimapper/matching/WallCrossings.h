@@ -28,11 +28,19 @@ struct CrossedWalls {
 struct WallCrossings {
   std::size_t walls = 0;            ///< cells with a wall
   std::vector<CrossedWalls> scans;  ///< one for each scan, in their order
+  std::vector<bool> steps;          ///< for each step of the track, whether it leads through a wall
+};
+
+/// A straight piece of the track, in the map [m].
+struct TrackStep {
+  Eigen::Vector2d from, to;
 };
 
 /// Counts how many beams of each scan pass through walls of the map that all scans together make. Where a map is
 /// distorted, or two places overlap, many beams of some scans pass through walls of the map; people, glass and doors
-/// let a few beams of many scans pass. Throws Error(out_of_range) for scans spread over more than max_cells.
-WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options = {});
+/// let a few beams of many scans pass. No robot drives through a wall: a step of its `track` that does so was measured
+/// wrongly, or the wall was. Throws Error(out_of_range) for scans spread over more than max_cells.
+WallCrossings crossedWalls(const std::vector<MapScan>& scans, const WallCrossingOptions& options = {},
+                           const std::vector<TrackStep>& track = {});
 
 }  // namespace omnimapper::matching

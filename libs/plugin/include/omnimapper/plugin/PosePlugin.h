@@ -33,6 +33,11 @@ class PosePlugin {
   /// Called when everything stamped up to `stamp` has arrived, except late data, and before motions up to `stamp` are
   /// requested. Heavy work that needs the order of stamps is done here.
   virtual void processUntil(base::Stamp /*stamp*/) {}
+  /// What perception gets of an observation that processUntil() has processed: the observation itself; a copy without
+  /// what the source found to be of no use for a map, such as people; or null if nothing of it is of use.
+  virtual mrpt::obs::CObservation::ConstPtr usablePart(const mrpt::obs::CObservation::ConstPtr& observation) const {
+    return observation;
+  }
   /// Motion from `begin` to `end` (begin <= end); none if the span is not covered.
   /// Spans must add up: cov(a, c) is the sum of cov(a, b), transformed to the frame at c, and cov(b, c). A span can
   /// then be split without a change of its covariance.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <omnimapper/plugin/DecisionLog.h>
 #include <omnimapper/plugin/State.h>
 #include <omnimapper/plugin/Verdict.h>
 
@@ -14,10 +13,6 @@ namespace omnimapper::plugins {
 /// empty. All points are in one frame.
 double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<Eigen::Vector2f>& seen);
 
-/// Share of the 2D scans in which many beams pass through walls of the map. This happens where a stretch of the
-/// trajectory is wrong. `labels`: those of the clouds that were made from the scans.
-mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels);
-
 /// Three numbers. The first is the distance driven where the robot had been before, at least `min_travel` [m] of travel
 /// earlier. The second is how much of that distance is unconfirmed, because no closure of the plugin `section` ties it
 /// to the earlier visit and the scans do not fit what was seen then. The third is the share of the travel that lies
@@ -25,10 +20,5 @@ mapper::Evidence scansThroughWalls(const map::Map& map, const std::vector<std::s
 /// scansThroughWalls().
 std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section,
                                        const std::vector<std::string>& labels, double min_travel);
-
-/// The results of SlipSearch: the slips that were corrected, and whether closures that agree with one another still
-/// contradict the map, because no accepted closure resolves the contradiction. `decisions`: those of this run.
-std::vector<mapper::Evidence> slips(const mapper::State& state, const std::string& section,
-                                    const mapper::DecisionLog& decisions);
 
 }  // namespace omnimapper::plugins

@@ -4,10 +4,11 @@
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-#include "laser2d/MapConsistency.h"
-#include "laser2d/SlipSearch.h"
+#include <cmath>
 
-namespace omnimapper::plugins::map_consistency_test {
+#include "laser2d/RevisitEvidence.h"
+
+namespace omnimapper::plugins::revisit_evidence_test {
 namespace {
 
 using mapper::Evidence;
@@ -30,7 +31,7 @@ void close(testing::HandMadeRun& run, std::size_t from, std::size_t to, double w
   run.graph.addFactor(std::move(record));
 }
 
-TEST(MapConsistency, WithoutARevisitTheEvidenceIsTooLittle) {
+TEST(RevisitEvidence, WithoutARevisitTheEvidenceIsTooLittle) {
   testing::HandMadeRun run;
   for (int i = 0; i <= 30; ++i) run.addFrame({1.0 * i, 0, 0, 0, 0, 0});
   const auto evidence = revisits(run.view(), "loops", {}, 8);
@@ -39,7 +40,7 @@ TEST(MapConsistency, WithoutARevisitTheEvidenceIsTooLittle) {
   EXPECT_TRUE(revisits(testing::HandMadeRun().view(), "loops", {}, 8)[0].says == Says::too_little) << "an empty map";
 }
 
-TEST(MapConsistency, NothingWasDrivenBetweenTwoSessions) {
+TEST(RevisitEvidence, NothingWasDrivenBetweenTwoSessions) {
   testing::HandMadeRun run;
   for (const std::uint16_t session : {0, 1}) {
     run.graph.setSession(session);
@@ -48,7 +49,7 @@ TEST(MapConsistency, NothingWasDrivenBetweenTwoSessions) {
   EXPECT_DOUBLE_EQ(revisits(run.view(), "loops", {}, 8)[0].value, 4);
 }
 
-TEST(MapConsistency, ALongRevisitWithoutAClosureIsAgainstTheMap) {
+TEST(RevisitEvidence, ALongRevisitWithoutAClosureIsAgainstTheMap) {
   const auto evidence = revisits(thereAgain().view(), "loops", {}, 8);
   EXPECT_EQ(evidence[0].says, Says::good);
   EXPECT_NEAR(evidence[0].value, 60, 1.5) << "30 m driven again, and 30 m of the jump back";
@@ -56,15 +57,18 @@ TEST(MapConsistency, ALongRevisitWithoutAClosureIsAgainstTheMap) {
   EXPECT_NE(evidence[1].reason.find("scans show something else"), std::string::npos);
 }
 
-// Two walls along the path, as a laser in the base sees them, shifted by `off` [m] to the side in the second pass.
-testing::HandMadeRun thereAgainBetweenWalls(double off) {
+// Two walls along the path, as a laser in the base sees them, with pillars every 4 m unless `bare`. All is shifted by
+// `off` [m] to the side in the second pass.
+testing::HandMadeRun thereAgainBetweenWalls(double off, bool bare = false) {
   auto run = thereAgain();
   for (std::uint32_t i = 0; i < run.map.key_frames.size(); ++i) {
     auto& frame = run.map.key_frames.edit({0, i});
-    const double base_y = frame.map_from_base.y() + (i > 30 ? off : 0);
+    const double base_x = frame.map_from_base.x(), base_y = frame.map_from_base.y() + (i > 30 ? off : 0);
     auto points = mrpt::maps::CSimplePointsMap::Create();
     for (int k = -100; k <= 100; ++k) {
-      for (const double y : {-1.5, 1.5})
+      const double x = base_x + 0.05 * k;
+      const bool is_pillar = !bare && std::fmod(x + 400, 4) < 0.8;
+      for (const double y : {-1.5, is_pillar ? 0.9 : 1.5})
         points->insertPoint(static_cast<float>(0.05 * k), static_cast<float>(y - base_y), 0);
     }
     auto cloud = mrpt::obs::CObservationPointCloud::Create();
@@ -75,13 +79,22 @@ testing::HandMadeRun thereAgainBetweenWalls(double off) {
   return run;
 }
 
-TEST(MapConsistency, ARevisitOnWhichTheScansFitIsNotAgainstTheMap) {
+TEST(RevisitEvidence, ARevisitOnWhichTheScansFitIsNotAgainstTheMap) {
   const auto fits = revisits(thereAgainBetweenWalls(0).view(), "loops", {"laser_points"}, 8);
+  EXPECT_EQ(fits[0].says, Says::good);
   EXPECT_EQ(fits[1].says, Says::good);
   EXPECT_EQ(fits[1].value, 0);
   EXPECT_NE(fits[0].reason.find("on 60.0 m that were driven again the scans fit"), std::string::npos) << fits[0].reason;
-  const auto doubled = revisits(thereAgainBetweenWalls(0.5).view(), "loops", {"laser_points"}, 8);
+  const auto doubled = revisits(thereAgainBetweenWalls(0.7).view(), "loops", {"laser_points"}, 8);
   EXPECT_EQ(doubled[1].says, Says::against_it);
+}
+
+TEST(RevisitEvidence, ScansAlongBareWallsShowNothing) {
+  const auto bare = revisits(thereAgainBetweenWalls(0, true).view(), "loops", {"laser_points"}, 8);
+  EXPECT_EQ(bare[0].says, Says::too_little);
+  EXPECT_NE(bare[0].reason.find("only along bare walls"), std::string::npos) << bare[0].reason;
+  EXPECT_EQ(bare[1].says, Says::good) << "nor do they contradict the map";
+  EXPECT_EQ(bare[2].says, Says::too_little);
 }
 
 // Drives 100 m along a line, then again from `from` [m] on, where every fifth key frame closes a loop.
@@ -93,7 +106,7 @@ Evidence spannedFrom(std::size_t from, bool closures) {
   return revisits(run.view(), "loops", {}, 8).at(2);
 }
 
-TEST(MapConsistency, TooLittleTravelBetweenTwoVisitsIsReported) {
+TEST(RevisitEvidence, TooLittleTravelBetweenTwoVisitsIsReported) {
   const auto none = spannedFrom(95, false);
   EXPECT_EQ(none.value, 0) << "without a closure or fitting scans";
   EXPECT_EQ(none.says, Says::too_little);
@@ -109,7 +122,7 @@ TEST(MapConsistency, TooLittleTravelBetweenTwoVisitsIsReported) {
 
 // Closures count whatever run they are of: a session that continues a map has those of earlier sessions only in the
 // graph.
-TEST(MapConsistency, AClosureOfTheGraphConfirmsFifteenMetresAroundIt) {
+TEST(RevisitEvidence, AClosureOfTheGraphConfirmsFifteenMetresAroundIt) {
   auto run = thereAgain();
   close(run, 45, 14);
   const auto evidence = revisits(run.view(), "loops", {}, 8);
@@ -117,7 +130,7 @@ TEST(MapConsistency, AClosureOfTheGraphConfirmsFifteenMetresAroundIt) {
   EXPECT_LT(evidence[1].value, revisits(thereAgain().view(), "loops", {}, 8)[1].value - 28);
 }
 
-TEST(MapConsistency, ARefusedClosureOrOneOfAnotherPluginConfirmsNothing) {
+TEST(RevisitEvidence, ARefusedClosureOrOneOfAnotherPluginConfirmsNothing) {
   auto run = thereAgain();
   const double unconfirmed = revisits(run.view(), "loops", {}, 8)[1].value;
   close(run, 45, 14, 0);
@@ -126,43 +139,5 @@ TEST(MapConsistency, ARefusedClosureOrOneOfAnotherPluginConfirmsNothing) {
   EXPECT_EQ(revisits(run.view(), "others", {}, 8)[1].value, unconfirmed);
 }
 
-mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::string& kind, std::size_t from,
-                               std::size_t to, bool accepted) {
-  mapper::Decision decision;
-  decision.plugin = "loops";
-  decision.kind = kind;
-  decision.is_loop_closure = kind == "loop closure";
-  decision.from = run.map.key_frames[from].id;
-  decision.to = run.map.key_frames[to].id;
-  decision.stamp = run.map.key_frames[from].stamp;
-  decision.accepted = accepted;
-  return decision;
-}
-
-TEST(MapConsistency, ASlipThatWasUndoneIsReportedWithItsTimeAndSize) {
-  auto run = thereAgain();
-  EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
-  auto decision = decisionAbout(run, kSlip, 20, 19, true);
-  decision.numbers = {{kSlippedBy, 1.25}, {kSlippedByAngle, 14}};
-  run.decisions.push_back(decision);
-  const auto evidence = slips(run.view(), "loops", run.decisions);
-  ASSERT_EQ(evidence.size(), 1U);
-  EXPECT_EQ(evidence[0].says, Says::good);
-  EXPECT_EQ(evidence[0].reason, "a slip of 1.2 m and 14 deg, 20 s after the start, was undone");
-  EXPECT_TRUE(slips(run.view(), "others", run.decisions).empty());
-}
-
-TEST(MapConsistency, ClosuresThatAgreeAndContradictItAreAgainstTheMapUntilOneActsAcross) {
-  auto run = thereAgain();
-  run.decisions = {decisionAbout(run, "loop closure", 30, 5, true), decisionAbout(run, kSlip, 40, 10, false),
-                   decisionAbout(run, "loop closure", 50, 35, true)};
-  const auto evidence = slips(run.view(), "loops", run.decisions);
-  ASSERT_EQ(evidence.size(), 1U);
-  EXPECT_EQ(evidence[0].says, Says::against_it);
-  EXPECT_NE(evidence[0].reason.find("from 40 s after the start on"), std::string::npos) << evidence[0].reason;
-  run.decisions.push_back(decisionAbout(run, "loop closure", 55, 8, true));
-  EXPECT_TRUE(slips(run.view(), "loops", run.decisions).empty());
-}
-
 }  // namespace
-}  // namespace omnimapper::plugins::map_consistency_test
+}  // namespace omnimapper::plugins::revisit_evidence_test

@@ -1,17 +1,15 @@
-#include "MapConsistency.h"
+#include "RevisitEvidence.h"
 
-#include <omnimapper/base/Error.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/grid/LikelihoodPyramid.h>
-#include <omnimapper/matching/WallCrossings.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "EvidenceText.h"
 #include "PlanarMotion.h"
 #include "ScanDatabase.h"
 #include "SlipSearch.h"
@@ -23,82 +21,19 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-template <class... Numbers>
-std::string format(const char* pattern, Numbers... numbers) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, numbers...);
-  return text;
-}
-
-// Such as "12 s after the start"; names the session if there are several.
-std::string afterStart(const map::Map& map, const map::KeyFrame& frame) {
-  const auto first = std::find_if(map.key_frames.begin(), map.key_frames.end(),
-                                  [&](const map::KeyFrame& one) { return one.id.session == frame.id.session; });
-  const std::string of_session = map.sessions.size() > 1 ? " of session " + std::to_string(frame.id.session) : "";
-  return format("%.0f s after the start", base::secondsBetween(first->stamp, frame.stamp)) + of_session;
+grid::LikelihoodPyramid wallsOf(const std::vector<Eigen::Vector2f>& points) {
+  grid::LikelihoodOptions grid;
+  grid.cell = 0.1;
+  grid.sigma = 0.15;
+  grid.levels = 1;
+  return grid::LikelihoodPyramid(points, grid);
 }
 
 }  // namespace
 
 double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<Eigen::Vector2f>& seen) {
   if (map.empty() || seen.empty()) return 0;
-  grid::LikelihoodOptions grid;
-  grid.cell = 0.1;
-  grid.sigma = 0.15;
-  grid.levels = 1;
-  return grid::LikelihoodPyramid(map, grid).score(seen, TPose2D());
-}
-
-Evidence scansThroughWalls(const map::Map& map, const std::vector<std::string>& labels) {
-  constexpr double kCrossed = 0.2;       // share of a scan's beams, more than people, glass and doors explain
-  constexpr double kMostPercent = 0.5;   // of scans
-  constexpr std::size_t kFewBeams = 20;  // beams of a scan that is too small to judge
-  Evidence evidence{"scans_through_walls_percent", 0, Evidence::Says::too_little,
-                    "there are no 2D scans to check the map with"};
-  std::vector<matching::MapScan> scans;
-  std::vector<const map::KeyFrame*> frames;
-  for (const auto& frame : map.key_frames) {
-    for (const auto& label : labels) {
-      auto beams = beamsInBase(frame, label);
-      if (beams.scan.hits.size() < kFewBeams) continue;
-      scans.push_back({planar(frame.map_from_base) + beams.local_from_sensor, std::move(beams.scan)});
-      frames.push_back(&frame);
-    }
-  }
-  if (scans.empty()) return evidence;
-  std::size_t bad = 0, worst = 0;
-  double worst_share = 0;
-  try {
-    const auto crossings = matching::crossedWalls(scans);
-    if (crossings.walls == 0) {
-      evidence.reason = "no wall was seen from enough places to check the map with";
-      return evidence;
-    }
-    const auto& sums = crossings.scans;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const double share =
-          static_cast<double>(sums[i].crossed) / static_cast<double>(std::max(kFewBeams, sums[i].beams));
-      bad += share > kCrossed;
-      if (share <= worst_share) continue;
-      worst = i;
-      worst_share = share;
-    }
-  } catch (const base::Error& error) {
-    evidence.reason = error.what();
-    return evidence;
-  }
-  evidence.value = 100.0 * static_cast<double>(bad) / static_cast<double>(scans.size());
-  if (evidence.value > kMostPercent) {
-    evidence.says = Evidence::Says::against_it;
-    evidence.reason =
-        format("in %zu of %zu scans at least a fifth of the beams pass through walls of the map, the worst scan %s",
-               bad, scans.size(), afterStart(map, *frames[worst]).c_str());
-  } else {
-    evidence.says = Evidence::Says::good;
-    evidence.reason = bad == 0 ? "no scan looks through walls of the map"
-                               : format("%zu of %zu scans look through walls of the map", bad, scans.size());
-  }
-  return evidence;
+  return wallsOf(map).score(seen, TPose2D());
 }
 
 namespace {
@@ -185,10 +120,29 @@ class Squares {
   std::map<std::pair<double, double>, std::vector<std::size_t>> squares_;
 };
 
-// Share [0, 1] of the points seen at a stop that lie on points seen nearby at least `min_travel` [m] of travel earlier.
-// It is high where the map is right.
-double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labels, const std::vector<Stop>& stops,
-                       std::size_t at, double min_travel) {
+// How the points seen at a stop fit points seen nearby at least `min_travel` [m] of travel earlier. They lie on them
+// where the map is right. Along a bare corridor they also do where it is wrong, and show nothing.
+enum class Fit { none, anywhere, here };
+
+Fit fitOf(const std::vector<Eigen::Vector2f>& before, const std::vector<Eigen::Vector2f>& seen) {
+  constexpr double kFits = 0.5;    // share of the points seen
+  constexpr double kShift = 0.75;  // [m]
+  constexpr double kAlike = 0.95;  // share that is left of it after a shift that makes no difference
+  constexpr int kDirections = 8;
+  if (before.empty() || seen.empty()) return Fit::none;
+  const auto walls = wallsOf(before);
+  const double share = walls.score(seen, TPose2D());
+  if (share <= kFits) return Fit::none;
+  for (int k = 0; k < kDirections; ++k) {
+    const double angle = 2 * M_PI * k / kDirections;
+    if (walls.score(seen, TPose2D(kShift * std::cos(angle), kShift * std::sin(angle), 0)) > kAlike * share)
+      return Fit::anywhere;
+  }
+  return Fit::here;
+}
+
+Fit fitWithSeenBefore(const map::Map& map, const std::vector<std::string>& labels, const std::vector<Stop>& stops,
+                      std::size_t at, double min_travel) {
   constexpr double kNear = 6;  // [m] from the stop, from where most of the same walls were visible
   constexpr std::size_t kMost = 12;
   std::vector<Eigen::Vector2f> before, seen;
@@ -212,7 +166,7 @@ double shareSeenBefore(const map::Map& map, const std::vector<std::string>& labe
   near.resize(std::min(near.size(), kMost));
   for (const auto& [apart, i] : near) add(i, before);
   add(at, seen);
-  return shareOnWalls(before, seen);
+  return fitOf(before, seen);
 }
 
 // For each stop, the first stop near it that was passed at least `min_travel` [m] of travel earlier.
@@ -248,9 +202,9 @@ Evidence spannedTravel(const std::vector<Stop>& stops, const std::vector<std::op
   Evidence evidence{"travel_between_visits_percent", travel > 0 ? 100 * spanned / travel : 0, Evidence::Says::good, ""};
   if (evidence.value < kEnough) {
     evidence.says = Evidence::Says::too_little;
-    evidence.reason =
-        format("only %.0f m of the %.0f m driven lie between two visits of a place, and nothing confirms the rest",
-               spanned, travel);
+    evidence.reason = evidenceText(
+        "only %.0f m of the %.0f m driven lie between two visits of a place, and nothing confirms the rest", spanned,
+        travel);
   }
   return evidence;
 }
@@ -259,93 +213,61 @@ Evidence spannedTravel(const std::vector<Stop>& stops, const std::vector<std::op
 
 std::vector<Evidence> revisits(const mapper::State& state, const std::string& section,
                                const std::vector<std::string>& labels, double min_travel) {
-  constexpr double kTied = 15;   // [m] of travel from a closure within which a revisit counts as recognized
-  constexpr double kLong = 10;   // [m] of a stretch that is neither recognized nor fits
-  constexpr double kFits = 0.5;  // shareSeenBefore() of scans that fit
+  constexpr double kTied = 15;  // [m] of travel from a closure within which a revisit counts as recognized
+  constexpr double kLong = 10;  // [m] of a stretch that is neither recognized nor fits
   auto stops = stopsOf(state.map, 2 * min_travel);
   const std::size_t closures = markTied(state, section, kTied, stops);
   const auto again = revisiting(stops, min_travel);
   std::vector<std::optional<std::size_t>> known(stops.size());
-  double revisited = 0, untied = 0, fitting = 0, stretch = 0, longest = 0;
+  double revisited = 0, untied = 0, fitting = 0, open = 0, stretch = 0, longest = 0;
   std::size_t longest_until = 0;
   for (std::size_t i = 1; i < stops.size(); ++i) {
     const double step = again[i] ? drivenTo(stops, i) : 0;
     revisited += step;
-    const bool is_known =
-        !again[i] || stops[i].is_tied || shareSeenBefore(state.map, labels, stops, i, min_travel) > kFits;
-    if (is_known) known[i] = again[i];
-    stretch = is_known ? 0 : stretch + step;
-    if (stretch > 0) untied += step;
-    if (is_known && !stops[i].is_tied) fitting += step;
+    const bool is_tied = !again[i] || stops[i].is_tied;
+    const Fit fit = is_tied ? Fit::here : fitWithSeenBefore(state.map, labels, stops, i, min_travel);
+    if (fit == Fit::here) known[i] = again[i];
+    stretch = fit == Fit::none ? stretch + step : 0;
+    if (fit == Fit::none) untied += step;
+    if (fit == Fit::anywhere) open += step;
+    if (fit == Fit::here && !stops[i].is_tied) fitting += step;
     if (stretch > longest) {
       longest = stretch;
       longest_until = i;
     }
   }
   Evidence again_m{"revisited_m", revisited, Evidence::Says::good, ""};
-  const double tied = std::max(0.0, revisited - untied - fitting);
+  const double tied = std::max(0.0, revisited - untied - fitting - open);
   if (tied > 0) {
-    again_m.reason =
-        format("%s%s %s %.1f m that were driven again", base::counted(closures, "closure").c_str(),
-               state.map.sessions.size() > 1 ? " of all sessions" : "", closures == 1 ? "confirms" : "confirm", tied);
+    again_m.reason = evidenceText("%s%s %s %.1f m that were driven again", base::counted(closures, "closure").c_str(),
+                                  state.map.sessions.size() > 1 ? " of all sessions" : "",
+                                  closures == 1 ? "confirms" : "confirm", tied);
   }
   if (fitting > 0) {
-    again_m.reason += format(tied > 0 ? ", and on %.1f m more the scans fit what was seen there before"
-                                      : "on %.1f m that were driven again the scans fit what was seen there before",
-                             fitting);
+    again_m.reason +=
+        evidenceText(tied > 0 ? ", and on %.1f m more the scans fit what was seen there before"
+                              : "on %.1f m that were driven again the scans fit what was seen there before",
+                     fitting);
   }
   if (revisited == 0) {
     again_m.says = Evidence::Says::too_little;
     again_m.reason = "the robot never came back to a place that it had seen before";
   }
+  if (open > 0 && tied + fitting == 0) {
+    again_m.says = Evidence::Says::too_little;
+    again_m.reason =
+        evidenceText("the robot came back only along bare walls, where the scans fit everywhere (%.1f m)", open);
+  }
   Evidence untied_m{"revisited_without_closure_m", untied, Evidence::Says::good, ""};
   if (longest > kLong) {
     untied_m.says = Evidence::Says::against_it;
-    untied_m.reason =
-        format("for %.0f m, until %s, the map has the robot where it was before, but the scans show something else",
-               longest, afterStart(state.map, state.map.key_frames[longest_until]).c_str());
+    untied_m.reason = evidenceText(
+        "for %.0f m, until %s, the map has the robot where it was before, but the scans show something else", longest,
+        afterStart(state.map, state.map.key_frames[longest_until]).c_str());
   }
   Evidence spanned = spannedTravel(stops, known);
   if (revisited == 0) spanned.reason.clear();  // the first reason says so already
   return {again_m, untied_m, spanned};
-}
-
-std::vector<Evidence> slips(const mapper::State& state, const std::string& section,
-                            const mapper::DecisionLog& decisions) {
-  std::vector<Evidence> all;
-  const auto stampOf = [&](base::KeyFrameId id) { return state.map.keyFrame(id).stamp; };
-  const mapper::Decision* contradiction = nullptr;
-  Evidence undone{"slips_undone", 0, Evidence::Says::good, ""};
-  for (const auto& decision : decisions) {
-    if (decision.plugin != section || decision.kind != kSlip) continue;
-    if (!decision.accepted) {
-      contradiction = &decision;
-      continue;
-    }
-    double metres = 0, degrees = 0;
-    for (const auto& [name, value] : decision.numbers) {
-      if (name == kSlippedBy) metres = value;
-      if (name == kSlippedByAngle) degrees = value;
-    }
-    ++undone.value;
-    undone.reason +=
-        (undone.reason.empty() ? "" : "; ") + format("a slip of %.1f m and %.0f deg, %s, was undone", metres, degrees,
-                                                     afterStart(state.map, state.map.keyFrame(decision.from)).c_str());
-  }
-  if (undone.value > 0) all.push_back(undone);
-  if (!contradiction) return all;
-  // An accepted closure across the contradiction resolves it: from a later key frame to one before the closures' place.
-  const bool is_resolved = std::any_of(decisions.begin(), decisions.end(), [&](const mapper::Decision& decision) {
-    return decision.plugin == section && decision.is_loop_closure && decision.accepted && decision.to &&
-           stampOf(decision.from) >= contradiction->stamp && stampOf(*decision.to) <= stampOf(*contradiction->to);
-  });
-  if (is_resolved) return all;
-  const auto& frame = state.map.keyFrame(contradiction->from);
-  all.push_back({"contradicted_after_s", base::secondsBetween(state.map.key_frames.begin()->stamp, frame.stamp),
-                 Evidence::Says::against_it,
-                 format("from %s on, several closures that agree with one another contradict the map",
-                        afterStart(state.map, frame).c_str())});
-  return all;
 }
 
 }  // namespace omnimapper::plugins
