@@ -12,7 +12,8 @@ using omnimapper::testing::sourceFile;
 class UnusualPlaces : public ::testing::Test {
  protected:
   // Simulates, maps and compares, and returns the numbers of omnimapper-eval map.
-  json judged(const std::string& rawlog_ini, const Texts& world, const Texts& mapping = {}) {
+  json judged(const std::string& rawlog_ini, const Texts& world, const Texts& mapping = {},
+              const std::string& align = "se3") {
     Texts simulate{
         ownProgram("omnimapper-simulate"), "-i", sourceFile(rawlog_ini), "-o", scratch_ / "log", "--name", "log"};
     for (const auto& setting : world) simulate.insert(simulate.end(), {"--set", setting});
@@ -21,7 +22,7 @@ class UnusualPlaces : public ::testing::Test {
     for (const auto& setting : mapping) map.insert(map.end(), {"--set", setting});
     EXPECT_TRUE(endedWith(ExitCode::ok, graphslam(map)));
     EXPECT_TRUE(endedWith(ExitCode::ok, runProgram({ownProgram("omnimapper-eval"), "map", scratch_ / "map",
-                                                    scratch_ / "log", "-o", scratch_ / "quality"})));
+                                                    scratch_ / "log", "-o", scratch_ / "quality", "--align", align})));
     return json::parse(readFile(scratch_ / "quality/numbers.json"));
   }
   // Settings that add a depth camera with three images a second.
@@ -57,7 +58,8 @@ TEST_F(UnusualPlaces, ACameraThatHangsUpsideDownSeesTheSamePlace) {
 TEST_F(UnusualPlaces, ASlopedRoadOutdoorsIsGroundAndHasNoRooms) {
   auto world = withCamera("laser,kinect,odometry");
   world.insert(world.end(), {"laser.class=Laser2d", "laser.model=sick_lms291", "laser.z_m=0.35"});
-  const auto found = judged("rawlogs/road.ini", world);
+  // The drive is straight, so that positions alone do not determine the turn about it.
+  const auto found = judged("rawlogs/road.ini", world, {}, "yaw");
   const auto& labels = found["labels"];
   EXPECT_TRUE(labels.contains("floor") || labels.contains("ramp"));
   for (const char* none : {"ceiling", "door", "door frame", "counter", "window"}) EXPECT_FALSE(labels.contains(none));
