@@ -142,7 +142,8 @@ bool MovingThings::hasLeftItsPlace(const Thing& thing, const Sighting& now, cons
   return 10 * counts.free >= 7 * counts.all;
 }
 
-// A thing stands if its points stay where they are while the laser moves on. It is no longer sure to once they do not.
+// A thing stands if its points stay where they are while the laser moves on; then it was a mistake to say that it
+// moves, as of a chair beside somebody who walked by. It is no longer sure to stand once its points are elsewhere.
 void MovingThings::confirm(const ScanView& view, const Sighting& now, Thing& thing) {
   constexpr float kMovedOn = 0.5F;  // [m] of the laser
   const auto overlaps = overlapping(now.points, thing.anchor.points);
@@ -150,6 +151,8 @@ void MovingThings::confirm(const ScanView& view, const Sighting& now, Thing& thi
     thing.stands = false;
   } else if (2 * overlaps > now.points.size() && (view.origin() - thing.first_viewer).norm() > kMovedOn) {
     thing.stands = true;
+    thing.moves = false;
+    thing.velocity.setZero();
   }
 }
 

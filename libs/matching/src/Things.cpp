@@ -10,7 +10,7 @@ namespace omnimapper::matching {
 namespace {
 
 // doc/results/robustness.md has the logs on which these were chosen.
-constexpr float kThingGap = 0.3F;            // [m] between neighbours on one thing, at the laser
+constexpr float kThingGap = 0.2F;            // [m] between neighbours on one thing, at the laser
 constexpr float kThingGapPerRange = 0.03F;   // the same for each metre of range
 constexpr float kLargestThing = 1.0F;        // [m] extent of a thing that stands before everything beside it
 constexpr float kLargestHiddenThing = 0.6F;  // [m] extent of a thing that something nearer hides on one side

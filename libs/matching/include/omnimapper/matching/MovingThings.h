@@ -14,7 +14,8 @@ namespace omnimapper::matching {
 /// Tells the things that move from those that stand (thesis 6.2.4: a robot that follows a person maps the room, not the
 /// person). A thing moves if it is where earlier beams passed freely, or if it has left its place and beams now pass
 /// there. No class of things is needed: people, trolleys, robots and doors that swing are all recognized. A thing that
-/// moved once counts as moving while it is in view, because whoever stops to talk will walk on.
+/// moved once counts as moving while it is in view, because whoever stops to talk will walk on; unless it turns out to
+/// be where it was first seen.
 ///
 /// Both tests need poses that are right. Where walls, too, seem to stand where beams passed freely, the pose is wrong
 /// rather than the walls new, and nothing more is said to move.
