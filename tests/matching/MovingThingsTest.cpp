@@ -101,8 +101,9 @@ TEST(MovingThings, NothingIsKnownOfAnEmptyScan) {
   MovingThings things;
   ScanWithNormals empty;
   EXPECT_TRUE(things.add({}, kLaser, 0, empty).empty());
-  EXPECT_TRUE(things.recognize({}, 0.1, empty).empty());
-  EXPECT_TRUE(things.weights({}, 0.1, empty).empty());
+  const auto expected = things.expected({}, 0.1, empty);
+  EXPECT_TRUE(expected.moves.empty());
+  EXPECT_TRUE(expected.weights.empty());
 }
 
 // A thing that was not seen to stand counts far less than a wall; once the laser has moved on, it counts as one point.
@@ -116,7 +117,7 @@ TEST(MovingThings, AThingCountsOnceItWasSeenToStand) {
     addPost(plan, {0, 1});
     auto scan = scanFrom(plan, kDrives(seconds), 0.01, static_cast<std::uint64_t>(i) + 1, 20);
     scan.things = numberThings(scan.points, kLaser);
-    const auto weights = things.weights(kDrives(seconds), seconds, scan);
+    const auto weights = things.expected(kDrives(seconds), seconds, scan).weights;
     float total = 0;
     for (std::size_t k = 0; k < scan.size(); ++k) {
       if (scan.things[k] != ScanWithNormals::kNoThing) total += weights[k];

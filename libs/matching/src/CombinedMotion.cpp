@@ -22,8 +22,8 @@ Eigen::Vector3d vectorOf(const TPose2D& motion) {
 }  // namespace
 
 Eigen::Matrix3d covarianceOf(const ScanMatch& match) {
-  constexpr double kNothing = 1 / ScanMatch::kOpen;
-  return (match.information + kNothing * Eigen::Matrix3d::Identity()).inverse();
+  constexpr double kLeast = 0.02;  // [m] of a point, however well the others fit
+  return mrpt::square(std::max(kLeast, match.point_sigma)) * match.unit_covariance;
 }
 
 bool isDetermined(const Eigen::Matrix3d& covariance) {

@@ -170,11 +170,6 @@ Eigen::Vector3d ObservableSubspace::observablePart(const Eigen::Vector3d& motion
   return basis_ * (counts * (basis_.inverse() * motion).array()).matrix();
 }
 
-Eigen::Matrix3d ObservableSubspace::information() const {
-  const Eigen::Matrix3d back = basis_.inverse();
-  return back.transpose() * information_.asDiagonal() * back;
-}
-
 Eigen::Matrix3d ObservableSubspace::covariance() const {
   Eigen::Vector3d variance;
   for (int i = 0; i < 3; ++i) variance[i] = information_[i] > 0 ? 1 / information_[i] : ScanMatch::kOpen;

@@ -70,8 +70,6 @@ class ObservableSubspace {
   /// Along open directions only the guess counts; the step is zero there if it has no information either.
   Eigen::Vector3d step(const LineEquations& equations, const Eigen::Matrix3d& guess_information,
                        const Eigen::Vector3d& from_guess) const;
-  /// Inverse of the covariance, for unit variance of the points; zero along open directions.
-  Eigen::Matrix3d information() const;
   /// Open directions have variance ScanMatch::kOpen.
   Eigen::Matrix3d covariance() const;
 

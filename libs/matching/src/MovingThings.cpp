@@ -187,41 +187,29 @@ void MovingThings::look(const ScanView& view, double seconds) {
   while (seconds - looks_.front().seconds > kOldLook) looks_.pop_front();
 }
 
-std::vector<bool> MovingThings::recognize(const TPose2D& track_from_scan, double seconds,
-                                          const ScanWithNormals& scan) const {
-  std::vector<bool> moving(scan.size(), false);
-  if (std::none_of(things_.begin(), things_.end(), [](const Thing& thing) { return thing.moves; })) return moving;
-  const auto seen = sightings(track_from_scan, seconds, scan);
-  const auto known = associated(seen, seconds);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const bool moves = known[i] ? known[i]->moves : isBesideMoving(seen[i]);
-    std::fill_n(moving.begin() + static_cast<std::ptrdiff_t>(seen[i].begin), seen[i].points.size(), moves);
-  }
-  return moving;
-}
-
-std::vector<float> MovingThings::weights(const TPose2D& track_from_scan, double seconds,
-                                         const ScanWithNormals& scan) const {
+MovingThings::Expected MovingThings::expected(const TPose2D& track_from_scan, double seconds,
+                                              const ScanWithNormals& scan) const {
   // A thing that may move determines a position to kUnsure in kAlike, within which its errors are the same.
   constexpr double kPoint = 0.02, kUnsure = 0.05, kAlike = 2;  // [m] [m] [s]
   const double part = std::clamp((seconds - last_seconds_) / kAlike, 0.0, 1.0);
   const auto unsure = static_cast<float>(kPoint * kPoint / (kUnsure * kUnsure) * part);
   const auto seen = sightings(track_from_scan, seconds, scan);
   const auto known = associated(seen, seconds);
+  Expected all{std::vector<bool>(scan.size(), false), std::vector<float>(scan.size(), 1)};
   std::vector<bool> is_unsure(scan.size(), false);
-  std::vector<float> weights(scan.size(), 1);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const bool stands = known[i] && known[i]->stands;
     const auto count = seen[i].points.size();
     const auto begin = static_cast<std::ptrdiff_t>(seen[i].begin);
-    std::fill_n(weights.begin() + begin, count, (stands ? 1 : unsure) / static_cast<float>(count));
+    std::fill_n(all.moves.begin() + begin, count, known[i] ? known[i]->moves : isBesideMoving(seen[i]));
+    std::fill_n(all.weights.begin() + begin, count, (stands ? 1 : unsure) / static_cast<float>(count));
     std::fill_n(is_unsure.begin() + begin, count, !stands);
   }
   const auto all_unsure = withNeighbours(is_unsure, scan);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (all_unsure[i] && !is_unsure[i]) weights[i] = std::min(weights[i], unsure);
+    if (all_unsure[i] && !is_unsure[i]) all.weights[i] = std::min(all.weights[i], unsure);
   }
-  return weights;
+  return all;
 }
 
 std::vector<bool> MovingThings::moving(const ScanWithNormals& scan) const {

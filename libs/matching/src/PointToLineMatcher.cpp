@@ -15,9 +15,8 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kJudgedWithin = 0.3;         // [m] largest distance of a correspondence that counts for the overlap
-constexpr double kJudgedLoss = 0.1;           // [m] scale of the loss for the covariance
-constexpr double kSmallestPointSigma = 0.02;  // [m] of the points of a match that seems to be better
+constexpr double kJudgedWithin = 0.3;  // [m] largest distance of a correspondence that counts for the overlap
+constexpr double kJudgedLoss = 0.1;    // [m] scale of the loss for the covariance
 // The scale of the loss is kSpreads times this quantile of the points' distances from their lines.
 constexpr double kQuantile = 0.5, kSpreads = 4.5;
 constexpr double kSmallestLoss = 0.07;  // [m]
@@ -67,8 +66,6 @@ ScanMatch toMatch(const Correspondences& correspondences, const ScanWithNormals&
   match.point_sigma = match.wall_distance * std::sqrt(static_cast<double>(scan.smoothing));
   match.unit_covariance = directions.covariance();
   match.degenerate = !directions.all();
-  const double sigma = std::max(kSmallestPointSigma, match.point_sigma);
-  match.information = directions.information() / (sigma * sigma);
   return match;
 }
 

@@ -159,10 +159,10 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
   constexpr double kMostMoving = 0.5;  // share of the points, of which the rest is matched without a doubt
   if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
   if (scan.things.empty()) scan.things.assign(scan.size(), ScanWithNormals::kNoThing);
-  const auto& expected = measured ? measured->motion : predictions.front().guess.reference_from_scan;
-  const auto moving = moving_.recognize(track_from_last_ + expected, seconds, scan);
-  auto standing = without(withNeighbours(moving, scan), scan);
-  if (measured) standing.weights = moving_.weights(track_from_last_ + expected, seconds, standing);
+  const auto& motion = measured ? measured->motion : predictions.front().guess.reference_from_scan;
+  auto expected = moving_.expected(track_from_last_ + motion, seconds, scan);
+  if (measured) scan.weights = std::move(expected.weights);
+  const auto standing = without(withNeighbours(expected.moves, scan), scan);
   std::optional<Tracked> tracked;
   if (standing.size() >= std::min(kFew, scan.size())) tracked = matched(standing, sensor, predictions);
   const double hidden = 1 - static_cast<double>(standing.size()) / static_cast<double>(scan.size());
@@ -180,7 +180,7 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
   tracked->points = scan.size();
   auto moves = moving_.moving(scan);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    moves[i] = moves[i] || moving[i];
+    moves[i] = moves[i] || expected.moves[i];
     if (moves[i]) tracked->moving.push_back(scan.points[i]);
   }
   const TPose2D local_from_scan = track_from_scan - locals_.back().track_from_scan;

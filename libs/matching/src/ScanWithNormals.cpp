@@ -157,8 +157,8 @@ std::optional<Eigen::Vector2f> sparseNormal(const std::vector<Eigen::Vector2f>& 
 
 }  // namespace
 
-// From the lower quartile of the second differences: walls are
-// straight enough not to contribute, while corners, edges and clutter may be most of all points.
+// From the lower quartile of the second differences: walls are straight enough not to contribute, while corners, edges
+// and clutter may be most of all points.
 float rangeNoise(const std::vector<Eigen::Vector2f>& points) {
   if (points.size() < 3) return 0;
   constexpr float kQuarter = 0.780F;  // lower quartile for noise of standard deviation 1: 0.3186 sqrt(1 + 4 + 1)

@@ -453,7 +453,10 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
       std::min(1.0, 2 / static_cast<double>(options_.tracker.local_scans) *
                             (travel / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
                         0.001);
-  Eigen::Matrix3d covariance = (match.information / share + guess.information / mrpt::square(noise_)).inverse();
+  const double sigma = std::max(options_.point_sigma, match.point_sigma);
+  Eigen::Matrix3d covariance =
+      ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
+          .inverse();
   const double position = mrpt::square(options_.position_noise_per_root_m) * travel;
   covariance += tracked.search_covariance;
   covariance.diagonal() += Eigen::Vector3d(

@@ -85,7 +85,7 @@ TEST(RevisitEvidence, ARevisitOnWhichTheScansFitIsNotAgainstTheMap) {
   EXPECT_EQ(fits[1].says, Says::good);
   EXPECT_EQ(fits[1].value, 0);
   EXPECT_NE(fits[0].reason.find("on 60.0 m that were driven again the scans fit"), std::string::npos) << fits[0].reason;
-  const auto doubled = revisits(thereAgainBetweenWalls(0.7).view(), "loops", {"laser_points"}, 8);
+  const auto doubled = revisits(thereAgainBetweenWalls(0.5).view(), "loops", {"laser_points"}, 8);
   EXPECT_EQ(doubled[1].says, Says::against_it);
 }
 

@@ -27,15 +27,15 @@ class MovingThings {
   /// by this scan.
   std::vector<int> add(const mrpt::math::TPose2D& track_from_scan, const Eigen::Vector2f& sensor, double seconds,
                        ScanWithNormals& scan);
-  /// For each point of a scan that was not yet added, at about this pose, whether it belongs to a thing that moves.
-  std::vector<bool> recognize(const mrpt::math::TPose2D& track_from_scan, double seconds,
-                              const ScanWithNormals& scan) const;
-
-  /// For each point of a scan without what moves, at about this pose, how much it counts in a match, [0, 1]. All points
-  /// of a thing that was found to stand count together as one point; all of a thing that may move as far less than one,
-  /// because what it did since the last scan it will go on doing. Points of walls count 1.
-  std::vector<float> weights(const mrpt::math::TPose2D& track_from_scan, double seconds,
-                             const ScanWithNormals& scan) const;
+  /// What is known of the points of a scan that was not yet added.
+  struct Expected {
+    std::vector<bool> moves;  ///< for each point, whether it belongs to a thing that moves
+    /// For each point, how much it counts in a match, [0, 1]. All points of a thing that was found to stand count
+    /// together as one point; all of a thing that may move as far less than one, because what it did since the last
+    /// scan it will go on doing. Points of walls count 1.
+    std::vector<float> weights;
+  };
+  Expected expected(const mrpt::math::TPose2D& track_from_scan, double seconds, const ScanWithNormals& scan) const;
   /// For each point of the scan that was added last, whether it belongs to a thing that moves.
   std::vector<bool> moving(const ScanWithNormals& scan) const;
 

@@ -13,13 +13,10 @@ struct ScanMatch {
   mrpt::math::TPose2D reference_from_scan;  ///< [m] [rad]
   double overlap = 0;                       ///< share of the scan's points that have a correspondence, [0, 1]
   double wall_distance = 0;  ///< [m] root mean square distance of points from the walls that they correspond to
-  /// Covariance of the pose, in the scan's frame (x y yaw), if each point had a standard deviation of 1 m: multiply it
-  /// by the variance of a point [m2]. Along a direction that the walls do not constrain, the pose stays at the guess,
-  /// and the variance is kOpen.
+  /// Covariance of the pose, in the scan's frame (x y yaw), if each point of weight 1 had a standard deviation of 1 m:
+  /// multiply it by the variance of a point [m2]. Along a direction that the walls do not constrain, the pose stays at
+  /// the guess, and the variance is kOpen.
   Eigen::Matrix3d unit_covariance = kOpen * Eigen::Matrix3d::Identity();
-  /// Inverse covariance of the pose, in the scan's frame (x y yaw) [1/m2 and so on], by the points as their weights
-  /// count them. It is zero along a direction that the walls do not constrain.
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// [m] Standard deviation of a point that gives a realistic covariance of the pose: the distance of points from the
   /// walls, enlarged because the errors of neighbouring points are not independent (their normals were fitted to the
   /// same points).
