@@ -89,7 +89,8 @@ class RawLogViewer : public PerceivedHome {
     for (int attempt = 0; attempt < 3; ++attempt) {
       ended = runProgram({"env", "HOME=" + scratch_.path(), "xvfb-run", "-a", "-s", "-screen 0 1280x960x24",
                           omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log, std::to_string(row),
-                          picture});
+                          picture},
+                         {400, 0});
       const auto says = [&](const char* words) { return ended.err.find(words) != std::string::npos; };
       if (!says("xvfb-run: error") && !says("before its window came")) break;
     }
