@@ -154,7 +154,7 @@ void writeSvg(const std::string& path, const std::vector<MapScan>& scans, const 
   svg.precision(4);
   for (std::size_t i = 0; i < scans.size(); i += 3) {
     matching::ScanWithNormals walls;
-    matching::append({scans[i].scan.hits, {scans[i].scan.hits.size(), Eigen::Vector2f::Zero()}},
+    matching::append({scans[i].scan.hits, {scans[i].scan.hits.size(), Eigen::Vector2f::Zero()}, {}, {}},
                      scans[i].map_from_sensor, walls);
     for (std::size_t k = 0; k < walls.size(); k += 4) {
       const auto& p = walls.points[k];
