@@ -44,7 +44,7 @@ Followed follow(const std::function<TPose2D(double)>& laser, const std::function
     const auto recognized = things.add(believed(seconds), kLaser, seconds, scan);
     if (!recognized.empty() && std::isnan(result.first)) result.first = seconds;
     result.recognized += recognized.size();
-    const auto moves = things.moving(scan);
+    const auto& moves = things.moving();
     for (std::size_t k = 0; k < scan.size(); ++k) {
       const bool is_wall = scan.things[k] == ScanWithNormals::kNoThing;
       result.wall_points += is_wall;

@@ -115,6 +115,43 @@ std::vector<const MovingThings::Thing*> MovingThings::associated(const std::vect
   return found;
 }
 
+// Of a thing that moves, the points whose places were not occupied before it came.
+std::vector<bool> MovingThings::movingPoints(const Thing& thing, const Sighting& now) const {
+  constexpr float kCame = 0.5F;    // [m] from its place, at least, before it came
+  constexpr float kClose = 0.08F;  // [m] from the end of a beam, within which a place is occupied
+  std::vector<bool> moving(now.points.size(), true);
+  const auto came = std::find_if(thing.trail.rbegin(), thing.trail.rend(), [&](const Passed& passed) {
+    return (passed.centre - now.centre).norm() > kCame;
+  });
+  if (came == thing.trail.rend()) return moving;
+  for (std::size_t i = 0; i < now.points.size(); ++i) {
+    int free = 0, occupied = 0;
+    for (const auto& look : looks_) {
+      if (look.seconds > came->seconds) break;
+      free += look.view.at(now.points[i], kClose) == ScanView::Seen::free;
+      occupied += look.view.at(now.points[i], kClose) == ScanView::Seen::occupied;
+    }
+    moving[i] = occupied < 2 || occupied <= 2 * free;
+  }
+  return moving;
+}
+
+// Marks the points of a thing that move. If none did for a while, what moved has passed its name on to what stands.
+void MovingThings::reconsider(const Sighting& now, Thing& thing) {
+  constexpr double kWhile = 1;  // [s]
+  const auto moving = movingPoints(thing, now);
+  const auto count = static_cast<std::size_t>(std::count(moving.begin(), moving.end(), true));
+  if (10 * count > 3 * moving.size()) thing.last_moved = now.seconds;
+  if (now.seconds - thing.last_moved > kWhile) {
+    thing.moves = false;
+    thing.stands = true;
+    thing.velocity.setZero();
+    thing.anchor = now;
+    return;
+  }
+  std::copy(moving.begin(), moving.end(), moving_.begin() + static_cast<std::ptrdiff_t>(now.begin));
+}
+
 bool MovingThings::isBesideMoving(const Sighting& sighting) const {
   return std::any_of(things_.begin(), things_.end(), [&](const Thing& thing) {
     return thing.moves && sighting.seconds - thing.last.seconds < kYoung &&
@@ -201,7 +238,12 @@ MovingThings::Expected MovingThings::expected(const TPose2D& track_from_scan, do
     const bool stands = known[i] && known[i]->stands;
     const auto count = seen[i].points.size();
     const auto begin = static_cast<std::ptrdiff_t>(seen[i].begin);
-    std::fill_n(all.moves.begin() + begin, count, known[i] ? known[i]->moves : isBesideMoving(seen[i]));
+    if (known[i] && known[i]->moves) {
+      const auto moving = movingPoints(*known[i], seen[i]);
+      std::copy(moving.begin(), moving.end(), all.moves.begin() + begin);
+    } else if (!known[i] && isBesideMoving(seen[i])) {
+      std::fill_n(all.moves.begin() + begin, count, true);
+    }
     std::fill_n(all.weights.begin() + begin, count, (stands ? 1 : unsure) / static_cast<float>(count));
     std::fill_n(is_unsure.begin() + begin, count, !stands);
   }
@@ -210,15 +252,6 @@ MovingThings::Expected MovingThings::expected(const TPose2D& track_from_scan, do
     if (all_unsure[i] && !is_unsure[i]) all.weights[i] = std::min(all.weights[i], unsure);
   }
   return all;
-}
-
-std::vector<bool> MovingThings::moving(const ScanWithNormals& scan) const {
-  std::vector<bool> moving(scan.size(), false);
-  for (const auto& thing : things_) {
-    if (!thing.moves) continue;
-    for (std::size_t i = 0; i < scan.size(); ++i) moving[i] = moving[i] || scan.things[i] == thing.number;
-  }
-  return moving;
 }
 
 std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::Vector2f& sensor, double seconds,
@@ -234,9 +267,7 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
   std::vector<std::size_t> suspects;  // places in `followed`
   std::vector<int> numbers;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    Thing thing = known[i] ? *known[i]
-                           : Thing{next_number_++, seen[i], seen[i], Eigen::Vector2f::Zero(), seconds, view.origin(), 0,
-                                   false,          false};
+    Thing thing = known[i] ? *known[i] : Thing(next_number_++, seen[i]);
     const double passed = seconds - thing.last.seconds;
     if (thing.moves && passed > 0) {
       const Eigen::Vector2f velocity = (seen[i].centre - thing.last.centre) / static_cast<float>(passed);
@@ -249,6 +280,8 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
     if (!is_suspect) thing.suspected = 0;
     confirm(view, seen[i], thing);
     thing.last = seen[i];
+    thing.trail.push_back({seen[i].centre, seconds});
+    while (seconds - thing.trail.front().seconds > kOldLook) thing.trail.pop_front();
     const bool is_old =
         seconds - thing.anchor.seconds > kAnchored || (view.origin() - thing.anchor.viewer).norm() > kAnchoredFor;
     if (!thing.moves && is_old) {
@@ -266,8 +299,13 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
     for (const std::size_t place : suspects) {
       if (++followed[place].suspected < kSuspected) continue;
       followed[place].moves = true;
+      followed[place].last_moved = seconds;
       recognized.push_back(followed[place].number);
     }
+  }
+  moving_.assign(scan.size(), false);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (followed[i].moves) reconsider(seen[i], followed[i]);
   }
   for (const auto& thing : things_) {
     const bool is_seen =

@@ -178,10 +178,10 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
   const auto recognized = moving_.add(track_from_scan, sensor, seconds, scan);
   tracked->recognized = recognized.size();
   tracked->points = scan.size();
-  auto moves = moving_.moving(scan);
+  auto moves = moving_.moving();
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    moves[i] = moves[i] || expected.moves[i];
     if (moves[i]) tracked->moving.push_back(scan.points[i]);
+    moves[i] = moves[i] || expected.moves[i];
   }
   const TPose2D local_from_scan = track_from_scan - locals_.back().track_from_scan;
   track_from_last_ = track_from_scan;

@@ -15,7 +15,8 @@ namespace omnimapper::matching {
 /// person). A thing moves if it is where earlier beams passed freely, or if it has left its place and beams now pass
 /// there. No class of things is needed: people, trolleys, robots and doors that swing are all recognized. A thing that
 /// moved once counts as moving while it is in view, because whoever stops to talk will walk on; unless it turns out to
-/// be where it was first seen.
+/// be where it was first seen. Of its points, those stand whose places were occupied before it came: a chair that
+/// somebody walks past does not walk.
 ///
 /// Both tests need poses that are right. Where walls, too, seem to stand where beams passed freely, the pose is wrong
 /// rather than the walls new, and nothing more is said to move.
@@ -36,8 +37,8 @@ class MovingThings {
     std::vector<float> weights;
   };
   Expected expected(const mrpt::math::TPose2D& track_from_scan, double seconds, const ScanWithNormals& scan) const;
-  /// For each point of the scan that was added last, whether it belongs to a thing that moves.
-  std::vector<bool> moving(const ScanWithNormals& scan) const;
+  /// For each point of the scan that was added last, whether it moves.
+  const std::vector<bool>& moving() const { return moving_; }
 
  private:
   /// A thing at one time, in the frame of the track.
@@ -48,13 +49,22 @@ class MovingThings {
     std::size_t begin = 0;                             // the first of its points in the scan
     Eigen::Vector2f viewer = Eigen::Vector2f::Zero();  // [m] position of the laser
   };
+  /// A place of a thing.
+  struct Passed {
+    Eigen::Vector2f centre;
+    double seconds;
+  };
   struct Thing {
+    Thing(int new_number, const Sighting& first)
+        : number(new_number), anchor(first), last(first), first_seen(first.seconds), first_viewer(first.viewer) {}
     int number;
     Sighting anchor, last;
     Eigen::Vector2f velocity = Eigen::Vector2f::Zero();  // [m/s] while it moves
     double first_seen;                                   // [s]
     Eigen::Vector2f first_viewer;                        // [m] position of the laser when it was first seen
     int suspected = 0;                                   // by how many scans in a row
+    std::deque<Passed> trail;                            // where it was lately, oldest first
+    double last_moved = 0;                                // [s] when most of its points moved
     bool moves = false, stands = false;
   };
   static std::vector<Sighting> sightings(const mrpt::math::TPose2D& track_from_scan, double seconds,
@@ -64,6 +74,8 @@ class MovingThings {
   bool isBesideMoving(const Sighting& sighting) const;
   bool standsWhereItWasFree(const Sighting& sighting) const;
   static bool hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view);
+  void reconsider(const Sighting& now, Thing& thing);
+  std::vector<bool> movingPoints(const Thing& thing, const Sighting& now) const;
   bool isPoseWrong(const mrpt::math::TPose2D& track_from_scan, const ScanWithNormals& scan) const;
   void look(const ScanView& view, double seconds);
 
@@ -74,6 +86,7 @@ class MovingThings {
   };
   std::deque<Look> looks_;   // some of the last scans, oldest first
   double last_seconds_ = 0;  // of the scan that was added last
+  std::vector<bool> moving_;  // for each of its points
   int next_number_ = 0;
 };
 
