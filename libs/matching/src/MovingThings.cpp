@@ -18,8 +18,9 @@ constexpr double kOutOfView = 2;           // [s] after which a thing that is ou
 constexpr float kBeside = 0.5F;            // [m] from a thing that moves, within which the other leg may be
 constexpr int kSuspected = 2;              // scans in a row
 constexpr double kYoung = 1;               // [s] for which a new thing may be that leg
+constexpr float kGrown = 0.25F;              // [m] to what may be another thing
 constexpr float kPassedBy = 0.2F;          // [m] by which a beam must have passed
-constexpr float kLeft = 0.3F;              // [m] from its place, at least, of a thing that has left it
+
 constexpr float kOverlapping = 0.1F;       // [m] between points that may be the same
 constexpr double kAnchored = 3;            // [s] for which the place of a thing that stands is kept
 constexpr float kAnchoredFor = 1;  // [m] of motion of the laser, after which other sides of the thing are in view
@@ -136,15 +137,20 @@ std::vector<bool> MovingThings::movingPoints(const Thing& thing, const Sighting&
   return moving;
 }
 
-// Marks the points of a thing that move. If none did for a while, what moved has passed its name on to what stands.
+// Marks the points of a thing that move. What goes nowhere, or only where something was before, does not move: other
+// sides of a chair have come into view, or somebody who walked past it has passed their name on to it.
 void MovingThings::reconsider(const Sighting& now, Thing& thing) {
-  constexpr double kWhile = 1;  // [s]
+  constexpr double kWhile = 1, kStart = 2;  // [s]
+  constexpr float kGone = 0.25F;               // [m]
   const auto moving = movingPoints(thing, now);
   const auto count = static_cast<std::size_t>(std::count(moving.begin(), moving.end(), true));
   if (10 * count > 3 * moving.size()) thing.last_moved = now.seconds;
-  if (now.seconds - thing.last_moved > kWhile) {
+  thing.has_gone = thing.has_gone || (now.centre - thing.recognized.centre).norm() > kGone;
+  const bool goes_nowhere = !thing.has_gone && now.seconds - thing.recognized.seconds > kStart;
+  if (goes_nowhere || now.seconds - thing.last_moved > kWhile) {
     thing.moves = false;
     thing.stands = true;
+    thing.is_doubted = true;
     thing.velocity.setZero();
     thing.anchor = now;
     return;
@@ -159,23 +165,23 @@ bool MovingThings::isBesideMoving(const Sighting& sighting) const {
   });
 }
 
-bool MovingThings::standsWhereItWasFree(const Sighting& sighting) const {
+bool MovingThings::standsWhereItWasFree(const Sighting& sighting, float margin) const {
   int free = 0, occupied = 0;
   for (const auto& look : looks_) {
     if (sighting.seconds - look.seconds < kFreshLook || !isWideFor(look.view, sighting.points, sighting.centre))
       continue;
-    const auto counts = lookAt(look.view, sighting.points, kPassedBy);
+    const auto counts = lookAt(look.view, sighting.points, margin);
     free += 10 * counts.free >= 7 * counts.all;
     occupied += 10 * counts.occupied >= 3 * counts.all;
   }
   return free >= 2 && free > 2 * occupied;
 }
 
-bool MovingThings::hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view) {
+bool MovingThings::hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view, float margin) {
   const auto& before = thing.anchor;
-  if ((now.centre - before.centre).norm() < kLeft || !isWideFor(view, before.points, before.centre)) return false;
+  if ((now.centre - before.centre).norm() < 1.5F * margin || !isWideFor(view, before.points, before.centre)) return false;
   if (5 * overlapping(now.points, before.points) > now.points.size()) return false;
-  const auto counts = lookAt(view, before.points, kPassedBy);
+  const auto counts = lookAt(view, before.points, margin);
   return 10 * counts.free >= 7 * counts.all;
 }
 
@@ -269,14 +275,24 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
   for (std::size_t i = 0; i < seen.size(); ++i) {
     Thing thing = known[i] ? *known[i] : Thing(next_number_++, seen[i]);
     const double passed = seconds - thing.last.seconds;
+    const float width = widthOfThing(seen[i].points);
+    if (thing.moves && width > thing.width + kGrown) {
+      thing.recognized = {seen[i].centre, seconds};
+      thing.has_gone = false;
+      thing.width = width;
+    }
+    thing.width += 0.1F * (width - thing.width);
     if (thing.moves && passed > 0) {
       const Eigen::Vector2f velocity = (seen[i].centre - thing.last.centre) / static_cast<float>(passed);
       thing.velocity += 0.3F * (velocity - thing.velocity);
     }
     const bool is_young = seconds - thing.first_seen < kYoung;
-    const bool is_suspect = !thing.moves && ((is_young && isBesideMoving(seen[i])) || standsWhereItWasFree(seen[i]) ||
-                                             hasLeftItsPlace(thing, seen[i], view));
+    // Whoever is beside something that moves is likely to move, too: half the distance is enough.
+    const bool is_beside = is_young && isBesideMoving(seen[i]);
+    const float margin = (is_beside ? 0.5F : 1) * kPassedBy;
+    const bool is_suspect = !thing.moves && (standsWhereItWasFree(seen[i], margin) || hasLeftItsPlace(thing, seen[i], view, margin));
     if (is_suspect) suspects.push_back(followed.size());
+    if (is_suspect && is_beside) ++thing.suspected;
     if (!is_suspect) thing.suspected = 0;
     confirm(view, seen[i], thing);
     thing.last = seen[i];
@@ -300,6 +316,8 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
       if (++followed[place].suspected < kSuspected) continue;
       followed[place].moves = true;
       followed[place].last_moved = seconds;
+      followed[place].recognized = {followed[place].anchor.centre, seconds};
+      followed[place].has_gone = false;
       recognized.push_back(followed[place].number);
     }
   }

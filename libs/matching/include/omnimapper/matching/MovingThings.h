@@ -65,15 +65,16 @@ class MovingThings {
     int suspected = 0;                                   // by how many scans in a row
     std::deque<Passed> trail;                            // where it was lately, oldest first
     double last_moved = 0;                                // [s] when most of its points moved
-    bool moves = false, stands = false;
+    Passed recognized = {};  // where it stood before it was recognized as moving, and when that was
+    bool moves = false, stands = false, has_gone = false, is_doubted = false, is_beside = false; float width=0;
   };
   static std::vector<Sighting> sightings(const mrpt::math::TPose2D& track_from_scan, double seconds,
                                          const ScanWithNormals& scan);
   std::vector<const Thing*> associated(const std::vector<Sighting>& sightings, double seconds) const;
   static void confirm(const ScanView& view, const Sighting& now, Thing& thing);
   bool isBesideMoving(const Sighting& sighting) const;
-  bool standsWhereItWasFree(const Sighting& sighting) const;
-  static bool hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view);
+  bool standsWhereItWasFree(const Sighting& sighting, float margin) const;
+  static bool hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view, float margin);
   void reconsider(const Sighting& now, Thing& thing);
   std::vector<bool> movingPoints(const Thing& thing, const Sighting& now) const;
   bool isPoseWrong(const mrpt::math::TPose2D& track_from_scan, const ScanWithNormals& scan) const;
