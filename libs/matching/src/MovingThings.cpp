@@ -158,6 +158,34 @@ void MovingThings::reconsider(const Sighting& now, Thing& thing) {
   std::copy(moving.begin(), moving.end(), moving_.begin() + static_cast<std::ptrdiff_t>(now.begin));
 }
 
+// Marks points of walls that are where a thing that moves is expected and where earlier beams passed freely: a leg that
+// is so near a wall that no gap shows between them.
+void MovingThings::markMerged(const TPose2D& track_from_scan, double seconds, const ScanWithNormals& scan,
+                              const std::vector<const Thing*>& known, std::vector<bool>& moves) const {
+  constexpr float kNear = 0.3F, kPassed = 0.1F;
+  const auto c = static_cast<float>(std::cos(track_from_scan.phi)),
+             s = static_cast<float>(std::sin(track_from_scan.phi));
+  for (const auto& thing : things_) {
+    const double passed = seconds - thing.last.seconds;
+    if (!thing.moves || passed > kYoung || std::find(known.begin(), known.end(), &thing) != known.end()) continue;
+    const Eigen::Vector2f expected = thing.last.centre + static_cast<float>(passed) * thing.velocity;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (scan.things[i] != ScanWithNormals::kNoThing) continue;
+      const auto& p = scan.points[i];
+      const Eigen::Vector2f place(static_cast<float>(track_from_scan.x) + c * p.x() - s * p.y(),
+                                  static_cast<float>(track_from_scan.y) + s * p.x() + c * p.y());
+      if ((place - expected).norm() > kNear) continue;
+      int free = 0, occupied = 0;
+      for (const auto& look : looks_) {
+        if (seconds - look.seconds < kFreshLook) break;
+        free += look.view.at(place, kPassed) == ScanView::Seen::free;
+        occupied += look.view.at(place, kPassed) == ScanView::Seen::occupied;
+      }
+      if (free >= 2 && free > 2 * occupied) moves[i] = true;
+    }
+  }
+}
+
 bool MovingThings::isBesideMoving(const Sighting& sighting) const {
   return std::any_of(things_.begin(), things_.end(), [&](const Thing& thing) {
     return thing.moves && sighting.seconds - thing.last.seconds < kYoung &&
@@ -253,6 +281,7 @@ MovingThings::Expected MovingThings::expected(const TPose2D& track_from_scan, do
     std::fill_n(all.weights.begin() + begin, count, (stands ? 1 : unsure) / static_cast<float>(count));
     std::fill_n(is_unsure.begin() + begin, count, !stands);
   }
+  markMerged(track_from_scan, seconds, scan, known, all.moves);
   const auto all_unsure = withNeighbours(is_unsure, scan);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (all_unsure[i] && !is_unsure[i]) all.weights[i] = std::min(all.weights[i], unsure);
@@ -325,6 +354,7 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (followed[i].moves) reconsider(seen[i], followed[i]);
   }
+  markMerged(track_from_scan, seconds, scan, known, moving_);
   for (const auto& thing : things_) {
     const bool is_seen =
         std::any_of(followed.begin(), followed.end(), [&](const Thing& other) { return other.number == thing.number; });

@@ -22,7 +22,7 @@ bool haveSameRanges(const mrpt::obs::CObservation2DRangeScan& a, const mrpt::obs
 
 mrpt::obs::CObservation2DRangeScan::Ptr withoutBeamsNear(const std::vector<Eigen::Vector2f>& points,
                                                          const mrpt::obs::CObservation2DRangeScan& scan) {
-  constexpr float kNear = 0.12F;  // [m] more than the distance between the points that an extractor keeps
+  constexpr float kNear = 0.09F;  // [m] more than the distance between the points that an extractor keeps
   auto usable = std::make_shared<mrpt::obs::CObservation2DRangeScan>(scan);
   const grid::BeamEnds beams(scan, {}, grid::BeamEnds::Pose::of_base);
   for (std::size_t i = 0; i < beams.size(); ++i) {

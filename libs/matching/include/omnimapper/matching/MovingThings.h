@@ -77,6 +77,8 @@ class MovingThings {
   static bool hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view, float margin);
   void reconsider(const Sighting& now, Thing& thing);
   std::vector<bool> movingPoints(const Thing& thing, const Sighting& now) const;
+  void markMerged(const mrpt::math::TPose2D& track_from_scan, double seconds, const ScanWithNormals& scan,
+                  const std::vector<const Thing*>& known, std::vector<bool>& moves) const;
   bool isPoseWrong(const mrpt::math::TPose2D& track_from_scan, const ScanWithNormals& scan) const;
   void look(const ScanView& view, double seconds);
 
