@@ -25,7 +25,8 @@ void addPost(FloorPlan& plan, const Vector2d& place, double side = 0.25) {
 struct Followed {
   std::size_t recognized = 0;  // things
   double first = NAN;          // [s]
-  std::size_t wall_points = 0, moving_wall_points = 0;
+  // Points that are farther than 0.3 m from the post, and nearer; and those of them that are said to move.
+  std::size_t others = 0, moving_others = 0, of_post = 0, moving_of_post = 0;
 };
 
 // Follows a post in a hall of 12 x 6 m for 8 s at 10 Hz.
@@ -44,11 +45,13 @@ Followed follow(const std::function<TPose2D(double)>& laser, const std::function
     const auto recognized = things.add(believed(seconds), kLaser, seconds, scan);
     if (!recognized.empty() && std::isnan(result.first)) result.first = seconds;
     result.recognized += recognized.size();
+    if (recognized.empty() && std::isnan(result.first)) continue;
     const auto& moves = things.moving();
+    const ToTrack toTrack(laser(seconds));
     for (std::size_t k = 0; k < scan.size(); ++k) {
-      const bool is_wall = scan.things[k] == ScanWithNormals::kNoThing;
-      result.wall_points += is_wall;
-      result.moving_wall_points += is_wall && moves[k];
+      const bool is_post = (toTrack(scan.points[k]) - post(seconds).cast<float>()).norm() < 0.3F;
+      ++(is_post ? result.of_post : result.others);
+      (is_post ? result.moving_of_post : result.moving_others) += moves[k];
     }
   }
   return result;
@@ -61,8 +64,26 @@ TEST(MovingThings, OneThatLeadsIsRecognizedWithinTwoSeconds) {
       kDrives, [](double t) { return Vector2d(-4 + 0.5 * t, 0); }, kDrives);
   EXPECT_EQ(result.recognized, 1U);
   EXPECT_LT(result.first, 2);
-  EXPECT_EQ(result.moving_wall_points, 0U);
-  EXPECT_GT(result.wall_points, 0U);
+  EXPECT_EQ(result.moving_others, 0U);
+  EXPECT_GT(result.others, 0U);
+}
+
+// It passes the post that stands at 0.35 m, so that both are one thing for a while.
+TEST(MovingThings, OneThatPassesAnotherLeavesItStanding) {
+  const auto result = follow(
+      kDrives, [](double t) { return Vector2d(-4.5 + 0.6 * t, 1.15); }, kDrives);
+  EXPECT_LT(result.first, 3);
+  EXPECT_GT(result.moving_of_post, result.of_post * 3 / 4);
+  EXPECT_LT(result.moving_others, result.others / 200);
+}
+
+// It walks so near to the wall that most scans show no gap between them.
+TEST(MovingThings, OneThatWalksAlongAWallIsTakenOutOfIt) {
+  const auto result = follow(
+      kDrives, [](double t) { return Vector2d(-3.5 + 0.6 * t, -2.6); }, kDrives);
+  EXPECT_GE(result.recognized, 1U);
+  EXPECT_GT(result.moving_of_post, result.of_post / 2);
+  EXPECT_LT(result.moving_others, result.others / 200);
 }
 
 TEST(MovingThings, OneThatCrossesAndOneThatComesAreRecognized) {

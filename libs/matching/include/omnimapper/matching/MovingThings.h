@@ -1,8 +1,9 @@
 #pragma once
 
 #include <mrpt/math/TPose2D.h>
-#include <omnimapper/matching/ScanView.h>
+#include <omnimapper/matching/RecentViews.h>
 #include <omnimapper/matching/ScanWithNormals.h>
+#include <omnimapper/matching/ThingSighting.h>
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -41,55 +42,49 @@ class MovingThings {
   const std::vector<bool>& moving() const { return moving_; }
 
  private:
-  /// A thing at one time, in the frame of the track.
-  struct Sighting {
-    Eigen::Vector2f centre;
-    std::vector<Eigen::Vector2f> points;
-    double seconds = 0;
-    std::size_t begin = 0;                             // the first of its points in the scan
-    Eigen::Vector2f viewer = Eigen::Vector2f::Zero();  // [m] position of the laser
-  };
   /// A place of a thing.
   struct Passed {
     Eigen::Vector2f centre;
     double seconds;
   };
   struct Thing {
-    Thing(int new_number, const Sighting& first)
-        : number(new_number), anchor(first), last(first), first_seen(first.seconds), first_viewer(first.viewer) {}
+    Thing(int new_number, const ThingSighting& first)
+        : number(new_number),
+          anchor(first),
+          last(first),
+          first_seen(first.seconds),
+          first_viewer(first.viewer),
+          extent(extentOf(first.points)) {}
+    Eigen::Vector2f at(double seconds) const;
+
     int number;
-    Sighting anchor, last;
+    ThingSighting anchor, last;
     Eigen::Vector2f velocity = Eigen::Vector2f::Zero();  // [m/s] while it moves
     double first_seen;                                   // [s]
     Eigen::Vector2f first_viewer;                        // [m] position of the laser when it was first seen
-    int suspected = 0;                                   // by how many scans in a row
+    float extent;                                        // [m] lately
     std::deque<Passed> trail;                            // where it was lately, oldest first
-    double last_moved = 0;                                // [s] when most of its points moved
-    Passed recognized = {};  // where it stood before it was recognized as moving, and when that was
-    bool moves = false, stands = false, has_gone = false, is_doubted = false, is_beside = false; float width=0;
+    int suspected = 0;                                   // by how many scans in a row
+    bool moves = false, stands = false;
+    // Of a thing that moves: where and when it was doubted last, and whether it has gone elsewhere since.
+    Passed doubted = {Eigen::Vector2f::Zero(), 0};
+    bool has_gone = false;
+    double last_moved = 0;  // [s] when most of its points moved
   };
-  static std::vector<Sighting> sightings(const mrpt::math::TPose2D& track_from_scan, double seconds,
-                                         const ScanWithNormals& scan);
-  std::vector<const Thing*> associated(const std::vector<Sighting>& sightings, double seconds) const;
-  static void confirm(const ScanView& view, const Sighting& now, Thing& thing);
-  bool isBesideMoving(const Sighting& sighting) const;
-  bool standsWhereItWasFree(const Sighting& sighting, float margin) const;
-  static bool hasLeftItsPlace(const Thing& thing, const Sighting& now, const ScanView& view, float margin);
-  void reconsider(const Sighting& now, Thing& thing);
-  std::vector<bool> movingPoints(const Thing& thing, const Sighting& now) const;
+  std::vector<const Thing*> associated(const std::vector<ThingSighting>& sightings, double seconds) const;
+  std::vector<Thing> following(const std::vector<ThingSighting>& seen, const std::vector<const Thing*>& known);
+  std::vector<int> recognize(const ScanView& view, const ScanWithNormals& scan,
+                             const mrpt::math::TPose2D& track_from_scan, std::vector<Thing>& followed) const;
+  bool isBesideMoving(const ThingSighting& sighting) const;
+  std::vector<bool> movingPoints(const Thing& thing) const;
+  void reconsider(const ScanView& view, Thing& thing);
   void markMerged(const mrpt::math::TPose2D& track_from_scan, double seconds, const ScanWithNormals& scan,
                   const std::vector<const Thing*>& known, std::vector<bool>& moves) const;
-  bool isPoseWrong(const mrpt::math::TPose2D& track_from_scan, const ScanWithNormals& scan) const;
-  void look(const ScanView& view, double seconds);
 
   std::vector<Thing> things_;
-  struct Look {
-    ScanView view;
-    double seconds;
-  };
-  std::deque<Look> looks_;   // some of the last scans, oldest first
+  RecentViews views_;
+  std::vector<bool> moving_;
   double last_seconds_ = 0;  // of the scan that was added last
-  std::vector<bool> moving_;  // for each of its points
   int next_number_ = 0;
 };
 
