@@ -3,11 +3,17 @@
 // has walked within the last two seconds; people who stand count as neither. Mixed and mirrored beams are left out.
 // Prints recall and precision by beams, and the share of all other beams that were called moving.
 //
+// --labelled is a folder of real scans in which legs were labelled (CSV: angle [rad], range [m] or 0, leg 1 or 0; the
+// name of a file is its time, 20200826-12_55_45.669667.csv). Whether a leg moved is not known.
+//
 // Example: bench-moving_points out/company/logs/*/*
+// Example: bench-moving_points --labelled ../shared/data/people/legs_labelled_scans
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/obs/registerClasses.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -99,6 +105,54 @@ Counts countsOf(const untuned::Log& log, const std::string& bodies) {
   return counts;
 }
 
+// The seconds since midnight in the name of a file, and a day for each other date.
+double secondsInName(const std::string& name) {
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+  double second = 0;
+  std::sscanf(name.c_str(), "%4d%2d%2d-%2d_%2d_%lf", &year, &month, &day, &hour, &minute, &second);
+  return ((31. * month + day) * 24 + hour) * 3600 + 60. * minute + second;
+}
+
+// Legs count as people who walk.
+Counts countsOfLabelled(const std::string& folder) {
+  using mrpt::obs::CObservation2DRangeScan;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  plugins::ScanOdometryPlugin odometry({}, {}, {});
+  Counts counts;
+  for (const auto& file : files) {
+    std::vector<float> ranges;
+    std::vector<bool> legs;
+    std::ifstream in(file);
+    float angle = 0, range = 0, leg = 0;
+    for (char comma = 0; in >> angle >> comma >> range >> comma >> leg;) {
+      ranges.push_back(range);
+      legs.push_back(leg > 0.5F);
+    }
+    auto scan = CObservation2DRangeScan::Create();
+    scan->sensorLabel = "laser";
+    scan->timestamp = base::stampFromUnix(1e9 + secondsInName(file.stem().string()));
+    scan->aperture = static_cast<float>(2 * M_PI * (1 - 1. / static_cast<double>(ranges.size())));
+    scan->maxRange = 30;
+    scan->resizeScan(ranges.size());
+    Truth truth;
+    auto& beams = truth[microseconds(mrpt::Clock::toDouble(scan->timestamp))];
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      scan->setScanRange(i, ranges[i]);
+      scan->setScanRangeValidity(i, ranges[i] > 0);
+      if (legs[i]) beams[i] = Beam::walking;
+    }
+    odometry.add(scan);
+    odometry.processUntil(scan->timestamp);
+    const auto usable = std::dynamic_pointer_cast<const CObservation2DRangeScan>(odometry.usablePart(scan));
+    if (usable) counts.add(compared(*scan, *usable, truth));
+  }
+  return counts;
+}
+
 void print(const std::string& name, const Counts& counts) {
   const auto share = [](std::size_t part, std::size_t whole) {
     return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : NAN;
@@ -112,13 +166,16 @@ void print(const std::string& name, const Counts& counts) {
 
 int main(int argc, char** argv) {
   std::vector<std::string> folders;
+  std::string labelled;
   CLI::App app("Compares the points that laser odometry calls moving with the simulator's truth.");
-  app.add_option("folders", folders, "folders of simulated logs")->required();
+  app.add_option("folders", folders, "folders of simulated logs");
+  app.add_option("--labelled", labelled, "folder of scans in which legs are labelled")->check(CLI::ExistingDirectory);
   CLI11_PARSE(app, argc, argv);
   obs::registerClasses();
   std::printf(
       "| log | beams on people who walk | recall [%%] | precision [%%] | other beams called moving [%%] |\n"
       "|---|---|---|---|---|\n");
+  if (!labelled.empty()) print("legs in real scans", countsOfLabelled(labelled));
   Counts all;
   for (const std::string& folder : folders) {
     std::string rawlog;
@@ -131,6 +188,6 @@ int main(int argc, char** argv) {
     print(folder, counts);
     all.add(counts);
   }
-  print("all", all);
+  if (!folders.empty()) print("all", all);
   return 0;
 }

@@ -84,17 +84,16 @@ bool MovingThings::isBesideMoving(const ThingSighting& sighting) const {
 std::vector<bool> MovingThings::movingPoints(const Thing& thing) const {
   const auto& now = thing.last;
   std::vector<bool> moving(now.points.size(), true);
-  const auto came = std::find_if(thing.trail.rbegin(), thing.trail.rend(), [&](const Passed& passed) {
-    return (passed.centre - now.centre).norm() > kCame;
-  });
+  const auto came = std::find_if(thing.trail.rbegin(), thing.trail.rend(),
+                                 [&](const Passed& passed) { return (passed.centre - now.centre).norm() > kCame; });
   if (came == thing.trail.rend()) return moving;
   for (std::size_t i = 0; i < now.points.size(); ++i)
     moving[i] = !views_.at(now.points[i], kSamePlace, came->seconds).isOccupied();
   return moving;
 }
 
-// Marks points of walls that are where a thing that moves is expected, and where earlier beams passed freely: a leg that
-// is so near a wall that no gap shows between them.
+// Marks points of walls that are where a thing that moves is expected, and where earlier beams passed freely: a leg
+// that is so near a wall that no gap shows between them.
 void MovingThings::markMerged(const TPose2D& track_from_scan, double seconds, const ScanWithNormals& scan,
                               const std::vector<const Thing*>& known, std::vector<bool>& moves) const {
   const ToTrack toTrack(track_from_scan);
@@ -243,8 +242,7 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
   for (auto& thing : followed) {
     reconsider(view, thing);
     const auto& anchor = thing.anchor;
-    const bool is_old =
-        seconds - anchor.seconds > kAnchored || (view.origin() - anchor.viewer).norm() > kAnchoredFor;
+    const bool is_old = seconds - anchor.seconds > kAnchored || (view.origin() - anchor.viewer).norm() > kAnchoredFor;
     if (thing.moves || !is_old) continue;
     thing.anchor = thing.last;
     if (!thing.stands) thing.first_viewer = view.origin();

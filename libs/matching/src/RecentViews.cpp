@@ -1,10 +1,9 @@
 #include <omnimapper/matching/RecentViews.h>
+#include <omnimapper/matching/ThingSighting.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-
-#include <omnimapper/matching/ThingSighting.h>
 
 namespace omnimapper::matching {
 

@@ -161,7 +161,9 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
   if (scan.things.empty()) scan.things.assign(scan.size(), ScanWithNormals::kNoThing);
   const auto& motion = measured ? measured->motion : predictions.front().guess.reference_from_scan;
   auto expected = moving_.expected(track_from_last_ + motion, seconds, scan);
-  if (measured) scan.weights = std::move(expected.weights);
+  // Without a measured motion, things help to find it, unless some of them move: they would be wrong together.
+  const bool does_anything_move = std::find(expected.moves.begin(), expected.moves.end(), true) != expected.moves.end();
+  if (measured || does_anything_move) scan.weights = std::move(expected.weights);
   const auto standing = without(withNeighbours(expected.moves, scan), scan);
   std::optional<Tracked> tracked;
   if (standing.size() >= std::min(kFew, scan.size())) tracked = matched(standing, sensor, predictions);

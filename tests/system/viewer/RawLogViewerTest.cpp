@@ -87,10 +87,10 @@ class RawLogViewer : public PerceivedHome {
     // not start, or the viewer cannot open its window on it, both are tried again.
     Ended ended;
     for (int attempt = 0; attempt < 3; ++attempt) {
-      ended = runProgram({"env", "HOME=" + scratch_.path(), "xvfb-run", "-a", "-s", "-screen 0 1280x960x24",
-                          omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log, std::to_string(row),
-                          picture},
-                         {400, 0});
+      ended = runProgram(
+          {"env", "HOME=" + scratch_.path(), "xvfb-run", "-a", "-s", "-screen 0 1280x960x24",
+           omnimapper::testing::sourceFile(script), OMNIMAPPER_OBS_LIBRARY, log, std::to_string(row), picture},
+          {400, 0});
       const auto says = [&](const char* words) { return ended.err.find(words) != std::string::npos; };
       if (!says("xvfb-run: error") && !says("before its window came")) break;
     }

@@ -35,8 +35,8 @@ class ToTrack {
   float cos_, sin_;
 };
 
-/// The things of a scan by its `things`, the points of each of which follow one another. `sensor`: position of the laser
-/// in the scan's frame [m].
+/// The things of a scan by its `things`, the points of each of which follow one another. `sensor`: position of the
+/// laser in the scan's frame [m].
 std::vector<ThingSighting> sightingsIn(const mrpt::math::TPose2D& track_from_scan, const Eigen::Vector2f& sensor,
                                        double seconds, const ScanWithNormals& scan);
 
