@@ -41,7 +41,7 @@ Followed follow(const std::function<TPose2D(double)>& laser, const std::function
     addPost(plan, {-2, 1.5}, 0.3);  // one that stands
     addPost(plan, post(seconds));
     auto scan = scanFrom(plan, laser(seconds), 0.01, static_cast<std::uint64_t>(i) + 1, 20);
-    scan.things = numberThings(scan.points, kLaser);
+    scan.things = numberThings(scan.points, kLaser, rangeNoise(scan.points));
     const auto recognized = things.add(believed(seconds), kLaser, seconds, scan);
     if (!recognized.empty() && std::isnan(result.first)) result.first = seconds;
     result.recognized += recognized.size();
@@ -137,7 +137,7 @@ TEST(MovingThings, AThingCountsOnceItWasSeenToStand) {
     plan.addPolygon({{-6, -3}, {6, -3}, {6, 3}, {-6, 3}});
     addPost(plan, {0, 1});
     auto scan = scanFrom(plan, kDrives(seconds), 0.01, static_cast<std::uint64_t>(i) + 1, 20);
-    scan.things = numberThings(scan.points, kLaser);
+    scan.things = numberThings(scan.points, kLaser, rangeNoise(scan.points));
     const auto weights = things.expected(kDrives(seconds), seconds, scan).weights;
     float total = 0;
     for (std::size_t k = 0; k < scan.size(); ++k) {

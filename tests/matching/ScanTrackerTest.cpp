@@ -144,7 +144,7 @@ ScanWithNormals scanBehindPerson(double x, double ahead, std::uint64_t seed) {
     plan.addPolygon({{near, y}, {near, y + 0.12}, {near + 0.12, y + 0.12}, {near + 0.12, y}});
   }
   auto scan = scanFrom(plan, {x, 0, 0}, 0.005, seed, 8);
-  scan.things = numberThings(scan.points, kOrigin);
+  scan.things = numberThings(scan.points, kOrigin, rangeNoise(scan.points));
   return scan;
 }
 
@@ -180,7 +180,7 @@ TEST(ScanTracker, ThingsThatStandCount) {
   auto tracker = makeTracker();
   const auto scanAt = [&](int i) {
     auto scan = scanFrom(plan, {0.05 * i, 0, 0}, 0.005, static_cast<std::uint64_t>(i) + 1, 8);
-    scan.things = numberThings(scan.points, kOrigin);
+    scan.things = numberThings(scan.points, kOrigin, rangeNoise(scan.points));
     return scan;
   };
   tracker.restart(scanAt(0), kOrigin, 0);

@@ -158,7 +158,8 @@ std::vector<MovingThings::Thing> MovingThings::following(const std::vector<Thing
     constexpr float kMemory = 0.9F;
     thing.extent = kMemory * thing.extent + (1 - kMemory) * extent;
     const double passed = now.seconds - thing.last.seconds;
-    if (thing.moves && passed > 0) {
+    constexpr double kShortest = 0.02;  // [s] between nearly coincident stamps noise looks like speed
+    if (thing.moves && passed > kShortest) {
       const Eigen::Vector2f velocity = (now.centre - thing.last.centre) / static_cast<float>(passed);
       thing.velocity += 0.3F * (velocity - thing.velocity);
     }
@@ -186,7 +187,11 @@ std::vector<int> MovingThings::recognize(const ScanView& view, const ScanWithNor
     are_suspects = are_suspects || is_suspect;
   }
   std::vector<int> recognized;
-  if (!are_suspects || views_.contradict(track_from_scan, scan)) return recognized;
+  if (!are_suspects) return recognized;
+  if (views_.contradict(track_from_scan, scan)) {
+    for (auto& thing : followed) thing.suspected = 0;
+    return recognized;
+  }
   for (auto& thing : followed) {
     if (thing.moves || thing.suspected < kSuspected) continue;
     thing.moves = true;
@@ -222,6 +227,7 @@ void MovingThings::reconsider(const ScanView& view, Thing& thing) {
   if (!stands) return;
   thing.stands = true;
   thing.moves = false;
+  thing.suspected = 0;
   thing.velocity.setZero();
 }
 
@@ -237,10 +243,12 @@ std::vector<int> MovingThings::add(const TPose2D& track_from_scan, const Eigen::
   for (auto& number : scan.things) {
     if (number != ScanWithNormals::kNoThing) number = followed[static_cast<std::size_t>(number)].number;
   }
-  const auto recognized = recognize(view, scan, track_from_scan, followed);
+  auto recognized = recognize(view, scan, track_from_scan, followed);
   moving_.assign(scan.size(), false);
   for (auto& thing : followed) {
     reconsider(view, thing);
+    if (!thing.moves)
+      recognized.erase(std::remove(recognized.begin(), recognized.end(), thing.number), recognized.end());
     const auto& anchor = thing.anchor;
     const bool is_old = seconds - anchor.seconds > kAnchored || (view.origin() - anchor.viewer).norm() > kAnchoredFor;
     if (thing.moves || !is_old) continue;

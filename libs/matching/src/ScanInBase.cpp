@@ -48,17 +48,23 @@ ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud) {
   return fitLines(pointsOf(cloud).in_base);
 }
 
+std::vector<Eigen::Vector2f> pointsInBase(const mrpt::obs::CObservationPointCloud& cloud) {
+  return pointsOf(cloud).in_base;
+}
+
 namespace {
 
-ScanWithNormals withThings(ScanWithNormals scan, const mrpt::obs::CObservationPointCloud& cloud) {
-  scan.things = numberThings(scan.points, placeOf(cloud));
+// The noise is that of the points before they are moved onto lines.
+ScanWithNormals withThings(const std::vector<Eigen::Vector2f>& points, const mrpt::obs::CObservationPointCloud& cloud) {
+  auto scan = fitLines(points);
+  scan.things = numberThings(scan.points, placeOf(cloud), rangeNoise(points));
   return scan;
 }
 
 }  // namespace
 
 ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud) {
-  return withThings(scanInBase(cloud), cloud);
+  return withThings(pointsInBase(cloud), cloud);
 }
 
 ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud, const ScanSweep& sweep) {
@@ -66,7 +72,7 @@ ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cl
   auto fractions = points.directions;
   const double per_angle = sweep.aperture > 0 ? (sweep.right_to_left ? 1 : -1) / sweep.aperture : 0;
   for (auto& value : fractions) value = static_cast<float>(std::clamp(per_angle * value, -0.5, 0.5));
-  return withThings(fitLines(deskew(points.in_base, fractions, sweep.begin_from_end)), cloud);
+  return withThings(deskew(points.in_base, fractions, sweep.begin_from_end), cloud);
 }
 
 }  // namespace omnimapper::matching

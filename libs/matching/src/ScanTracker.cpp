@@ -156,7 +156,7 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
                                                        const std::vector<MotionPrediction>& predictions, double seconds,
                                                        const std::optional<MeasuredMotion>& measured) {
   constexpr std::size_t kFew = 10;     // points that stand, too few to match
-  constexpr double kMostMoving = 0.5;  // share of the points, of which the rest is matched without a doubt
+  constexpr double kMostMoving = 0.5;  // share of the points, beyond which the rest need not match
   if (!reference_ || scan.empty() || predictions.empty()) return std::nullopt;
   if (scan.things.empty()) scan.things.assign(scan.size(), ScanWithNormals::kNoThing);
   const auto& motion = measured ? measured->motion : predictions.front().guess.reference_from_scan;
@@ -178,11 +178,10 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
   if (measured) combine(*measured, *tracked);
   const TPose2D track_from_scan = track_from_last_ + tracked->match.reference_from_scan;
   const auto recognized = moving_.add(track_from_scan, sensor, seconds, scan);
-  tracked->recognized = recognized.size();
   tracked->points = scan.size();
   auto moves = moving_.moving();
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (moves[i]) tracked->moving.push_back(scan.points[i]);
+    if (moves[i]) tracked->moving.push_back(i);
     moves[i] = moves[i] || expected.moves[i];
   }
   const TPose2D local_from_scan = track_from_scan - locals_.back().track_from_scan;
@@ -327,6 +326,7 @@ void ScanTracker::remember(ScanWithNormals scan, const Eigen::Vector2f& sensor) 
 
 // Removes the traces of things that were recognized as moving. Returns whether there were any.
 bool ScanTracker::forget(const std::vector<int>& things) {
+  if (things.empty()) return false;
   bool is_trimmed = false;
   for (auto& local : locals_) {
     std::vector<bool> moves(local.scan.size());

@@ -24,7 +24,8 @@ Eigen::Matrix2d SpanContradiction::add(double seconds, const Eigen::Vector2d& di
       variance += oldest->covariance;
     }
     if (sum.norm() < kLeastMetres || sum.dot(variance.inverse() * sum) < kBeyond) continue;
-    added = sum * sum.transpose() * std::min(1.0, step / span);
+    const Eigen::Matrix2d of_span = sum * sum.transpose() * std::min(1.0, step / span);
+    if (of_span.trace() > added.trace()) added = of_span;
     largest_ = std::max(largest_, sum.norm());
   }
   if (added.isZero()) return added;

@@ -77,9 +77,9 @@ bool isThing(const BeamPoints& points, const ScanPiece& piece, const Eigen::Vect
 
 }  // namespace
 
-std::vector<int> numberThings(const BeamPoints& points, const Eigen::Vector2f& sensor) {
+std::vector<int> numberThings(const BeamPoints& points, const Eigen::Vector2f& sensor, float noise) {
   std::vector<int> things(points.size(), ScanWithNormals::kNoThing);
-  if (rangeNoise(points) > kTooNoisy) return things;
+  if (noise > kTooNoisy) return things;
   int number = 0;
   for (const auto& piece : piecesOf(points, sensor)) {
     if (piece.end == piece.begin || !isThing(points, piece, sensor)) continue;

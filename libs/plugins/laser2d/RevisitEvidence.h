@@ -17,7 +17,7 @@ double shareOnWalls(const std::vector<Eigen::Vector2f>& map, const std::vector<E
 /// earlier. The second is how much of that distance is unconfirmed, because no closure of the plugin `section` ties it
 /// to the earlier visit and the scans do not fit what was seen then. The third is the share of the travel that lies
 /// between two visits of a place; errors in the rest of the travel would go unnoticed. `labels`: as for
-/// scansThroughWalls().
+/// throughWalls().
 std::vector<mapper::Evidence> revisits(const mapper::State& state, const std::string& section,
                                        const std::vector<std::string>& labels, double min_travel);
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "EvidenceText.h"
 #include "ScanOdometryPlugin.h"
 
 namespace omnimapper::plugins {
@@ -27,17 +27,6 @@ std::vector<std::string> ScanOdometryPlugin::warnings() const {
   return sentences;
 }
 
-namespace {
-
-template <class... Numbers>
-std::string sentence(const char* pattern, Numbers... numbers) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, numbers...);
-  return text;
-}
-
-}  // namespace
-
 std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
   constexpr double kMostBlind = 10;         // [%]
   constexpr double kMostContradicted = 1;   // [m]
@@ -45,10 +34,11 @@ std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
   using Says = mapper::Evidence::Says;
   std::vector<mapper::Evidence> all;
   if (gaps_.count > 0) {
-    all.push_back({"laser_gaps_without_motion", static_cast<double>(gaps_.count), Says::too_little,
-                   sentence("neither scan matching nor odometry measured the motion across some gaps (%zu, the first "
-                            "%.0f s after the start)",
-                            gaps_.count, gaps_.first)});
+    all.push_back(
+        {"laser_gaps_without_motion", static_cast<double>(gaps_.count), Says::too_little,
+         evidenceText("neither scan matching nor odometry measured the motion across some gaps (%zu, the first "
+                      "%.0f s after the start)",
+                      gaps_.count, gaps_.first)});
   }
   if (moving_.points > 0) {
     const double share = 100 * static_cast<double>(moving_.points) / static_cast<double>(moving_.of_points);
@@ -56,29 +46,31 @@ std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
         {"moving_points_percent", share, Says::good,
          share < kMovingWorthSaying
              ? ""
-             : sentence("%.2g %% of the laser's points belong to things that moved, and were left out", share)});
+             : evidenceText("%.2g %% of the laser's points belong to things that moved, and were left out", share)});
   }
   if (frozen_.scans > 0) {
-    all.push_back({"frozen_scans", static_cast<double>(frozen_.scans), Says::good,
-                   sentence("%s of the laser, the first %.0f s after the start, repeated the ranges of an earlier one "
-                            "although the wheels moved, and %s left out",
-                            base::counted(frozen_.scans, "scan").c_str(), frozen_.first,
-                            base::wasOrWere(frozen_.scans).c_str())});
+    all.push_back(
+        {"frozen_scans", static_cast<double>(frozen_.scans), Says::good,
+         evidenceText("%s of the laser, the first %.0f s after the start, repeated the ranges of an earlier one "
+                      "although the wheels moved, and %s left out",
+                      base::counted(frozen_.scans, "scan").c_str(), frozen_.first,
+                      base::wasOrWere(frozen_.scans).c_str())});
   }
   if (contradiction_.contradictedSeconds() > 0) {
     const bool is_large = contradiction_.largest() > kMostContradicted;
     all.push_back(
         {"contradicted_by_odometry_s", contradiction_.contradictedSeconds(), is_large ? Says::too_little : Says::good,
-         sentence("for %.1f s, the first time %.0f s after the start, scans and odometry contradicted each "
-                  "other by up to %.1f m",
-                  contradiction_.contradictedSeconds(), contradiction_.firstSeconds(), contradiction_.largest())});
+         evidenceText("for %.1f s, the first time %.0f s after the start, scans and odometry contradicted each "
+                      "other by up to %.1f m",
+                      contradiction_.contradictedSeconds(), contradiction_.firstSeconds(), contradiction_.largest())});
   }
   const double percent = 100 * blind_seconds_ / std::max(blind_seconds_ + seeing_seconds_, 1e-9);
   if (percent > kMostBlind) {
-    all.push_back({"blind_along_percent", percent, Says::too_little,
-                   sentence("for %.0f %% of the time the walls left a direction of the motion unconstrained, and no "
-                            "odometry measured it",
-                            percent)});
+    all.push_back(
+        {"blind_along_percent", percent, Says::too_little,
+         evidenceText("for %.0f %% of the time the walls left a direction of the motion unconstrained, and no "
+                      "odometry measured it",
+                      percent)});
   }
   return all;
 }

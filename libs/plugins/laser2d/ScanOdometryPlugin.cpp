@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "PlanarMotion.h"
-#include "UsableScan.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
@@ -34,6 +33,8 @@ double sizeOf(const TPose2D& motion) {
   constexpr double kLever = 3;  // [m]
   return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
 }
+
+constexpr double kAlsoNear = 0.02;  // [m] more than the distance between points, within which beams end on the same
 
 TPose2D scaled(const TPose2D& motion, double factor) {
   return {factor * motion.x, factor * motion.y, factor * motion.phi};
@@ -90,6 +91,7 @@ ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const
                                        const perception::LaserPointsOptions& points)
     : options_(options),
       extractor_(points),
+      near_(static_cast<float>(points.spacing + kAlsoNear)),
       tracker_(options.tracker, matching::makeMatcher(matching)),
       noise_(options.point_sigma) {}
 
@@ -146,10 +148,9 @@ base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeSca
   return scan.timestamp + base::durationFromSeconds(0.5 * options_.sweep);
 }
 
-matching::ScanWithNormals ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+matching::ScanWithNormals ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservationPointCloud& cloud,
+                                                      const mrpt::obs::CObservation2DRangeScan& scan,
                                                       const TPose2D& velocity) const {
-  const auto derived = extractor_.extract(scan);
-  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
   if (options_.sweep == 0) return matching::scanInBaseWithThings(cloud);
   return matching::scanInBaseWithThings(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
 }
@@ -166,7 +167,7 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
   odometry.label = label;
   matching::WheelOdometry source(odometry);
   if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
-    odometries_.push_back({label, std::move(source), {}, {}, {}, {}});
+    odometries_.push_back({label, std::move(source), {}, {}, {}, {}, {}});
 }
 
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
@@ -197,58 +198,38 @@ bool ScanOdometryPlugin::isMeasuredByOdometry() const {
                      [](const Odometry& odometry) { return odometry.measured.has_value(); });
 }
 
-bool ScanOdometryPlugin::isFrozen(const mrpt::obs::CObservation2DRangeScan& scan) const {
-  constexpr double kMoved = 0.02, kTurned = 0.02;  // [m] [rad]
-  const bool has_moved = std::any_of(odometries_.begin(), odometries_.end(), [](const Odometry& odometry) {
-    return odometry.measured && (std::hypot(odometry.measured->x, odometry.measured->y) > kMoved ||
-                                 std::abs(mrpt::math::wrapToPi(odometry.measured->phi)) > kTurned);
-  });
-  return has_moved && matched_ && haveSameRanges(scan, *matched_);
-}
-
-mrpt::obs::CObservation::ConstPtr ScanOdometryPlugin::usablePart(
-    const mrpt::obs::CObservation::ConstPtr& observation) const {
-  if (!label_ || observation->sensorLabel != *label_) return observation;
-  const auto found = unusable_.find(observation->timestamp);
-  const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get());
-  if (found == unusable_.end() || !scan) return observation;
-  if (!found->second) return nullptr;
-  return withoutBeamsNear(*found->second, *scan);
-}
-
-void ScanOdometryPlugin::forgetBefore(base::Stamp stamp) {
-  timeline_.forgetBefore(stamp);
-  unusable_.erase(unusable_.begin(), unusable_.lower_bound(stamp));
-}
-
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& observation) {
   const auto& scan = *observation;
+  if (!last_ && is_stuck_ && haveSameRanges(scan, *matched_)) return leaveOut(scan);
   if (!last_) return restart(observation);
   const base::Stamp stamp = middleOf(scan);
   const double seconds = base::secondsBetween(*last_, stamp);
   const auto predictions = this->predictions(stamp);
-  if (isFrozen(scan)) {
-    if (frozen_.scans++ == 0) frozen_.first = base::secondsBetween(*begun_, stamp);
-    unusable_.emplace(scan.timestamp, std::nullopt);
-    return;
-  }
+  if (isFrozen(scan)) return leaveOut(scan);
   // Between stamps that nearly coincide, noise would look like speed.
   constexpr double kShortest = 0.02;  // [s]
   const bool is_long = seconds > kShortest;
   const TPose2D velocity =
       is_long && !predictions.empty() ? perSecond(predictions.front().guess.reference_from_scan, seconds) : velocity_;
-  const auto tracked = tracker_.track(wallsOf(scan, velocity), placeOf(scan), predictions,
+  const auto derived = extractor_.extract(scan);
+  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
+  const auto tracked = tracker_.track(wallsOf(cloud, scan, velocity), placeOf(scan), predictions,
                                       base::secondsBetween(*begun_, stamp), measuredMotion());
   if (!tracked) {
     if (seconds <= options_.max_gap) return;
     if (!isMeasuredByOdometry() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
     return restart(observation);
   }
+  addUpMotion(scan);
   matched_ = observation;
-  moving_.things += tracked->recognized;
   moving_.points += tracked->moving.size();
   moving_.of_points += tracked->points;
-  if (!tracked->moving.empty()) unusable_.emplace(scan.timestamp, tracked->moving);
+  if (!tracked->moving.empty()) {
+    const auto as_measured = matching::pointsInBase(cloud);
+    std::vector<Eigen::Vector2f> moving;
+    for (const std::size_t point : tracked->moving) moving.push_back(as_measured[point]);
+    unusable_.emplace(scan.timestamp, std::move(moving));
+  }
   const TPose2D& motion = tracked->match.reference_from_scan;
   const bool is_blind = tracked->match.degenerate && !isMeasuredByOdometry();
   auto guess = predictions[tracked->prediction].guess;
@@ -362,7 +343,10 @@ void ScanOdometryPlugin::restart(const mrpt::obs::CObservation2DRangeScan::Const
   const auto& scan = *observation;
   constexpr std::size_t kFewPoints = 10;
   last_.reset();
-  const auto walls = wallsOf(scan, {});
+  is_stuck_ = false;
+  contradiction_.interrupt();
+  const auto derived = extractor_.extract(scan);
+  const auto walls = wallsOf(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived), scan, {});
   if (walls.size() < kFewPoints) return;
   velocity_ = {};
   matched_ = observation;

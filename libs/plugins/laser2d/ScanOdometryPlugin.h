@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/matching/OdometryCalibration.h>
 #include <omnimapper/matching/OdometryErrors.h>
 #include <omnimapper/matching/PoseTimeline.h>
@@ -67,8 +68,9 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   }
   std::optional<base::Stamp> coveredUntil() const override;
   std::vector<std::string> warnings() const override;
-  /// Gaps across which neither laser nor odometry measured the motion, and, if it is large, the share of the time in
-  /// which neither of them measured the motion along one direction.
+  /// Gaps across which neither laser nor odometry measured the motion; the share of points that moved; frozen scans;
+  /// the time in which scans and odometry contradicted each other; and, if it is large, the share of the time in which
+  /// neither of them measured the motion along one direction.
   std::vector<mapper::Evidence> evidence() const override;
   void forgetBefore(base::Stamp stamp) override;
 
@@ -87,6 +89,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     matching::OdometryCalibration calibration;
     matching::OdometryErrors errors;
     std::optional<mrpt::math::TPose2D> measured;  // motion to the next scan, before it is corrected
+    mrpt::math::TPose2D unseen;                   // motion up to the last scan since the ranges of the laser changed
   };
   /// Scans of a laser that were left out because of its tilt.
   struct Tilted {
@@ -105,16 +108,19 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   };
   /// What moved, and was left out.
   struct Moving {
-    std::size_t things = 0, points = 0, of_points = 0;
+    std::size_t points = 0, of_points = 0;
   };
   static void judge(Predictor& predictor, const mrpt::math::TPose2D& motion);
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
   void addOdometry(const mrpt::obs::CObservation& observation);
   void follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& scan);
   bool isFrozen(const mrpt::obs::CObservation2DRangeScan& scan) const;
+  void leaveOut(const mrpt::obs::CObservation2DRangeScan& scan);
+  void addUpMotion(const mrpt::obs::CObservation2DRangeScan& matched);
   base::Stamp middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const;
-  /// The deskewed scan in the base; `velocity` [m/s] [rad/s] of the base during the scan.
-  matching::ScanWithNormals wallsOf(const mrpt::obs::CObservation2DRangeScan& scan,
+  /// The deskewed cloud of a scan in the base; `velocity` [m/s] [rad/s] of the base during the scan.
+  matching::ScanWithNormals wallsOf(const mrpt::obs::CObservationPointCloud& cloud,
+                                    const mrpt::obs::CObservation2DRangeScan& scan,
                                     const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
   bool isMeasuredByOdometry() const;
@@ -129,6 +135,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
 
   ScanOdometryOptions options_;
   perception::LaserPointsExtractor extractor_;
+  float near_;  // [m] from a point that moves, within which beams ended on the same
   matching::ScanTracker tracker_;
   std::vector<Odometry> odometries_;                                           // in order of arrival
   std::optional<std::string> label_;                                           // of the laser that is used
@@ -139,6 +146,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> begun_;  // middle of the first scan of all
   Gaps gaps_;
   Frozen frozen_;
+  bool is_stuck_ = false;  // the laser has repeated itself for long, and still does
   Moving moving_;
   matching::SpanContradiction contradiction_;             // of scans and odometry
   double heading_ = 0;                                    // [rad] since the first scan

@@ -91,6 +91,27 @@ TEST(ScanOdometryPlugin, FollowsTheLaserWhateverTheWheelsSay) {
              "a jump of 5 m");
 }
 
+// A scan of the two walls of a corridor, which are 2.4 m apart and have no visible end. Some noise distinguishes it
+// from one that the laser repeats.
+CObservation::Ptr scanOfACorridor(double seconds) {
+  constexpr int kBeams = 181;
+  constexpr float kReach = 8;
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  scan->sensorLabel = "laser";
+  scan->timestamp = base::stampFromUnix(1e9 + seconds);
+  scan->aperture = static_cast<float>(M_PI);
+  scan->maxRange = kReach;
+  scan->resizeScan(kBeams);
+  for (int i = 0; i < kBeams; ++i) {
+    const double across = std::abs(std::sin(-M_PI / 2 + i * M_PI / (kBeams - 1)));
+    const double noise = 0.002 * std::sin(12.9 * i + 78 * seconds);
+    const auto range = static_cast<float>(1.2 / std::max(across, 1e-3) + noise);
+    scan->setScanRange(i, range);
+    scan->setScanRangeValidity(i, range < kReach);
+  }
+  return scan;
+}
+
 // For 3 s the laser repeats one scan, while the wheels turn on.
 TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutAndCounted) {
   const auto log = halfALap();
@@ -128,6 +149,26 @@ TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutAndCounted) {
   ASSERT_NE(frozen, evidence.end());
   EXPECT_EQ(frozen->value, static_cast<double>(left_out));
   EXPECT_NE(frozen->reason.find("although the wheels moved"), std::string::npos) << frozen->reason;
+}
+
+// At 1 cm from scan to scan the base is slower than the noise of wheels, and the laser repeats itself for a minute.
+TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutOfASlowDriveToo) {
+  ScanOdometryPlugin plugin({}, {}, {});
+  std::size_t left_out = 0;
+  const auto frozen = scanOfACorridor(0);
+  for (int i = 0; i < 600; ++i) {
+    auto odometry = CObservationOdometry::Create();
+    odometry->sensorLabel = "odometry";
+    odometry->timestamp = base::stampFromUnix(1e9 + 0.1 * i);
+    odometry->odometry = CPose2D(0.01 * i, 0, 0);
+    plugin.add(odometry);
+    auto scan = std::make_shared<CObservation2DRangeScan>(dynamic_cast<const CObservation2DRangeScan&>(*frozen));
+    scan->timestamp = odometry->timestamp;
+    plugin.add(scan);
+    plugin.processUntil(scan->timestamp);
+    left_out += plugin.usablePart(scan) == nullptr;
+  }
+  EXPECT_GE(left_out, 596U);
 }
 
 // A log with each odometry twice, as CARMEN's logs have it: each scan repeats the last reading, however old it is.
@@ -305,27 +346,6 @@ TEST(ScanOdometryPlugin, AGapThatNothingMeasuresIsEvidence) {
     EXPECT_EQ(evidence[0].says, mapper::Evidence::Says::too_little);
     EXPECT_NE(evidence[0].reason.find("19 s"), std::string::npos) << evidence[0].reason;
   }
-}
-
-// A scan of the two walls of a corridor, which are 2.4 m apart and have no visible end. Some noise distinguishes it
-// from one that the laser repeats.
-CObservation::Ptr scanOfACorridor(double seconds) {
-  constexpr int kBeams = 181;
-  constexpr float kReach = 8;
-  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
-  scan->sensorLabel = "laser";
-  scan->timestamp = base::stampFromUnix(1e9 + seconds);
-  scan->aperture = static_cast<float>(M_PI);
-  scan->maxRange = kReach;
-  scan->resizeScan(kBeams);
-  for (int i = 0; i < kBeams; ++i) {
-    const double across = std::abs(std::sin(-M_PI / 2 + i * M_PI / (kBeams - 1)));
-    const double noise = 0.002 * std::sin(12.9 * i + 78 * seconds);
-    const auto range = static_cast<float>(1.2 / std::max(across, 1e-3) + noise);
-    scan->setScanRange(i, range);
-    scan->setScanRangeValidity(i, range < kReach);
-  }
-  return scan;
 }
 
 TEST(ScanOdometryPlugin, AlongABareCorridorItKnowsThatItDoesNotKnow) {

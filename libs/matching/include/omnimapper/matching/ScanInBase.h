@@ -6,11 +6,16 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/matching/ScanWithNormals.h>
 
+#include <Eigen/Core>
+#include <vector>
+
 namespace omnimapper::matching {
 
+/// The points of the cloud of a 2D scan in the plane of the base [m], without those that are not finite.
+std::vector<Eigen::Vector2f> pointsInBase(const mrpt::obs::CObservationPointCloud& cloud);
 /// Projects the cloud of a 2D scan into the plane of the base and fits lines. Points that are not finite are left out.
 ScanWithNormals scanInBase(const mrpt::obs::CObservationPointCloud& cloud);
-/// As scanInBase(cloud), with numbered things.
+/// As scanInBase(cloud), with numbered things. Its points are those of pointsInBase(cloud), in the same order.
 ScanWithNormals scanInBaseWithThings(const mrpt::obs::CObservationPointCloud& cloud);
 
 /// Angle between the plane that a 2D laser scans and the floor, whichever side is up: 0 to pi / 2 [rad].

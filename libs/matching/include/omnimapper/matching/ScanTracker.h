@@ -81,14 +81,13 @@ class ScanTracker {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     /// Whether standing points alone determine the motion in all directions, to kDetermined and kDeterminedYaw.
     bool is_determined = false;
-    std::vector<Eigen::Vector2f> moving;  ///< points of the scan that belong to things that move, in its frame [m]
-    std::size_t points = 0;               ///< number of points of the scan, with these
-    std::size_t recognized = 0;           ///< number of things that were recognized as moving by this scan
+    std::vector<std::size_t> moving;  ///< points of the scan that belong to things that move
+    std::size_t points = 0;           ///< number of points of the scan, with these
   };
   static constexpr double kDetermined = 0.02, kDeterminedYaw = 0.01;  ///< [m] [rad] standard deviations
   /// Matches a scan and makes it the last one. `predictions`: the most trusted one first. `seconds`: as in restart().
   /// None, and nothing changes, if no prediction leads to a match, or if the most probable candidate is not a match.
-  /// Where things that move hide nearly all that stands, the measured motion is taken as it is.
+  /// Where more than half of the points move and the others do not match, the measured motion is taken as it is.
   std::optional<Tracked> track(ScanWithNormals scan, const Eigen::Vector2f& sensor,
                                const std::vector<MotionPrediction>& predictions, double seconds,
                                const std::optional<MeasuredMotion>& measured = std::nullopt);

@@ -37,7 +37,8 @@ ScanWithNormals fitLines(const std::vector<Eigen::Vector2f>& points);
 /// The points for which `dropped` is false, with all that is known of them.
 ScanWithNormals without(const std::vector<bool>& dropped, const ScanWithNormals& scan);
 
-/// Marks also the neighbours of marked points, as many as may have counted for the line fitted to the same neighbours.
+/// Marks also four neighbours on each side of a marked point, as far as no gap of more than 0.6 m is between them:
+/// their lines may have been fitted to that point, too.
 std::vector<bool> withNeighbours(std::vector<bool> marked, const ScanWithNormals& scan);
 
 /// Appends the points and normals of `scan`, moved by target_from_scan, to `target`.

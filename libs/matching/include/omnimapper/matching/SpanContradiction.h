@@ -15,6 +15,9 @@ class SpanContradiction {
   /// covariance of this motion, so that over the span it covers both sources; zero if they do not contradict.
   Eigen::Matrix2d add(double seconds, const Eigen::Vector2d& difference, const Eigen::Matrix2d& covariance);
 
+  /// Forgets the differences, because the frame of the next ones is another.
+  void interrupt() { recent_.clear(); }
+
   double contradictedSeconds() const { return contradicted_seconds_; }  ///< [s] in all
   double firstSeconds() const { return first_seconds_; }                ///< [s] time of the first contradiction
   double largest() const { return largest_; }                           ///< [m] over one span
