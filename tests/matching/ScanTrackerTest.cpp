@@ -203,6 +203,7 @@ TEST(ScanTracker, WheelsThatSlipAreOverruledByWalls) {
                                      MeasuredMotion{TPose2D(0.3, 0, 0.1), 1e-5 * Eigen::Matrix3d::Identity()});
   ASSERT_TRUE(tracked);
   EXPECT_TRUE(tracked->is_determined);
+  EXPECT_NEAR(std::sqrt(tracked->search_covariance(0, 0)), 0.23, 0.02) << "what is right is not known";
   EXPECT_LT(std::hypot(tracked->match.reference_from_scan.x - truth.x, tracked->match.reference_from_scan.y - truth.y),
             0.015);
 }

@@ -62,6 +62,13 @@ double shareOfSlip(double squared_sigmas) {
   return std::clamp((squared_sigmas - 9) / (36 - 9), 0.0, 1.0);
 }
 
+// Whether a contradiction matters. A match that is as far from the wheels is right, because they slipped, or it is
+// wrong; which of the two is not known, so the covariance covers both until closures decide.
+bool isLarge(const Eigen::Vector3d& off) {
+  constexpr double kLarge = 0.1, kLargeTurn = 0.087;  // [m] [rad]
+  return off.head<2>().norm() > kLarge || std::abs(off.z()) > kLargeTurn;
+}
+
 }  // namespace
 
 void combine(const MeasuredMotion& measured, ScanTracker::Tracked& tracked) {
@@ -71,9 +78,10 @@ void combine(const MeasuredMotion& measured, ScanTracker::Tracked& tracked) {
   const Eigen::Vector3d off = vectorOf(match.reference_from_scan - measured.motion);
   const auto apart = distances(off, measured.covariance + tracked.covariance);
   const Eigen::Vector3d place(off.x(), off.y(), 0), turn(0, 0, off.z());
-  const Eigen::Matrix3d prior = kCarried * measured.covariance +
-                                shareOfSlip(apart.position) * place * place.transpose() +
-                                shareOfSlip(apart.yaw) * turn * turn.transpose();
+  const Eigen::Matrix3d slip =
+      shareOfSlip(apart.position) * place * place.transpose() + shareOfSlip(apart.yaw) * turn * turn.transpose();
+  const Eigen::Matrix3d prior = kCarried * measured.covariance + slip;
+  if (isLarge(off)) tracked.search_covariance += slip;
   const Eigen::Vector3d step = prior * (prior + uncertainPart(tracked.covariance)).ldlt().solve(off);
   match.reference_from_scan = measured.motion + TPose2D(step.x(), step.y(), step.z());
   tracked.difference = (off - step).head<2>();

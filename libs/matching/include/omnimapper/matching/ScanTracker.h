@@ -71,7 +71,8 @@ class ScanTracker {
   struct Tracked {
     ScanMatch match;             ///< match with the local map, but its pose is the motion since the last scan
     std::size_t prediction = 0;  ///< index of the prediction that led to the match
-    /// What other, less probable matches add to the covariance, in the scan's frame: x y yaw [m] [rad].
+    /// What other, less probable matches and wheels that contradict the match add to the covariance, in the scan's
+    /// frame: x y yaw [m] [rad].
     Eigen::Matrix3d search_covariance = Eigen::Matrix3d::Zero();
     /// From the motion that was taken to the match, x y in the scan's frame [m], and the covariance of that difference.
     /// Both are zero without a measured motion.
