@@ -105,7 +105,7 @@ Counts countsOf(const untuned::Log& log, const std::string& bodies) {
   return counts;
 }
 
-// The seconds since midnight in the name of a file, and a day for each other date.
+// Seconds by the date and time in the name of a file, as if all months had 31 days.
 double secondsInName(const std::string& name) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0;
   double second = 0;

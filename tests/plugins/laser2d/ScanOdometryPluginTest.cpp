@@ -151,7 +151,7 @@ TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutAndCounted) {
   EXPECT_NE(frozen->reason.find("although the wheels moved"), std::string::npos) << frozen->reason;
 }
 
-// At 1 cm from scan to scan the base is slower than the noise of wheels, and the laser repeats itself for a minute.
+// The base moves 1 cm from scan to scan, and the laser repeats itself for a minute.
 TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutOfASlowDriveToo) {
   ScanOdometryPlugin plugin({}, {}, {});
   std::size_t left_out = 0;
