@@ -16,8 +16,8 @@ namespace omnimapper::matching {
 /// person). A thing moves if it is where earlier beams passed freely, or if it has left its place and beams now pass
 /// there. No class of things is needed: people, trolleys, robots and doors that swing are all recognized. A thing that
 /// moved once counts as moving while it is in view, because whoever stops to talk will walk on; unless it turns out to
-/// be where it was first seen, or goes nowhere after it has become larger. Of its points, those stand whose places were occupied before it came: a chair that
-/// somebody walks past does not walk.
+/// be where it was first seen, or goes nowhere after it has become larger. Of its points, those stand whose places were
+/// occupied before it came: a chair that somebody walks past does not walk.
 ///
 /// Both tests need poses that are right. Where walls, too, seem to stand where beams passed freely, the pose is wrong
 /// rather than the walls new, and nothing more is said to move.
