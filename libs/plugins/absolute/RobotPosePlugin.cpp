@@ -2,6 +2,7 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
+#include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/obs/GivenPose.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SavedVariable.h>
@@ -23,6 +24,13 @@ double sigmasOf(const geometry::Vector6d& error, const geometry::Matrix6d& covar
   if (motion == mapper::Motion::spatial) return std::sqrt(error.dot(covariance.ldlt().solve(error)));
   const Eigen::Vector3d planar(error[0], error[1], error[5]);
   return std::sqrt(planar.dot(geometry::planarPart(covariance).ldlt().solve(planar)));
+}
+
+// Length that the largest of so many errors reaches in one of a thousand runs, if the covariances are correct.
+double largestOf(std::size_t count, mapper::Motion motion) {
+  constexpr double kFalseAlarms = 0.001;
+  const int directions = motion == mapper::Motion::spatial ? 6 : 3;
+  return std::sqrt(graph::chiSquareQuantile(1 - kFalseAlarms / static_cast<double>(count), directions));
 }
 }  // namespace
 
@@ -118,7 +126,6 @@ void RobotPosePlugin::restore(const map::MapSection* saved, const mapper::View& 
 
 std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view) const {
   using mapper::Evidence;
-  constexpr double kLargest = 5;  // [sigma] that poses with correct covariances practically never reach
   if (given_.empty()) return {};
   mrpt::poses::CPose3D map_from_reference;
   if (map_from_reference_) map_from_reference = mapper::poseOf(view.graph, *map_from_reference_);
@@ -139,7 +146,7 @@ std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view
   std::snprintf(text, sizeof text, "the map deviates by at most %.3g m and %.2g deg from the given poses", metres,
                 degrees);
   Evidence evidence{"from_given_poses_sigmas", sigmas, Evidence::Says::good, text};
-  if (sigmas > kLargest) {
+  if (sigmas > largestOf(given_.size(), context_.motion)) {
     std::snprintf(text, sizeof text,
                   "%.0f s after the start the map deviates by %.3g m and %.2g deg from the given pose, %.0f of its "
                   "standard deviations",

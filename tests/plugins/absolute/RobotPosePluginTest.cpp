@@ -144,6 +144,24 @@ TEST(RobotPosePlugin, SaysHowFarTheMapIsFromTheGivenPoses) {
   }
 }
 
+// Of 2,000 poses with correct covariances, one may be 5.5 standard deviations off. Of two, none is.
+TEST(RobotPosePlugin, TheLargestOfManyErrorsIsJudgedAsTheLargestOfMany) {
+  for (const int count : {2, 2000}) {
+    RobotPoseOptions options;
+    options.position_sigma = 0.01;
+    RobotPosePlugin plugin(options, {});
+    testing::HandMadeRun run;
+    for (int i = 0; i < count; ++i) {
+      const CPose3D pose(i, 0, 0, 0, 0, 0), given(i, i == 0 ? 0.055 : 0, 0, 0, 0, 0);
+      plugin.measure(run.addFrame(pose), {measured(given), nullptr}, run.view());
+    }
+    const auto evidence = plugin.evidence(run.view());
+    ASSERT_EQ(evidence.size(), 1U);
+    EXPECT_NEAR(evidence[0].value, 5.5, 1e-6);
+    EXPECT_EQ(evidence[0].says == mapper::Evidence::Says::against_it, count == 2) << evidence[0].reason;
+  }
+}
+
 TEST(RobotPosePlugin, PosesAreTrustedUnlessALossIsSet) {
   for (const double scale : {0.0, 3.0}) {
     RobotPoseOptions options;
