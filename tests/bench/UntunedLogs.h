@@ -91,8 +91,8 @@ inline std::optional<Log> simulated(const std::string& name, const std::string& 
 /// The recordings that are on this machine, and the simulated logs, which are kept in `out`.
 inline std::vector<Log> logsAtHand(const std::string& out) {
   std::vector<Log> logs;
-  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso", "ual", "driving_in_office",
-                                 "malaga", "simul", "range_030_bearing_015"}) {
+  for (const std::string name : {"aces", "intel", "mit-csail", "fhw", "belgioioso", "freiburg-campus", "ual",
+                                 "driving_in_office", "malaga", "simul", "range_030_bearing_015"}) {
     if (const auto log = untuned::logNamed(name)) {
       logs.push_back(*log);
     } else {

@@ -110,7 +110,7 @@ std::shared_ptr<const ScanDatabase> placesToLoopTo(const map::Map& map, const st
   options.cell = 0.2;
   options.sigma = 0.2;
   options.spacing = 0.3;
-  options.max_blocks = 20'000;
+  options.max_blocks = 100'000;
   const std::map<std::string, std::vector<LoopSearch::KeyScan>> key_scans{{label, earlier}};
   return std::make_shared<const ScanDatabase>(map, key_scans, std::move(matcher), options);
 }

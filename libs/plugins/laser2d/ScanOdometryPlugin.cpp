@@ -123,7 +123,9 @@ std::optional<base::Stamp> ScanOdometryPlugin::coveredUntil() const {
   constexpr double kAlive = 0.25;  // [s] odometry arrives at least four times a second
   const auto is_awaited = [](const Odometry& odometry, base::Stamp stamp) {
     const auto end = odometry.source.coveredUntil();
-    return end && *end < stamp && base::secondsBetween(*end, stamp) < kAlive;
+    const double offset = odometry.clock.offset();
+    const auto wanted = stamp + base::durationFromSeconds(offset);
+    return end && *end < wanted && base::secondsBetween(*end, wanted) < kAlive + std::max(0.0, offset);
   };
   for (auto scan = queue_.rbegin(); scan != queue_.rend(); ++scan) {
     const bool has_odometry = std::none_of(odometries_.begin(), odometries_.end(), [&](const Odometry& one) {
@@ -141,7 +143,32 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
     reached_ = next.key();
     follow(next.mapped());
   }
-  for (auto& odometry : odometries_) odometry.source.forgetBefore(last_.value_or(stamp));
+  for (auto& odometry : odometries_) {
+    followTurns(odometry);
+    const auto kept = base::durationFromSeconds(matching::OdometryClock::kMost);
+    odometry.source.forgetBefore(last_.value_or(stamp) - kept);
+  }
+}
+
+std::optional<mapper::RelativeMotion> ScanOdometryPlugin::Odometry::between(base::Stamp begin, base::Stamp end) const {
+  const auto offset = base::durationFromSeconds(clock.offset());
+  return source.between(begin + offset, end + offset);
+}
+
+// Gives the clock of an odometry the turns that have arrived.
+void ScanOdometryPlugin::followTurns(Odometry& odometry) {
+  constexpr auto kStep = matching::OdometryClock::kStep;
+  const auto covered = odometry.source.coveredUntil();
+  if (!covered) return;
+  auto& clock = odometry.clock;
+  if (!clock.end()) clock.addTurn(*covered, 0);
+  for (;;) {
+    const base::Stamp begin = *clock.end(), end = begin + base::durationFromSeconds(kStep);
+    if (end > *covered) return;
+    const auto motion = odometry.source.between(begin, end);
+    if (!motion) return clock.addTurn(*covered, 0);  // begins again after a gap
+    clock.addTurn(end, planar(motion->begin_from_end).phi);
+  }
 }
 
 base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
@@ -167,7 +194,7 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
   odometry.label = label;
   matching::WheelOdometry source(odometry);
   if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
-    odometries_.push_back({label, std::move(source), {}, {}, {}, {}, {}});
+    odometries_.push_back({label, std::move(source), {}, {}, {}, {}, {}, {}});
 }
 
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
@@ -217,7 +244,7 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
                                       base::secondsBetween(*begun_, stamp), measuredMotion());
   if (!tracked) {
     if (seconds <= options_.max_gap) return;
-    if (!isMeasuredByOdometry() && gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    bridge(stamp);
     return restart(observation);
   }
   addUpMotion(scan);
@@ -255,15 +282,32 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
   }
   constexpr double kMemory = 0.98;  // long, because the noise is a property of laser and place
   noise_ = kMemory * noise_ + (1 - kMemory) * std::max(options_.point_sigma, tracked->match.point_sigma);
-  learn(*tracked);
+  learn(*tracked, stamp);
   if (is_long) velocity_ = perSecond(motion, seconds);
   last_ = stamp;
 }
 
+// Covers the span up to a scan that matches nothing with the motion that odometry measured, if any did. Its covariance
+// is that of the errors that this odometry had where walls determined the motion, but not less than the usual one.
+void ScanOdometryPlugin::bridge(base::Stamp stamp) {
+  const auto* best = mostAccurate();
+  if (!best) {
+    if (gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
+    return;
+  }
+  const auto usual = best->between(*last_, stamp);
+  if (!usual) return;
+  auto covariance = best->errors.covarianceOf(*best->measured);
+  const auto& least = usual->covariance;
+  covariance.diagonal() = covariance.diagonal().cwiseMax(Eigen::Vector3d(least(0, 0), least(1, 1), least(5, 5)));
+  insertAlong(*best, stamp, planarMotion(*best->predictor.motion, covariance));
+}
+
 // If a direction is unconstrained, the match agrees with any prediction and cannot judge it.
-void ScanOdometryPlugin::learn(const matching::ScanTracker::Tracked& tracked) {
+void ScanOdometryPlugin::learn(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp) {
   const TPose2D& motion = tracked.match.reference_from_scan;
   for (auto& odometry : odometries_) {
+    if (tracked.is_determined) odometry.clock.addMatch(*last_, stamp, motion.phi);
     if (!tracked.is_determined || !odometry.measured) {
       odometry.errors.interrupt();
     } else {
@@ -286,14 +330,19 @@ Eigen::Matrix2d ScanOdometryPlugin::contradictionOf(const matching::ScanTracker:
   return turn.transpose() * added * turn;
 }
 
-// The motion to the current scan as the odometry that was most accurate recently measured it.
-std::optional<matching::MeasuredMotion> ScanOdometryPlugin::measuredMotion() const {
+// The odometry that measured the motion to the current scan and was most accurate recently; null if none measured it.
+const ScanOdometryPlugin::Odometry* ScanOdometryPlugin::mostAccurate() const {
   const Odometry* best = nullptr;
   for (const auto& odometry : odometries_) {
     if (!odometry.measured) continue;
     const auto rank = [](const Odometry& one) { return std::tuple(!one.predictor.is_judged, one.predictor.error); };
     if (!best || rank(odometry) < rank(*best)) best = &odometry;
   }
+  return best;
+}
+
+std::optional<matching::MeasuredMotion> ScanOdometryPlugin::measuredMotion() const {
+  const auto* best = mostAccurate();
   if (!best) return std::nullopt;
   return matching::MeasuredMotion{*best->predictor.motion, best->errors.covarianceOf(*best->measured)};
 }
@@ -327,7 +376,7 @@ void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end,
   for (int step = 1; step <= steps; ++step) {
     const double share = static_cast<double>(step) / steps;
     const base::Stamp to = step == steps ? end : begin + base::durationFromSeconds(share * seconds);
-    const auto driven = odometry.source.between(begin, to);
+    const auto driven = odometry.between(begin, to);
     if (!driven) continue;
     const TPose2D pose = odometry.calibration.applied(planar(driven->begin_from_end)) + scaled(correction, share);
     const double part = base::secondsBetween(from, to) / seconds;
@@ -364,7 +413,7 @@ std::vector<matching::MotionPrediction> ScanOdometryPlugin::predictions(base::St
   for (auto& odometry : odometries_) {
     odometry.measured.reset();
     odometry.predictor.motion.reset();
-    const auto measured = odometry.source.between(*last_, stamp);
+    const auto measured = odometry.between(*last_, stamp);
     if (!measured) continue;
     const TPose2D motion = planar(measured->begin_from_end);
     if (std::hypot(motion.x, motion.y) > kSlack + options_.max_speed * seconds) continue;

@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/matching/OdometryCalibration.h>
+#include <omnimapper/matching/OdometryClock.h>
 #include <omnimapper/matching/OdometryErrors.h>
 #include <omnimapper/matching/PoseTimeline.h>
 #include <omnimapper/matching/ScanMatcherOptions.h>
@@ -83,11 +84,15 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     bool is_judged = false;
   };
   struct Odometry {
+    /// The motion between two stamps of the laser.
+    std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const;
+
     std::string label;
     matching::WheelOdometry source;
     Predictor predictor;
     matching::OdometryCalibration calibration;
     matching::OdometryErrors errors;
+    matching::OdometryClock clock;
     std::optional<mrpt::math::TPose2D> measured;  // motion to the next scan, before it is corrected
     mrpt::math::TPose2D unseen;                   // motion up to the last scan since the ranges of the laser changed
   };
@@ -124,8 +129,11 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
                                     const mrpt::math::TPose2D& velocity) const;
   std::vector<matching::MotionPrediction> predictions(base::Stamp stamp);
   bool isMeasuredByOdometry() const;
+  const Odometry* mostAccurate() const;
   std::optional<matching::MeasuredMotion> measuredMotion() const;
-  void learn(const matching::ScanTracker::Tracked& tracked);
+  void bridge(base::Stamp stamp);
+  void learn(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);
+  static void followTurns(Odometry& odometry);
   Eigen::Matrix2d contradictionOf(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);
   const Odometry* odometryLike(const mrpt::math::TPose2D& motion) const;
   void insertAlong(const Odometry& odometry, base::Stamp end, const mapper::RelativeMotion& measured);
