@@ -26,11 +26,15 @@ double distanceOf(const TPose2D& motion) {
 void OdometryErrors::add(const TPose2D& measured, const TPose2D& actual, double position_variance,
                          double yaw_variance) {
   const TPose2D apart = actual - measured;
-  const auto learn = [](double& mean, double squared, double of_match) {
-    if (std::isfinite(squared)) mean += (1 - kKeptOfScans) * (std::max(0.0, squared - of_match) - mean);
+  // A single large error, as of a wrong match, counts as three standard deviations.
+  const auto learn = [](double& mean, double squared, double of_match, double usual) {
+    if (!std::isfinite(squared)) return;
+    const double most = 9 * std::max(mean, usual);
+    mean += (1 - kKeptOfScans) * (std::clamp(squared - of_match, 0.0, most) - mean);
   };
-  learn(scan_position_, 0.5 * mrpt::square(distanceOf(apart)), position_variance);
-  learn(scan_yaw_, mrpt::square(mrpt::math::wrapToPi(apart.phi)), yaw_variance);
+  const auto usual = covarianceOf(measured);
+  learn(scan_position_, 0.5 * mrpt::square(distanceOf(apart)), position_variance, usual(0, 0));
+  learn(scan_yaw_, mrpt::square(mrpt::math::wrapToPi(apart.phi)), yaw_variance, usual(2, 2));
   measured_ = measured_ + measured;
   actual_ = actual_ + actual;
   travel_ += distanceOf(measured);

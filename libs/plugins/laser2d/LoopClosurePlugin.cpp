@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "BrokenMotion.h"
 #include "RevisitEvidence.h"
 #include "SlipEvidence.h"
 #include "WallEvidence.h"
@@ -85,6 +86,7 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
                                         return wanted < std::tuple(stamped.key_scan.frame.session, stamped.stamp);
                                       });
   double travel = 0;
+  auto since = StampedScan::Since::known;
   if (after != history.begin()) {
     const auto& before = *std::prev(after);
     const auto& map_from_before = state.map.keyFrame(before.key_scan.frame).map_from_base;
@@ -92,9 +94,12 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
     const bool same_session = before.key_scan.frame.session == frame.id.session;
     travel = before.key_scan.travel +
              (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_travel);
+    const auto covariance = same_session ? state.covarianceBetween(before.key_scan.frame, frame.id) : std::nullopt;
+    if (covariance && isWeakMotion(*covariance))
+      since = isBrokenMotion(*covariance) ? StampedScan::Since::broken : StampedScan::Since::weak;
   }
   closures_.add(frame);
-  const auto place = history.insert(after, {{frame.id, scan, travel}, frame.stamp});
+  const auto place = history.insert(after, {{frame.id, scan, travel}, frame.stamp, since});
   return static_cast<std::size_t>(place - history.begin());
 }
 
@@ -115,6 +120,14 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
     trajectory.push_back(has_scan ? stamped++->key_scan : LoopSearch::KeyScan{frame.id, kNothingSeen, travel});
   }
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
+}
+
+std::optional<std::size_t> LoopClosurePlugin::newestBreak(const History& history, std::size_t index) {
+  const auto session = history[index].key_scan.frame.session;
+  for (std::size_t i = index + 1; i-- > 0 && history[i].key_scan.frame.session == session;) {
+    if (history[i].since != StampedScan::Since::known) return i;
+  }
+  return std::nullopt;
 }
 
 // Distance travelled [m] since the newest key frame that is not after `stamp`, or since the session began.
@@ -139,10 +152,14 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   if (context_.map_is_held || !state.map.sessions.back().aligned) return;
   const double travel = history[index].key_scan.travel;
   const auto tied = closures_.newestTied(state.graph);
-  if (travelSince(tied, history, index) < options_.lost_travel) return;
+  const auto broken = newestBreak(history, index);
+  const bool is_broken = broken && history[*broken].since == StampedScan::Since::broken &&
+                         (!tied || history[*broken].stamp > *tied) &&
+                         travel - history[*broken].key_scan.travel >= options_.context;
+  if (!is_broken && travelSince(tied, history, index) < options_.lost_travel) return;
   const auto answered = std::max(tied, closures_.newestWithNote(state.graph, kGlobalClosure));
   const double since_answer = travelSince(answered, history, index);
-  const double spacing = std::max({kSpacing, kShareOfLost * since_answer, kShareOfAll * travel});
+  const double spacing = is_broken ? kSpacing : std::max({kSpacing, kShareOfLost * since_answer, kShareOfAll * travel});
   LastGlobalSearch& last = last_global_search_[label];
   if (last.travel > 0 && std::abs(travel - last.travel) < spacing) return;
   last.travel = travel;
@@ -150,8 +167,10 @@ void LoopClosurePlugin::seekGlobally(const std::string& label, const History& hi
   const bool on_new_ground = std::abs(travel - last.on_new_ground) >= rarely;
   if (on_new_ground) last.on_new_ground = travel;
   std::vector<LoopSearch::KeyScan> earlier;
-  for (std::size_t i = 0; i < index && travel - history[i].key_scan.travel >= options_.min_travel; ++i)
+  for (std::size_t i = 0; i < index; ++i) {
+    if (travel - history[i].key_scan.travel < options_.min_travel && !(is_broken && i < *broken)) break;
     earlier.push_back(history[i].key_scan);
+  }
   if (earlier.empty()) return;
   const bool has_grown = static_cast<double>(earlier.size()) > kGrown * static_cast<double>(last.size);
   const bool is_moved = tied != last.tied || closures_.corrections() != last.corrections;
@@ -257,6 +276,7 @@ std::vector<mapper::Evidence> LoopClosurePlugin::evidence(const mapper::View& vi
   const auto walls = throughWalls(view.map, labels);
   all.insert(all.begin(), walls.begin(), walls.end());
   for (auto& one : slips(view, context_.section, view.decisions)) all.push_back(std::move(one));
+  for (auto& one : brokenMotions(view)) all.push_back(std::move(one));
   return all;
 }
 
@@ -268,9 +288,10 @@ std::vector<LoopSearch::KeyScan> LoopClosurePlugin::keyScans(const History& hist
     return key_scan.frame.session == middle.frame.session && key_scan.travel >= middle.travel - before &&
            key_scan.travel <= middle.travel + after;
   };
+  const auto is_known = [&](std::size_t i) { return history[i].since == StampedScan::Since::known; };
   std::size_t first = centre, end = centre + 1;
-  while (first > 0 && belongs(first - 1)) --first;
-  while (end < history.size() && belongs(end)) ++end;
+  while (first > 0 && is_known(first) && belongs(first - 1)) --first;
+  while (end < history.size() && is_known(end) && belongs(end)) ++end;
   // A base that turns on the spot sees the same walls again and again: a part of many scans is enough.
   constexpr std::size_t kMost = 200;
   const std::size_t stride = 1 + (end - first) / kMost;
@@ -286,8 +307,15 @@ std::vector<LoopSearch::KeyScan> LoopClosurePlugin::keyScans(const History& hist
 std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame& frame, const History& history,
                                                              std::size_t index, const mapper::State& state) const {
   std::vector<std::pair<double, std::size_t>> near;
+  // Across a motion that is not well known, places that were left just now are tried, too, once enough was seen since.
+  constexpr std::size_t kEnoughScans = 5;
+  std::size_t broken = newestBreak(history, index).value_or(0);
+  if (history[index].key_scan.travel - history[broken].key_scan.travel < 0.5 * options_.context &&
+      index - broken < kEnoughScans)
+    broken = 0;
   for (std::size_t i = 0; i < index; ++i) {
-    if (history[index].key_scan.travel - history[i].key_scan.travel < options_.min_travel) break;
+    const double travel = history[index].key_scan.travel - history[i].key_scan.travel;
+    if (travel < options_.min_travel && i >= broken) break;
     if (context_.map_is_held && history[i].key_scan.frame.session == frame.id.session) break;
     const auto& place = state.map.keyFrame(history[i].key_scan.frame).map_from_base;
     const double distance = (place.translation() - frame.map_from_base.translation()).norm();

@@ -49,6 +49,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   struct StampedScan {
     LoopSearch::KeyScan key_scan;
     base::Stamp stamp;
+    /// How well the motion from the scan before it is known (BrokenMotion.h).
+    enum class Since { known, weak, broken } since = Since::known;
   };
   /// The last search in the whole saved map.
   struct LastRelocalization {
@@ -69,6 +71,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   /// Inserts the scan into the history and returns its index.
   std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state, History& history);
 
+  /// Index of the newest scan up to `index`, in its session, before which the motion is not well known.
+  static std::optional<std::size_t> newestBreak(const History& history, std::size_t index);
   static double travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index);
   void seekSlip(const History& history, const mapper::View& view);
   void seekGlobally(const std::string& label, const History& history, std::size_t index, const mapper::State& state);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "BrokenMotion.h"
 #include "EvidenceText.h"
 #include "ScanOdometryPlugin.h"
 
@@ -39,6 +40,22 @@ std::vector<mapper::Evidence> ScanOdometryPlugin::evidence() const {
          evidenceText("neither scan matching nor odometry measured the motion across some gaps (%zu, the first "
                       "%.0f s after the start)",
                       gaps_.count, gaps_.first)});
+  }
+  for (const auto& odometry : odometries_) {
+    constexpr double kWorthSaying = 0.03;  // [s]
+    const double offset = odometry.clock.offset();
+    if (std::abs(offset) < kWorthSaying) continue;
+    all.push_back({"odometry_clock_offset_s", offset, Says::good,
+                   evidenceText("the stamps of the odometry '%s' are %.2f s %s than those of the laser, which laser "
+                                "odometry corrected",
+                                odometry.label.c_str(), std::abs(offset), offset < 0 ? "earlier" : "later")});
+  }
+  // Which closures have found out how the base moved, LoopClosurePlugin knows.
+  for (const double seconds : broken_) {
+    all.push_back({kBrokenAfter, seconds, Says::too_little,
+                   evidenceText("%.0f s after the start scans and wheels contradict each other across a gap: the base "
+                                "was moved by hand",
+                                seconds)});
   }
   if (moving_.points > 0) {
     const double share = 100 * static_cast<double>(moving_.points) / static_cast<double>(moving_.of_points);

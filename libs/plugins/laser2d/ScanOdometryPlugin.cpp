@@ -10,9 +10,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
+#include "BrokenMotion.h"
 #include "PlanarMotion.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
@@ -155,11 +157,15 @@ std::optional<mapper::RelativeMotion> ScanOdometryPlugin::Odometry::between(base
   return source.between(begin + offset, end + offset);
 }
 
-// Gives the clock of an odometry the turns that have arrived.
+// Gives the clock of an odometry the turns that have arrived. Between rare readings the turns are not known: an offset
+// would only choose how they are interpolated.
 void ScanOdometryPlugin::followTurns(Odometry& odometry) {
-  constexpr auto kStep = matching::OdometryClock::kStep;
+  constexpr double kStep = matching::OdometryClock::kStep;
+  constexpr double kRare = 0.25;  // [s] between readings
   const auto covered = odometry.source.coveredUntil();
   if (!covered) return;
+  const double mean = base::secondsBetween(odometry.begun, *covered) / static_cast<double>(odometry.readings);
+  if (mean > kRare) return;
   auto& clock = odometry.clock;
   if (!clock.end()) clock.addTurn(*covered, 0);
   for (;;) {
@@ -187,14 +193,14 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
   if (!options_.odometry_label.empty() && label != options_.odometry_label) return;
   for (auto& known : odometries_) {
     if (known.label != label) continue;
-    known.source.add(observation);
+    known.readings += known.source.add(observation) == matching::WheelOdometry::Taken::taken;
     return;
   }
   matching::WheelOdometryOptions odometry;
   odometry.label = label;
   matching::WheelOdometry source(odometry);
   if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
-    odometries_.push_back({label, std::move(source), {}, {}, {}, {}, {}, {}});
+    odometries_.push_back({label, std::move(source), 1, observation.timestamp, {}, {}, {}, {}, 0, {}, {}});
 }
 
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
@@ -225,8 +231,21 @@ bool ScanOdometryPlugin::isMeasuredByOdometry() const {
                      [](const Odometry& odometry) { return odometry.measured.has_value(); });
 }
 
+// Time since the scan before [s]; infinite for the first one.
+double ScanOdometryPlugin::sinceTheLast(const mrpt::obs::CObservation2DRangeScan& scan) {
+  constexpr double kKept = 0.95;
+  const auto before = std::exchange(pace_.last, scan.timestamp);
+  if (!before) return std::numeric_limits<double>::infinity();
+  const double gap = base::secondsBetween(*before, scan.timestamp);
+  constexpr double kLongest = 3;  // of the usual: a pause does not make pauses usual at once
+  pace_.seconds =
+      pace_.seconds == 0 ? gap : kKept * pace_.seconds + (1 - kKept) * std::min(gap, kLongest * pace_.seconds);
+  return gap;
+}
+
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& observation) {
   const auto& scan = *observation;
+  const double gap = sinceTheLast(scan);
   if (!last_ && is_stuck_ && haveSameRanges(scan, *matched_)) return leaveOut(scan);
   if (!last_) return restart(observation);
   const base::Stamp stamp = middleOf(scan);
@@ -240,11 +259,15 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
       is_long && !predictions.empty() ? perSecond(predictions.front().guess.reference_from_scan, seconds) : velocity_;
   const auto derived = extractor_.extract(scan);
   const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
-  const auto tracked = tracker_.track(wallsOf(cloud, scan, velocity), placeOf(scan), predictions,
-                                      base::secondsBetween(*begun_, stamp), measuredMotion());
+  auto walls = wallsOf(cloud, scan, velocity);
+  const bool is_carried = isCarried(walls, scan, gap);
+  const auto tracked = is_carried ? std::nullopt
+                                  : tracker_.track(std::move(walls), placeOf(scan), predictions,
+                                                   base::secondsBetween(*begun_, stamp), measuredMotion());
   if (!tracked) {
-    if (seconds <= options_.max_gap) return;
-    bridge(stamp);
+    if (!is_carried && seconds <= options_.max_gap) return;
+    if (is_carried) broken_.push_back(base::secondsBetween(*begun_, stamp) - gap);
+    bridge(stamp, is_carried);
     return restart(observation);
   }
   addUpMotion(scan);
@@ -288,8 +311,9 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
 }
 
 // Covers the span up to a scan that matches nothing with the motion that odometry measured, if any did. Its covariance
-// is that of the errors that this odometry had where walls determined the motion, but not less than the usual one.
-void ScanOdometryPlugin::bridge(base::Stamp stamp) {
+// is that of the errors that this odometry had where walls determined the motion, but not less than the usual one; if
+// the base was carried, odometry measured nothing.
+void ScanOdometryPlugin::bridge(base::Stamp stamp, bool is_carried) {
   const auto* best = mostAccurate();
   if (!best) {
     if (gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
@@ -300,7 +324,25 @@ void ScanOdometryPlugin::bridge(base::Stamp stamp) {
   auto covariance = best->errors.covarianceOf(*best->measured);
   const auto& least = usual->covariance;
   covariance.diagonal() = covariance.diagonal().cwiseMax(Eigen::Vector3d(least(0, 0), least(1, 1), least(5, 5)));
+  if (is_carried) covariance.diagonal() += Eigen::Vector3d(kBrokenPosition, kBrokenPosition, kBrokenYaw).cwiseAbs2();
   insertAlong(*best, stamp, planarMotion(*best->predictor.motion, covariance));
+}
+
+// Whether, after an unusual gap, the beams of a scan contradict what was seen before it wherever the wheels may have
+// brought the base. That they show something else is no contradiction: the base may have driven there. `gap`: [s] since
+// the scan before.
+bool ScanOdometryPlugin::isCarried(const matching::ScanWithNormals& walls,
+                                   const mrpt::obs::CObservation2DRangeScan& scan, double gap) {
+  constexpr double kLong = 1.5, kUnusual = 4;                    // [s], and times the usual
+  constexpr double kSigmas = 3, kLeast = 0.3, kLeastTurn = 0.1;  // [m] [rad] of what the wheels may be off by
+  constexpr double kMostContradict = 0.2;                        // share of the beams; people explain less
+  const auto* best = mostAccurate();
+  if (!best || gap < kLong || gap < kUnusual * pace_.seconds) return false;
+  const Eigen::Vector3d sigmas = best->errors.covarianceOf(*best->measured).diagonal().cwiseSqrt();
+  const auto contradict = tracker_.leastContradicting(walls, placeOf(scan), *best->predictor.motion,
+                                                      kLeast + kSigmas * sigmas.x(), kLeastTurn + kSigmas * sigmas.z());
+  if (getenv("OMT")) fprintf(stderr, "carried? gap %.1f share %.2f\n", gap, contradict.value_or(9));
+  return contradict && *contradict > kMostContradict;
 }
 
 // If a direction is unconstrained, the match agrees with any prediction and cannot judge it.
@@ -308,6 +350,11 @@ void ScanOdometryPlugin::learn(const matching::ScanTracker::Tracked& tracked, ba
   const TPose2D& motion = tracked.match.reference_from_scan;
   for (auto& odometry : odometries_) {
     if (tracked.is_determined) odometry.clock.addMatch(*last_, stamp, motion.phi);
+    constexpr double kOtherOffset = 0.03;  // [s] by which errors differ much
+    if (std::abs(odometry.clock.offset() - odometry.learned_at) > kOtherOffset) {
+      odometry.errors = {};
+      odometry.learned_at = odometry.clock.offset();
+    }
     if (!tracked.is_determined || !odometry.measured) {
       odometry.errors.interrupt();
     } else {

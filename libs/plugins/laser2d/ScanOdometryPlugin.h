@@ -89,10 +89,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
 
     std::string label;
     matching::WheelOdometry source;
+    std::size_t readings = 0;  // that were taken
+    base::Stamp begun;         // stamp of the first of them
     Predictor predictor;
     matching::OdometryCalibration calibration;
     matching::OdometryErrors errors;
     matching::OdometryClock clock;
+    double learned_at = 0;                        // [s] offset of the clock at which the errors were learned
     std::optional<mrpt::math::TPose2D> measured;  // motion to the next scan, before it is corrected
     mrpt::math::TPose2D unseen;                   // motion up to the last scan since the ranges of the laser changed
   };
@@ -106,6 +109,11 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     std::size_t count = 0;
     double first = 0;  // [s] after the first scan
   };
+  /// The usual time between scans.
+  struct Pace {
+    std::optional<base::Stamp> last;  // stamp of the newest scan
+    double seconds = 0;               // running mean
+  };
   /// Scans that repeated the ranges of an earlier one while the wheels moved.
   struct Frozen {
     std::size_t scans = 0;
@@ -118,6 +126,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   static void judge(Predictor& predictor, const mrpt::math::TPose2D& motion);
   bool isOurs(const mrpt::obs::CObservation2DRangeScan& scan);
   void addOdometry(const mrpt::obs::CObservation& observation);
+  double sinceTheLast(const mrpt::obs::CObservation2DRangeScan& scan);
   void follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& scan);
   bool isFrozen(const mrpt::obs::CObservation2DRangeScan& scan) const;
   void leaveOut(const mrpt::obs::CObservation2DRangeScan& scan);
@@ -131,7 +140,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   bool isMeasuredByOdometry() const;
   const Odometry* mostAccurate() const;
   std::optional<matching::MeasuredMotion> measuredMotion() const;
-  void bridge(base::Stamp stamp);
+  void bridge(base::Stamp stamp, bool is_carried);
+  bool isCarried(const matching::ScanWithNormals& walls, const mrpt::obs::CObservation2DRangeScan& scan, double gap);
   void learn(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);
   static void followTurns(Odometry& odometry);
   Eigen::Matrix2d contradictionOf(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);
@@ -153,6 +163,8 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   std::optional<base::Stamp> last_;   // middle of the scan that was matched last
   std::optional<base::Stamp> begun_;  // middle of the first scan of all
   Gaps gaps_;
+  Pace pace_;
+  std::vector<double> broken_;  // [s] after the first scan: gaps in which the base was carried
   Frozen frozen_;
   bool is_stuck_ = false;  // the laser has repeated itself for long, and still does
   Moving moving_;

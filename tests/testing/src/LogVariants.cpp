@@ -208,6 +208,37 @@ std::string nameOf(LogVariant variant) {
   throw base::Error(base::ExitCode::internal, "no such variant of a log");
 }
 
+std::vector<CObservation::Ptr> carried(const Log& log, base::Stamp from, base::Stamp to, double gap) {
+  const auto later = from + base::durationFromSeconds(gap) - to;
+  struct Wheels {
+    CPose2D before, after;  // last pose before the gap, first one after it
+    bool is_after = false;
+  };
+  std::map<std::string, Wheels> wheels;
+  Log changed;
+  for (const auto& observation : log) {
+    const auto* odometry = dynamic_cast<const CObservationOdometry*>(observation.get());
+    if (observation->timestamp <= from) {
+      if (odometry) wheels[observation->sensorLabel].before = odometry->odometry;
+      changed.push_back(observation);
+    }
+    if (observation->timestamp < to || observation->timestamp <= from) continue;
+    auto copy = std::dynamic_pointer_cast<CObservation>(observation->duplicateGetSmartPtr());
+    copy->timestamp += later;
+    if (auto* moved = dynamic_cast<CObservationOdometry*>(copy.get())) {
+      Wheels& wheel = wheels[observation->sensorLabel];
+      if (!wheel.is_after) wheel.after = moved->odometry;
+      wheel.is_after = true;
+      moved->odometry = wheel.before + (moved->odometry - wheel.after);
+    } else if (auto* motion = dynamic_cast<CObservationRelativeMotion*>(copy.get())) {
+      if (motion->begin < to) continue;
+      motion->begin += later;
+    }
+    changed.push_back(std::move(copy));
+  }
+  return changed;
+}
+
 base::Stamp reversedStamp(const std::vector<CObservation::Ptr>& log, base::Stamp stamp) {
   return log.front()->timestamp + (log.back()->timestamp - stamp);
 }

@@ -103,7 +103,15 @@ Json sessionsOf(const map::Map& map) {
 
 Json verdictOf(const mapper::Verdict& verdict) {
   Json evidence = Json::object();
-  for (const auto& one : verdict.evidence) evidence[one.name] = one.value;
+  for (const auto& one : verdict.evidence) {
+    // Something that happened several times has a list of values.
+    if (!evidence.contains(one.name))
+      evidence[one.name] = one.value;
+    else if (evidence[one.name].is_array())
+      evidence[one.name].push_back(one.value);
+    else
+      evidence[one.name] = Json::array({evidence[one.name], one.value});
+  }
   return {
       {"verdict", mapper::toString(verdict.answer)}, {"sentence", mapper::sentenceOf(verdict)}, {"evidence", evidence}};
 }

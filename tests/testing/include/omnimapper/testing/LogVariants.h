@@ -32,6 +32,11 @@ std::string nameOf(LogVariant variant);
 std::vector<mrpt::obs::CObservation::Ptr> variantOf(const std::vector<mrpt::obs::CObservation::Ptr>& log,
                                                     LogVariant variant);
 
+/// The log up to `from`, then its part from `to` on, which begins `gap` [s] later. To the laser the robot is carried
+/// from where it was at `from` to where it was at `to`; its wheels do not notice. With from == to it stands meanwhile.
+std::vector<mrpt::obs::CObservation::Ptr> carried(const std::vector<mrpt::obs::CObservation::Ptr>& log,
+                                                  base::Stamp from, base::Stamp to, double gap);
+
 /// The stamp at which the reversed log is where the log is at `stamp`, and vice versa.
 base::Stamp reversedStamp(const std::vector<mrpt::obs::CObservation::Ptr>& log, base::Stamp stamp);
 
