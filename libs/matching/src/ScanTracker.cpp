@@ -195,27 +195,12 @@ std::optional<ScanTracker::Tracked> ScanTracker::track(ScanWithNormals scan, con
   return tracked;
 }
 
-std::optional<double> ScanTracker::leastContradicting(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
-                                                      const TPose2D& motion, double distance, double angle) {
-  constexpr int kSteps = 4;              // to either side
-  constexpr double kSpacing = 0.2;       // [m] between the points: a part of the beams is enough
-  constexpr double kContradicts = -2.5;  // log-likelihood of a beam; it is -1.2 where nothing was seen yet
+std::optional<BeamFit> ScanTracker::fitAround(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
+                                              const TPose2D& motion, double distance, double angle) {
   if (!reference_ || scan.empty()) return std::nullopt;
-  const auto scan_beams = beamsOf(voxelDownsample(scan, kSpacing), sensor);
   const TPose2D local_from_last = track_from_last_ - locals_.back().track_from_scan;
-  double least = 1;
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    for (int j = -kSteps; j <= kSteps; ++j) {
-      for (int k = -kSteps; k <= kSteps; ++k) {
-        const TPose2D off(distance * i / kSteps, distance * j / kSteps, angle * k / kSteps);
-        const TPose2D pose = local_from_last + (motion + off) + TPose2D(sensor.x(), sensor.y(), 0);
-        const auto fits = beams().logLikelihoods(scan_beams, pose);
-        const auto count = std::count_if(fits.begin(), fits.end(), [](double fit) { return fit < kContradicts; });
-        least = std::min(least, static_cast<double>(count) / static_cast<double>(fits.size()));
-      }
-    }
-  }
-  return least;
+  return bestFit(beams(), beamsOf(scan, sensor), local_from_last + motion + TPose2D(sensor.x(), sensor.y(), 0),
+                 distance, angle);
 }
 
 // The match of a scan without what moves, before other sensors count.

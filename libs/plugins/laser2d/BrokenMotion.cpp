@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <utility>
 
 #include "EvidenceText.h"
 
@@ -32,6 +33,22 @@ bool isBroken(const map::KeyFrame& before, const map::KeyFrame& after, const gra
   return is_linked;
 }
 
+// The gap between two key frames: the stamp at which the longest time without a scan begins.
+base::Stamp gapBetween(const map::KeyFrame& before, const map::KeyFrame& after) {
+  base::Stamp reached = before.stamp, begin = reached;
+  base::Duration longest{};
+  const auto take = [&](base::Stamp stamp) {
+    if (stamp - reached > longest) {
+      longest = stamp - reached;
+      begin = reached;
+    }
+    reached = stamp;
+  };
+  for (const auto& dependent : before.dependents) take(dependent.stamp);
+  take(after.stamp);
+  return begin;
+}
+
 }  // namespace
 
 bool isWeakMotion(const Matrix6d& covariance) {
@@ -46,32 +63,26 @@ bool isBrokenMotion(const Matrix6d& covariance) {
 std::vector<mapper::Evidence> brokenMotions(const mapper::State& state) {
   constexpr double kFound = 0.5;  // [m] standard deviation to which closures must have found out the motion
   std::vector<mapper::Evidence> all;
-  const map::KeyFrame* before = nullptr;
-  double begun = 0;
-  const auto& frames = state.map.key_frames;
-  for (const auto& frame : frames) {
-    const bool continues = before && before->id.session == frame.id.session;
-    if (continues)
-      begun += base::secondsBetween(before->stamp, frame.stamp);
-    else
-      begun = 0;
-    if (continues && isBroken(*before, frame, state.graph)) {
-      const auto covariance = state.covarianceBetween(before->id, frame.id);
-      const double after = begun - base::secondsBetween(before->stamp, frame.stamp);
-      if (covariance && positionSigmas(*covariance)[1] < kFound) {
-        const auto motion = frame.map_from_base - before->map_from_base;
-        all.push_back({kBrokenAfter, after, mapper::Evidence::Says::good,
-                       evidenceText("%s the base was moved by %.1f m while no scan came and the wheels stood, which "
-                                    "closures found out",
-                                    afterStart(state.map, *before).c_str(), motion.norm())});
-      } else {
-        all.push_back({kBrokenAfter, after, mapper::Evidence::Says::against_it,
-                       evidenceText("%s scans and wheels contradict each other across a gap: the base was moved by "
-                                    "hand, and where to is not known",
-                                    afterStart(state.map, *before).c_str())});
-      }
+  const map::KeyFrame *first = nullptr, *before = nullptr;
+  for (const auto& frame : state.map.key_frames) {
+    if (!first || first->id.session != frame.id.session) first = before = &frame;
+    const map::KeyFrame& from = *std::exchange(before, &frame);
+    if (&from == &frame || !isBroken(from, frame, state.graph)) continue;
+    const double seconds = base::secondsBetween(first->stamp, gapBetween(from, frame));
+    const auto covariance = state.covarianceBetween(from.id, frame.id);
+    mapper::Evidence evidence{kBrokenAfter, seconds, mapper::Evidence::Says::against_it, ""};
+    if (covariance && positionSigmas(*covariance)[1] < kFound) {
+      evidence.says = mapper::Evidence::Says::good;
+      evidence.reason =
+          evidenceText("%.0f s after the start the base was carried by %.1f m, as closures have found out", seconds,
+                       (frame.map_from_base - from.map_from_base).norm());
+    } else {
+      evidence.reason = evidenceText(
+          "%.0f s after the start the base was carried across a gap in the scans, and "
+          "nothing has shown where to",
+          seconds);
     }
-    before = &frame;
+    all.push_back(std::move(evidence));
   }
   return all;
 }

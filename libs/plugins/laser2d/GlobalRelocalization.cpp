@@ -8,6 +8,7 @@
 
 #include "GlobalMatcher.h"
 #include "ScanFactor.h"
+#include "SessionFit.h"
 
 namespace omnimapper::plugins {
 
@@ -44,6 +45,14 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   if (distanceBetween(measured, planar(frame.map_from_base - place.map_from_base)).within(kAgree, kAgreeTurn)) {
     if (!found->is_distinct && !matcher.fitsAlongTravel(*found, state, decision)) {
       decision.accepted = false;
+      batch.log(std::move(decision));
+      return batch;
+    }
+    const auto fit = sessionFit(*places_, label_, newest_, found->place.map_from_base + measured, state);
+    if (!fit.confirms()) {
+      decision.accepted = false;
+      decision.reason = "other scans of the session contradict the map there, or come from one place only";
+      decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
       batch.log(std::move(decision));
       return batch;
     }

@@ -61,6 +61,7 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
   const std::size_t index = remember(frame, scan, view, history);
   if (scan->empty()) return {};
   frames_without_scan_ = 0;
+  watchSession(frame, observed.observation.sensorLabel, history[index].key_scan.travel, view);
   seekInMap(observed.observation.sensorLabel, history, index, view);
   closures_.noteSolves(view.solves.size());
   seekGlobally(observed.observation.sensorLabel, history, index, view);
@@ -75,8 +76,49 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
     last->second = travel;
     searches_.emplace_back(options_, context_, matcher_,
                            keyScans(history, index, options_.context + options_.max_window, 0), std::move(places));
+    searches_.back().testSessionsWith(places_, observed.observation.sensorLabel);
   }
   return {};
+}
+
+void LoopClosurePlugin::watchSession(const map::KeyFrame& frame, const std::string& label, double travel,
+                                     const mapper::State& state) {
+  if (!places_) return;
+  const auto& session = state.map.sessions.back();
+  if (session.aligned && frame.id.session == session.number) {
+    watch_.add(*places_, label, frame, travel);
+  } else {
+    watch_.reset();
+  }
+}
+
+LoopClosurePlugin::Says LoopClosurePlugin::aboutSession() const {
+  if (watch_.isContradicted()) return Says::contradicted;
+  return watch_.isConfirmed() ? Says::confirmed : Says::nothing;
+}
+
+// What the session sees contradicts the map: the closures that tie it to earlier sessions are wrong. Without them it is
+// searched for again.
+mapper::Batch LoopClosurePlugin::takenBack(const map::KeyFrame& frame, const mapper::State& state) {
+  mapper::Batch batch;
+  if (context_.map_is_held || !watch_.isContradicted()) return batch;
+  watch_.reset();
+  const auto session = state.map.sessions.back().number;
+  double count = 0;
+  for (const auto id : closures_.between(session, state.graph)) {
+    batch.removeFactor(id);
+    ++count;
+  }
+  if (count == 0) return batch;
+  mapper::Decision decision;
+  decision.stamp = frame.stamp;
+  decision.plugin = context_.section;
+  decision.kind = mapper::kRelocalization;
+  decision.from = frame.id;
+  decision.reason = "what the session sees contradicts the map: the closures that tied it there are taken back";
+  decision.numbers = {{"closures", count}};
+  batch.log(std::move(decision));
+  return batch;
 }
 
 std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state,
@@ -247,7 +289,8 @@ void LoopClosurePlugin::retired(const map::KeyFrame& frame) {
 mapper::FollowUp LoopClosurePlugin::afterCommit(const map::KeyFrame& frame, const mapper::View& view) {
   ++frames_without_scan_;
   mapper::FollowUp follow_up;
-  follow_up.batch = closures_.proposedAgain(view, context_.section);
+  follow_up.batch = takenBack(frame, view);
+  if (follow_up.batch.empty()) follow_up.batch = closures_.proposedAgain(view, context_.section);
   for (auto& search : searches_) follow_up.jobs.push_back({"loop closure of " + toString(frame.id), std::move(search)});
   for (auto& search : global_searches_)
     follow_up.jobs.push_back({"global loop search of " + toString(frame.id), std::move(search)});

@@ -14,6 +14,7 @@
 #include "GlobalRelocalization.h"
 #include "LoopClosureOptions.h"
 #include "LoopSearch.h"
+#include "SessionFit.h"
 #include "SlipSearch.h"
 #include "TestedClosures.h"
 
@@ -23,13 +24,16 @@ namespace omnimapper::plugins {
 /// long ago and that, by the covariance of the estimate, may be near. A session that no measurement ties to the saved
 /// map is searched for in the whole map. Scans are matched in the plane of the base; in a spatial map a closure leaves
 /// z, roll and pitch nearly unconstrained. The motion between consecutive key frames is measured by ScanOdometryPlugin.
-class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::SeeksSession {
+class LoopClosurePlugin : public mapper::MeasurementPlugin,
+                          public mapper::SeeksSession,
+                          public mapper::ConfirmsSession {
  public:
   LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
                     const mapper::PluginContext& context);
 
   /// True while scans arrive in a run that continues a map; without scans the plugin cannot search.
   bool isSeeking() const override;
+  Says aboutSession() const override;
   bool wants(const mrpt::obs::CObservation& observation) const override;
   std::unique_ptr<const mapper::Prepared> prepare(const mrpt::obs::CObservation& observation) const override;
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
@@ -76,6 +80,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   static double travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index);
   void seekSlip(const History& history, const mapper::View& view);
   void seekGlobally(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
+  void watchSession(const map::KeyFrame& frame, const std::string& label, double travel, const mapper::State& state);
+  mapper::Batch takenBack(const map::KeyFrame& frame, const mapper::State& state);
   void seekInMap(const std::string& label, const History& history, std::size_t index, const mapper::State& state);
   std::vector<LoopSearch::Place> loopPlaces(const map::KeyFrame& frame, const History& history, std::size_t index,
                                             const mapper::State& state) const;
@@ -98,6 +104,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin, public mapper::Seeks
   std::shared_ptr<const ScanDatabase> places_;                     // of the map that is continued
   int frames_without_scan_ = 0;                                    // key frames since the last scan, or since the start
   std::map<std::string, LastRelocalization> last_relocalization_;  // by label
+  SessionWatch watch_;                                             // of the session that continues a map
   std::vector<GlobalRelocalization> relocalizations_;              // of the key frame being measured
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ScanFactor.h"
+#include "SessionFit.h"
 
 namespace omnimapper::plugins {
 
@@ -17,6 +18,12 @@ constexpr double kReachSigmas = 3;              // standard deviations of the es
 constexpr double kAlike = 0.05;                 // difference in overlap below which two matches are equally good
 constexpr double kSame = 0.3, kSameTurn = 0.1;  // [m] [rad] within which two matches are one
 constexpr std::size_t kMostBlocks = 100'000;    // of a search: about a second in a large window with few features
+
+// Whether `newest` is of a session that is not tied to that of `place`.
+bool isUnaligned(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
+  if (map.sessions.empty() || map.sessions.back().aligned) return false;
+  return newest.session == map.sessions.back().number && place.session != newest.session;
+}
 }  // namespace
 
 matching::ScanWithNormals localMap(const std::vector<LoopSearch::KeyScan>& key_scans, base::KeyFrameId centre,
@@ -46,6 +53,7 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
         decision.numbers.emplace_back("overlap elsewhere", *elsewhere);
       }
     }
+    if (decision.accepted && !confirmsSession(attempt, state, decision)) decision.accepted = false;
     if (!decision.accepted) {
       batch.log(std::move(decision));
       continue;
@@ -56,6 +64,22 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
     batch.addHypothesis(std::move(closure), std::move(decision));
   }
   return batch;
+}
+
+// A closure that ties a session to the saved map decides where all of it lies. Points that lie on walls do not suffice:
+// corridors look alike, and beams may pass through the walls of the map.
+bool LoopSearch::confirmsSession(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const {
+  const auto place = attempt.place->centre.frame;
+  if (!saved_ || !isUnaligned(place, newest_.back().frame, state.map)) return true;
+  const TPose2D map_from_newest =
+      planar(state.map.keyFrame(place).map_from_base) + attempt.matches.front().reference_from_scan;
+  const auto fit = sessionFit(*saved_, label_, newest_, map_from_newest, state);
+  decision.numbers.emplace_back("distance travelled along which scans fit [m]", fit.fitting);
+  decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
+  if (!fit.confirms())
+    decision.reason = fit.contradicting > 0 ? "other scans of the session contradict the map there"
+                                            : "scans from another place must confirm where the session lies";
+  return fit.confirms();
 }
 
 // Overlap of a match at another place that is equally good and elsewhere in the map; none if there is none. The scans
@@ -142,14 +166,6 @@ std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, 
   }
   return found;
 }
-
-namespace {
-// Whether `newest` is of a session that is not tied to that of `place`.
-bool isUnaligned(base::KeyFrameId place, base::KeyFrameId newest, const map::Map& map) {
-  if (map.sessions.empty() || map.sessions.back().aligned) return false;
-  return newest.session == map.sessions.back().number && place.session != newest.session;
-}
-}  // namespace
 
 std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, const mapper::State& state) const {
   const auto& frame = state.map.keyFrame(newest_.back().frame);

@@ -6,12 +6,15 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "LoopClosureOptions.h"
 
 namespace omnimapper::plugins {
+
+class ScanDatabase;
 
 /// A job that searches for loop closures: it matches the newest scans with local maps of places seen long ago, in
 /// windows as large as the uncertainty of the estimate (Olson 2009; Hess et al. 2016), and refines the best matches.
@@ -37,6 +40,13 @@ class LoopSearch {
         matcher_(std::move(matcher)),
         newest_(std::move(newest)),
         places_(std::move(places)) {}
+
+  /// Places of another session than the newest scans become closures only if the scans of the session fit the map
+  /// there, from `saved` (SessionFit.h). `label`: of the clouds.
+  void testSessionsWith(std::shared_ptr<const ScanDatabase> saved, std::string label) {
+    saved_ = std::move(saved);
+    label_ = std::move(label);
+  }
 
   /// A hypothesis for each place that matches, and a decision for each place that was tried.
   mapper::Batch operator()(const mapper::State& state) const;
@@ -71,8 +81,12 @@ class LoopSearch {
   LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
+  bool confirmsSession(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
+
   std::vector<KeyScan> newest_;  // the newest last
   std::vector<Place> places_;
+  std::shared_ptr<const ScanDatabase> saved_;  // null if no map is continued
+  std::string label_;
 };
 
 /// The note that marks the factors of closures found by a search of the whole map.

@@ -339,10 +339,9 @@ bool ScanOdometryPlugin::isCarried(const matching::ScanWithNormals& walls,
   const auto* best = mostAccurate();
   if (!best || gap < kLong || gap < kUnusual * pace_.seconds) return false;
   const Eigen::Vector3d sigmas = best->errors.covarianceOf(*best->measured).diagonal().cwiseSqrt();
-  const auto contradict = tracker_.leastContradicting(walls, placeOf(scan), *best->predictor.motion,
-                                                      kLeast + kSigmas * sigmas.x(), kLeastTurn + kSigmas * sigmas.z());
-  if (getenv("OMT")) fprintf(stderr, "carried? gap %.1f share %.2f\n", gap, contradict.value_or(9));
-  return contradict && *contradict > kMostContradict;
+  const auto fit = tracker_.fitAround(walls, placeOf(scan), *best->predictor.motion, kLeast + kSigmas * sigmas.x(),
+                                      kLeastTurn + kSigmas * sigmas.z());
+  return fit && fit->contradicting > kMostContradict;
 }
 
 // If a direction is unconstrained, the match agrees with any prediction and cannot judge it.

@@ -57,6 +57,18 @@ std::vector<base::FactorId> TestedClosures::refusedGlobally(const graph::Graph& 
   return refused;
 }
 
+std::vector<base::FactorId> TestedClosures::between(std::uint16_t session, const graph::Graph& graph) const {
+  std::vector<base::FactorId> all;
+  for (const auto& closure : closures_) {
+    if (!graph.contains(closure.id) || !graph.factor(closure.id).tags.hypothesis) continue;
+    const auto& variables = graph.factor(closure.id).variables;
+    const auto isOwn = [&](base::VariableId id) { return id.session == session; };
+    const auto own = std::count_if(variables.begin(), variables.end(), isOwn);
+    if (own > 0 && own < static_cast<std::ptrdiff_t>(variables.size())) all.push_back(closure.id);
+  }
+  return all;
+}
+
 mapper::Batch TestedClosures::proposedAgain(const mapper::State& state, const std::string& section) {
   mapper::Batch batch;
   bool is_corrected = false;

@@ -5,6 +5,7 @@
 #include <omnimapper/plugin/View.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -30,6 +31,8 @@ class TestedClosures {
   std::optional<base::Stamp> newestWithNote(const graph::Graph& graph, const std::string& note) const;
   /// Closures of global searches that were tested and refused.
   std::vector<base::FactorId> refusedGlobally(const graph::Graph& graph) const;
+  /// Closures between a session and others, accepted or not.
+  std::vector<base::FactorId> between(std::uint16_t session, const graph::Graph& graph) const;
   /// Proposes all refused global closures again, once after each solve with a newly corrected motion; else empty.
   mapper::Batch proposedAgain(const mapper::State& state, const std::string& section);
   /// How many motions were corrected so far.

@@ -266,10 +266,25 @@ void BackEnd::retireBefore(base::Stamp stamp) {
   estimator_.hold(window_->held());
 }
 
+// A session counts as located only while some plugin confirms it, if any plugin can, and none contradicts it.
+bool BackEnd::isConfirmed() const {
+  using Says = ConfirmsSession::Says;
+  bool can_confirm = false, is_confirmed = false;
+  for (const auto& [section, plugin] : plugins_.measurement) {
+    const auto* confirming = dynamic_cast<const ConfirmsSession*>(plugin.get());
+    if (!confirming || state_.fed.count(section) == 0) continue;
+    if (confirming->aboutSession() == Says::contradicted) return false;
+    can_confirm = true;
+    is_confirmed = is_confirmed || confirming->aboutSession() == Says::confirmed;
+  }
+  return is_confirmed || !can_confirm;
+}
+
 void BackEnd::addEstimate(base::KeyFrameId id) {
   const auto& frame = state_.map.keyFrame(id);
   const auto covariance = state_.view().covarianceBetween(state_.map.key_frames.front().id, id);
-  state_.localization.push_back({id, frame.stamp, frame.map_from_base, covariance, state_.map.sessions.back().aligned});
+  state_.localization.push_back(
+      {id, frame.stamp, frame.map_from_base, covariance, state_.map.sessions.back().aligned && isConfirmed()});
 }
 
 }  // namespace omnimapper::mapper

@@ -72,6 +72,7 @@ class BackEnd {
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);
   void solve(const graph::SolveOptions& options);
+  bool isConfirmed() const;
   void addEstimate(base::KeyFrameId id);
 
   const EngineSettings& settings_;

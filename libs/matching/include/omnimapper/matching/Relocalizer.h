@@ -2,6 +2,7 @@
 
 #include <mrpt/math/TPose2D.h>
 #include <omnimapper/grid/HitMissGrid.h>
+#include <omnimapper/matching/BeamFit.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/matching/ScanMatcher.h>
 
@@ -83,6 +84,11 @@ class Relocalizer {
   Location locate(const grid::BeamScan& scan, const std::optional<SearchWindow>& window = std::nullopt) const;
   /// As locate(), but for several scans: places that look alike from one position seldom look alike along a path.
   Location locateTogether(std::vector<LocalScan> scans, const std::optional<SearchWindow>& window = std::nullopt) const;
+  /// How the beams of a scan fit the map with its sensor at a pose or near it, as bestFit().
+  BeamFit fitAround(const grid::BeamScan& scan, const mrpt::math::TPose2D& map_from_sensor, double distance,
+                    double angle) const {
+    return bestFit(*beams_, scan, map_from_sensor, distance, angle);
+  }
 
  private:
   struct Query {

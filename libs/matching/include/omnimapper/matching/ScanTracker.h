@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/grid/BeamScan.h>
+#include <omnimapper/matching/BeamFit.h>
 #include <omnimapper/matching/MovingThings.h>
 #include <omnimapper/matching/ScanMatcher.h>
 
@@ -92,11 +93,10 @@ class ScanTracker {
   std::optional<Tracked> track(ScanWithNormals scan, const Eigen::Vector2f& sensor,
                                const std::vector<MotionPrediction>& predictions, double seconds,
                                const std::optional<MeasuredMotion>& measured = std::nullopt);
-  /// The share of a scan's beams that end in free space of the local map or pass through its walls, at the motion since
-  /// the last scan where it is smallest: around `motion`, up to `distance` [m] and `angle` [rad] away. Beams that end
-  /// where nothing was seen yet do not contradict. None before the first scan.
-  std::optional<double> leastContradicting(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
-                                           const mrpt::math::TPose2D& motion, double distance, double angle);
+  /// How the beams of a scan fit the local map at the motion since the last scan, and around it: up to `distance` [m]
+  /// and `angle` [rad] away. None before the first scan.
+  std::optional<BeamFit> fitAround(const ScanWithNormals& scan, const Eigen::Vector2f& sensor,
+                                   const mrpt::math::TPose2D& motion, double distance, double angle);
 
  private:
   struct Local {

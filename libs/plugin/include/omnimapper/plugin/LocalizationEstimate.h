@@ -17,7 +17,8 @@ struct LocalizationEstimate {
   /// Covariance in the tangent at the pose: x y z [m], rotation vector [rad]; the map itself counts as exact. None
   /// while some direction of a variable is undetermined.
   std::optional<Eigen::Matrix<double, 6, 6>> covariance;
-  bool aligned = false;  ///< a measurement had tied the session to the map
+  /// A measurement had tied the session to the map, and what was seen lately confirms its place (ConfirmsSession).
+  bool aligned = false;
 
   /// Covariance of the position along the map's axes [m^2]; none if `covariance` is none.
   std::optional<Eigen::Matrix3d> positionCovariance() const;

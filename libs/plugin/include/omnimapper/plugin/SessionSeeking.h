@@ -11,6 +11,16 @@ class SeeksSession {
   virtual bool isSeeking() const = 0;
 };
 
+/// A second base class for measurement plugins that compare what they see with the saved map, at the place where the
+/// newest session lies by the estimate.
+class ConfirmsSession {
+ public:
+  virtual ~ConfirmsSession() = default;
+  /// What the newest key frames show: `nothing` where the plugin has no data, or where the map has none for too long.
+  enum class Says { nothing, confirmed, contradicted };
+  virtual Says aboutSession() const = 0;
+};
+
 /// A second base class for measurement plugins whose landmarks look alike in many places, such as walls. A single such
 /// landmark does not determine where a session lies, and a wrong association with it would end the search of the
 /// plugins that search the map.

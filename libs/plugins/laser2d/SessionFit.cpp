@@ -1,0 +1,81 @@
+#include "SessionFit.h"
+
+#include <algorithm>
+
+#include "PlanarMotion.h"
+
+namespace omnimapper::plugins {
+
+using mrpt::math::TPose2D;
+
+namespace {
+
+constexpr double kWindow = 0.3, kTurn = 0.06;  // [m] [rad] by which the pose of a scan may be off
+constexpr double kFits = -0.8;                 // least mean log-likelihood of the beams of a scan that fits
+constexpr double kContradicts = 0.3;           // share of the beams of a scan that contradicts the map
+
+struct Verdict {
+  bool fits, contradicts;
+};
+
+Verdict verdictOn(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame,
+                  const TPose2D& map_from_base) {
+  const auto local = beamsInBase(frame, label);
+  const auto fit = places.relocalizer().fitAround(local.scan, map_from_base + local.local_from_sensor, kWindow, kTurn);
+  const bool is_empty = local.scan.hits.empty();
+  return {!is_empty && fit.log_likelihood >= kFits, !is_empty && fit.contradicting > kContradicts};
+}
+
+}  // namespace
+
+bool SessionFit::confirms() const {
+  constexpr double kApart = 3;             // [m] between two places
+  constexpr double kMostContradict = 0.1;  // share of the scans
+  return fitting >= kApart && static_cast<double>(contradicting) <= kMostContradict * static_cast<double>(scans);
+}
+
+SessionFit sessionFit(const ScanDatabase& places, const std::string& label,
+                      const std::vector<LoopSearch::KeyScan>& newest, const TPose2D& map_from_newest,
+                      const mapper::State& state) {
+  constexpr double kSpacing = 1;  // [m] of travel from one scan to the next
+  const auto& session_from_newest = state.map.keyFrame(newest.back().frame).map_from_base;
+  SessionFit fit;
+  const LoopSearch::KeyScan *last = nullptr, *last_fitting = nullptr;
+  for (auto key_scan = newest.rbegin(); key_scan != newest.rend(); ++key_scan) {
+    if (last && last->travel - key_scan->travel < kSpacing) continue;
+    last = &*key_scan;
+    const auto& frame = state.map.keyFrame(key_scan->frame);
+    const auto verdict =
+        verdictOn(places, label, frame, map_from_newest + planar(frame.map_from_base - session_from_newest));
+    ++fit.scans;
+    fit.contradicting += verdict.contradicts;
+    if (!verdict.fits) continue;
+    if (!last_fitting) last_fitting = last;
+    fit.fitting = last_fitting->travel - key_scan->travel;
+  }
+  return fit;
+}
+
+void SessionWatch::add(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame,
+                       double travel) {
+  constexpr double kSpacing = 0.5;  // [m] from one scan that is compared to the next
+  constexpr std::size_t kKept = 6;
+  travel_ = travel;
+  if (!latest_.empty() && travel - latest_.back().travel < kSpacing) return;
+  const auto verdict = verdictOn(places, label, frame, planar(frame.map_from_base));
+  latest_.push_back({travel, verdict.fits, verdict.contradicts});
+  if (latest_.size() > kKept) latest_.pop_front();
+  if (verdict.fits) confirmed_ = travel;
+}
+
+bool SessionWatch::isContradicted() const {
+  constexpr std::ptrdiff_t kMost = 3;  // of the latest scans, as where furniture was moved
+  return std::count_if(latest_.begin(), latest_.end(), [](const Scan& scan) { return scan.contradicts; }) > kMost;
+}
+
+bool SessionWatch::isConfirmed() const {
+  constexpr double kRecent = 10;  // [m]
+  return !isContradicted() && confirmed_ >= 0 && travel_ - confirmed_ <= kRecent;
+}
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ScanDatabase.h"
+
+namespace omnimapper::plugins {
+
+/// How the scans of a session fit the saved map at a place that was found for the session.
+struct SessionFit {
+  double fitting = 0;             ///< [m] of travel from the first to the last scan that fits
+  std::size_t scans = 0;          ///< number of scans that were compared
+  std::size_t contradicting = 0;  ///< number of those that contradict the map there
+
+  /// Whether scans from at least two places fit, and hardly any contradicts the map.
+  bool confirms() const;
+};
+
+/// Compares scans along the travel of a session, the newest last, with the map, given the pose of the newest.
+SessionFit sessionFit(const ScanDatabase& places, const std::string& label,
+                      const std::vector<LoopSearch::KeyScan>& newest, const mrpt::math::TPose2D& map_from_newest,
+                      const mapper::State& state);
+
+/// Watches whether the scans of a session that is tied to the saved map keep fitting it.
+class SessionWatch {
+ public:
+  /// Takes the scan of a key frame at its estimated pose. `travel`: distance travelled in the session [m].
+  void add(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame, double travel);
+  /// Whether most of the latest scans contradict the map.
+  bool isContradicted() const;
+  /// Whether a scan within the last metres travelled fits the map, and the latest do not contradict it.
+  bool isConfirmed() const;
+  /// Begins again, as for a session that was not tied yet.
+  void reset() { *this = {}; }
+
+ private:
+  struct Scan {
+    double travel;  // [m]
+    bool fits, contradicts;
+  };
+  std::deque<Scan> latest_;
+  double travel_ = 0, confirmed_ = -1;  // [m] of the last key frame, of the last scan that fits
+};
+
+}  // namespace omnimapper::plugins
