@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "EvidenceText.h"
+#include "PlanarMotion.h"
 
 namespace omnimapper::plugins {
 
@@ -71,7 +72,10 @@ std::vector<mapper::Evidence> brokenMotions(const mapper::State& state) {
     const double seconds = base::secondsBetween(first->stamp, gapBetween(from, frame));
     const auto covariance = state.covarianceBetween(from.id, frame.id);
     mapper::Evidence evidence{kBrokenAfter, seconds, mapper::Evidence::Says::against_it, ""};
+    const double moved =
+        distanceBetween(planar(frame.map_from_base - from.map_from_base), planar(from.keyframe_from_next)).metres;
     if (covariance && positionSigmas(*covariance)[1] < kFound) {
+      if (moved < kFound) continue;  // the wheels were right
       evidence.says = mapper::Evidence::Says::good;
       evidence.reason =
           evidenceText("%.0f s after the start the base was carried by %.1f m, as closures have found out", seconds,

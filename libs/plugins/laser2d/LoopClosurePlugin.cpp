@@ -33,7 +33,7 @@ struct PreparedScan : mapper::Prepared {
 
 LoopClosurePlugin::LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
                                      const mapper::PluginContext& context)
-    : options_(options), context_(context), matcher_(matching::makeMatcher(matching)) {}
+    : options_(options), context_(context), matcher_(matching::makeMatcher(matching)), watch_(context.map_is_held) {}
 
 bool LoopClosurePlugin::wants(const mrpt::obs::CObservation& observation) const {
   if (!dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation)) return false;
@@ -86,7 +86,7 @@ void LoopClosurePlugin::watchSession(const map::KeyFrame& frame, const std::stri
   if (!places_) return;
   const auto& session = state.map.sessions.back();
   if (session.aligned && frame.id.session == session.number) {
-    watch_.add(*places_, label, frame, travel);
+    watch_.add(*places_, label, frame, travel, state);
   } else {
     watch_.reset();
   }

@@ -260,10 +260,12 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
   const auto derived = extractor_.extract(scan);
   const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
   auto walls = wallsOf(cloud, scan, velocity);
-  const bool is_carried = isCarried(walls, scan, gap);
-  const auto tracked = is_carried ? std::nullopt
-                                  : tracker_.track(std::move(walls), placeOf(scan), predictions,
-                                                   base::secondsBetween(*begun_, stamp), measuredMotion());
+  const bool contradicts = contradictsWheels(walls, scan, gap);
+  auto tracked = tracker_.track(std::move(walls), placeOf(scan), predictions, base::secondsBetween(*begun_, stamp),
+                                measuredMotion());
+  constexpr double kSurely = 0.8;  // share of the points with a partner: then people stand around the base
+  const bool is_carried = contradicts && !(tracked && tracked->is_determined && tracked->match.overlap >= kSurely);
+  if (is_carried) tracked.reset();
   if (!tracked) {
     if (!is_carried && seconds <= options_.max_gap) return;
     if (is_carried) broken_.push_back(base::secondsBetween(*begun_, stamp) - gap);
@@ -331,8 +333,8 @@ void ScanOdometryPlugin::bridge(base::Stamp stamp, bool is_carried) {
 // Whether, after an unusual gap, the beams of a scan contradict what was seen before it wherever the wheels may have
 // brought the base. That they show something else is no contradiction: the base may have driven there. `gap`: [s] since
 // the scan before.
-bool ScanOdometryPlugin::isCarried(const matching::ScanWithNormals& walls,
-                                   const mrpt::obs::CObservation2DRangeScan& scan, double gap) {
+bool ScanOdometryPlugin::contradictsWheels(const matching::ScanWithNormals& walls,
+                                           const mrpt::obs::CObservation2DRangeScan& scan, double gap) {
   constexpr double kLong = 1.5, kUnusual = 4;                    // [s], and times the usual
   constexpr double kSigmas = 3, kLeast = 0.3, kLeastTurn = 0.1;  // [m] [rad] of what the wheels may be off by
   constexpr double kMostContradict = 0.2;                        // share of the beams; people explain less

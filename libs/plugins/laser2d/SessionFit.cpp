@@ -1,6 +1,7 @@
 #include "SessionFit.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "PlanarMotion.h"
 
@@ -10,18 +11,30 @@ using mrpt::math::TPose2D;
 
 namespace {
 
-constexpr double kWindow = 0.3, kTurn = 0.06;  // [m] [rad] by which the pose of a scan may be off
-constexpr double kFits = -0.8;                 // least mean log-likelihood of the beams of a scan that fits
-constexpr double kContradicts = 0.3;           // share of the beams of a scan that contradicts the map
+// [m] [rad] by which the pose of a scan may be off, in a map that is as it was and in one that bends
+constexpr double kWindow = 0.3, kTurn = 0.06, kBent = 0.6, kBentTurn = 0.12;
+constexpr double kFits = -0.8;        // least mean log-likelihood of the beams of a scan that fits
+constexpr double kContradicts = 0.3;  // share of the beams of a scan that contradicts the map
+
+// Where a key frame is in the map as it was saved: relative to the nearest place, because closures may have bent the
+// map since. None where that is too uncertain to say anything.
+std::optional<TPose2D> placeInSavedMap(const ScanDatabase& places, const map::KeyFrame& frame,
+                                       const mapper::State& state) {
+  constexpr double kUncertain = 0.25;  // [m] standard deviation
+  const auto place = places.nearest(planar(frame.map_from_base), 1).front();
+  const auto covariance = state.covarianceBetween(place.key_scan.frame, frame.id);
+  if (!covariance || std::max((*covariance)(0, 0), (*covariance)(1, 1)) > kUncertain * kUncertain) return std::nullopt;
+  return place.map_from_base + planar(frame.map_from_base - state.map.keyFrame(place.key_scan.frame).map_from_base);
+}
 
 struct Verdict {
   bool fits, contradicts;
 };
 
 Verdict verdictOn(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame,
-                  const TPose2D& map_from_base) {
+                  const TPose2D& map_from_base, double window = kWindow, double turn = kTurn) {
   const auto local = beamsInBase(frame, label);
-  const auto fit = places.relocalizer().fitAround(local.scan, map_from_base + local.local_from_sensor, kWindow, kTurn);
+  const auto fit = places.relocalizer().fitAround(local.scan, map_from_base + local.local_from_sensor, window, turn);
   const bool is_empty = local.scan.hits.empty();
   return {!is_empty && fit.log_likelihood >= kFits, !is_empty && fit.contradicting > kContradicts};
 }
@@ -56,13 +69,16 @@ SessionFit sessionFit(const ScanDatabase& places, const std::string& label,
   return fit;
 }
 
-void SessionWatch::add(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame,
-                       double travel) {
+void SessionWatch::add(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame, double travel,
+                       const mapper::State& state) {
   constexpr double kSpacing = 0.5;  // [m] from one scan that is compared to the next
   constexpr std::size_t kKept = 6;
   travel_ = travel;
   if (!latest_.empty() && travel - latest_.back().travel < kSpacing) return;
-  const auto verdict = verdictOn(places, label, frame, planar(frame.map_from_base));
+  const auto map_from_base = placeInSavedMap(places, frame, state);
+  if (!map_from_base) return;
+  const auto verdict =
+      verdictOn(places, label, frame, *map_from_base, map_is_held_ ? kWindow : kBent, map_is_held_ ? kTurn : kBentTurn);
   latest_.push_back({travel, verdict.fits, verdict.contradicts});
   if (latest_.size() > kKept) latest_.pop_front();
   if (verdict.fits) confirmed_ = travel;

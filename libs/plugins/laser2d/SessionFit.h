@@ -27,20 +27,26 @@ SessionFit sessionFit(const ScanDatabase& places, const std::string& label,
 /// Watches whether the scans of a session that is tied to the saved map keep fitting it.
 class SessionWatch {
  public:
+  /// `map_is_held`: the session is localized in a map that does not change. A map that is continued bends: there a
+  /// contradiction must be larger.
+  explicit SessionWatch(bool map_is_held) : map_is_held_(map_is_held) {}
+
   /// Takes the scan of a key frame at its estimated pose. `travel`: distance travelled in the session [m].
-  void add(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame, double travel);
+  void add(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame, double travel,
+           const mapper::State& state);
   /// Whether most of the latest scans contradict the map.
   bool isContradicted() const;
   /// Whether a scan within the last metres travelled fits the map, and the latest do not contradict it.
   bool isConfirmed() const;
   /// Begins again, as for a session that was not tied yet.
-  void reset() { *this = {}; }
+  void reset() { *this = SessionWatch(map_is_held_); }
 
  private:
   struct Scan {
     double travel;  // [m]
     bool fits, contradicts;
   };
+  bool map_is_held_;
   std::deque<Scan> latest_;
   double travel_ = 0, confirmed_ = -1;  // [m] of the last key frame, of the last scan that fits
 };
