@@ -8,7 +8,7 @@
 
 #include "GlobalMatcher.h"
 #include "ScanFactor.h"
-#include "SessionFit.h"
+#include "SessionCheck.h"
 
 namespace omnimapper::plugins {
 
@@ -48,7 +48,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
       batch.log(std::move(decision));
       return batch;
     }
-    const auto fit = sessionFit(*places_, label_, newest_, found->place.map_from_base + measured, state);
+    const auto fit = checkSession(*places_, label_, newest_, found->place.map_from_base + measured, state);
     if (!fit.confirms()) {
       decision.accepted = false;
       decision.reason = "other scans of the session contradict the map there, or come from one place only";

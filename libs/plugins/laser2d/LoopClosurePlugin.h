@@ -14,7 +14,7 @@
 #include "GlobalRelocalization.h"
 #include "LoopClosureOptions.h"
 #include "LoopSearch.h"
-#include "SessionFit.h"
+#include "SessionCheck.h"
 #include "SlipSearch.h"
 #include "TestedClosures.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "ScanFactor.h"
-#include "SessionFit.h"
+#include "SessionCheck.h"
 
 namespace omnimapper::plugins {
 
@@ -73,7 +73,7 @@ bool LoopSearch::confirmsSession(const Attempt& attempt, const mapper::State& st
   if (!saved_ || !isUnaligned(place, newest_.back().frame, state.map)) return true;
   const TPose2D map_from_newest =
       planar(state.map.keyFrame(place).map_from_base) + attempt.matches.front().reference_from_scan;
-  const auto fit = sessionFit(*saved_, label_, newest_, map_from_newest, state);
+  const auto fit = checkSession(*saved_, label_, newest_, map_from_newest, state);
   decision.numbers.emplace_back("distance travelled along which scans fit [m]", fit.fitting);
   decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
   if (!fit.confirms())

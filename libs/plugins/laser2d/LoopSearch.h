@@ -42,7 +42,7 @@ class LoopSearch {
         places_(std::move(places)) {}
 
   /// Places of another session than the newest scans become closures only if the scans of the session fit the map
-  /// there, from `saved` (SessionFit.h). `label`: of the clouds.
+  /// there, from `saved` (SessionCheck.h). `label`: of the clouds.
   void testSessionsWith(std::shared_ptr<const ScanDatabase> saved, std::string label) {
     saved_ = std::move(saved);
     label_ = std::move(label);

@@ -1,4 +1,4 @@
-#include "SessionFit.h"
+#include "SessionCheck.h"
 
 #include <algorithm>
 #include <optional>
@@ -41,18 +41,18 @@ Verdict verdictOn(const ScanDatabase& places, const std::string& label, const ma
 
 }  // namespace
 
-bool SessionFit::confirms() const {
+bool SessionCheck::confirms() const {
   constexpr double kApart = 3;             // [m] between two places
   constexpr double kMostContradict = 0.1;  // share of the scans
   return fitting >= kApart && static_cast<double>(contradicting) <= kMostContradict * static_cast<double>(scans);
 }
 
-SessionFit sessionFit(const ScanDatabase& places, const std::string& label,
-                      const std::vector<LoopSearch::KeyScan>& newest, const TPose2D& map_from_newest,
-                      const mapper::State& state) {
+SessionCheck checkSession(const ScanDatabase& places, const std::string& label,
+                          const std::vector<LoopSearch::KeyScan>& newest, const TPose2D& map_from_newest,
+                          const mapper::State& state) {
   constexpr double kSpacing = 1;  // [m] of travel from one scan to the next
   const auto& session_from_newest = state.map.keyFrame(newest.back().frame).map_from_base;
-  SessionFit fit;
+  SessionCheck fit;
   const LoopSearch::KeyScan *last = nullptr, *last_fitting = nullptr;
   for (auto key_scan = newest.rbegin(); key_scan != newest.rend(); ++key_scan) {
     if (last && last->travel - key_scan->travel < kSpacing) continue;

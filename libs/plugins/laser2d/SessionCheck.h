@@ -10,7 +10,7 @@
 namespace omnimapper::plugins {
 
 /// How the scans of a session fit the saved map at a place that was found for the session.
-struct SessionFit {
+struct SessionCheck {
   double fitting = 0;             ///< [m] of travel from the first to the last scan that fits
   std::size_t scans = 0;          ///< number of scans that were compared
   std::size_t contradicting = 0;  ///< number of those that contradict the map there
@@ -20,9 +20,9 @@ struct SessionFit {
 };
 
 /// Compares scans along the travel of a session, the newest last, with the map, given the pose of the newest.
-SessionFit sessionFit(const ScanDatabase& places, const std::string& label,
-                      const std::vector<LoopSearch::KeyScan>& newest, const mrpt::math::TPose2D& map_from_newest,
-                      const mapper::State& state);
+SessionCheck checkSession(const ScanDatabase& places, const std::string& label,
+                          const std::vector<LoopSearch::KeyScan>& newest, const mrpt::math::TPose2D& map_from_newest,
+                          const mapper::State& state);
 
 /// Watches whether the scans of a session that is tied to the saved map keep fitting it.
 class SessionWatch {
