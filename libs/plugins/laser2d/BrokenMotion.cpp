@@ -1,6 +1,7 @@
 #include "BrokenMotion.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -52,9 +53,20 @@ base::Stamp gapBetween(const map::KeyFrame& before, const map::KeyFrame& after) 
 
 }  // namespace
 
-bool isWeakMotion(const Matrix6d& covariance) {
-  constexpr double kWeakPosition = 0.15, kWeakYaw = 0.035;  // [m] [rad]
-  return positionSigmas(covariance)[1] > kWeakPosition || std::sqrt(covariance(5, 5)) > kWeakYaw;
+bool UsualMotion::isWeak(const Matrix6d& covariance) {
+  constexpr double kWeakPosition = 0.15, kWeakYaw = 0.035;  // [m] [rad] at least
+  constexpr double kUnusual = 3;                            // times the usual
+  constexpr double kKept = 0.98;
+  const double position = positionSigmas(covariance)[1], yaw = std::sqrt(covariance(5, 5));
+  const bool is_first = yaw_ == 0;
+  const bool is_weak = !is_first && (position > std::max(kWeakPosition, kUnusual * position_) ||
+                                     yaw > std::max(kWeakYaw, kUnusual * yaw_));
+  const auto learn = [&](double& usual, double sigma) {
+    usual = is_first ? sigma : kKept * usual + (1 - kKept) * std::min(sigma, kUnusual * usual);
+  };
+  learn(position_, position);
+  learn(yaw_, yaw);
+  return is_weak;
 }
 
 bool isBrokenMotion(const Matrix6d& covariance) {

@@ -10,9 +10,18 @@ namespace omnimapper::plugins {
 /// Standard deviations of a motion that nobody measured: the base was carried, or pushed, while no scan came [m] [rad].
 inline constexpr double kBrokenPosition = 6, kBrokenYaw = 1.5;
 
-/// Whether the motion from a key frame to a later one is too uncertain for their scans to be joined to one local map;
-/// `is_broken`: whether it is unknown. `covariance`: of that motion.
-bool isWeakMotion(const Eigen::Matrix<double, 6, 6>& covariance);
+/// Tells motions from one key frame to the next that are far less certain than usual, such as across a gap in the
+/// scans: scans before and after them are not joined to one local map.
+class UsualMotion {
+ public:
+  /// Whether this motion is such; it then counts little for what is usual. `covariance`: of the motion.
+  bool isWeak(const Eigen::Matrix<double, 6, 6>& covariance);
+
+ private:
+  double position_ = 0, yaw_ = 0;  // [m] [rad] running means of the standard deviations
+};
+
+/// Whether a motion is unknown. `covariance`: of the motion.
 bool isBrokenMotion(const Eigen::Matrix<double, 6, 6>& covariance);
 
 /// Name of the evidence of a broken motion; its value is the time after the first key frame of the session [s].

@@ -137,7 +137,7 @@ std::size_t LoopClosurePlugin::remember(const map::KeyFrame& frame, const Scan& 
     travel = before.key_scan.travel +
              (same_session ? (frame.map_from_base - map_from_before).translation().norm() : 2 * options_.min_travel);
     const auto covariance = same_session ? state.covarianceBetween(before.key_scan.frame, frame.id) : std::nullopt;
-    if (covariance && isWeakMotion(*covariance))
+    if (covariance && usual_motion_.isWeak(*covariance))
       since = isBrokenMotion(*covariance) ? StampedScan::Since::broken : StampedScan::Since::weak;
   }
   closures_.add(frame);

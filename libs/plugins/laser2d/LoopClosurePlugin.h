@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "BrokenMotion.h"
 #include "GlobalLoopSearch.h"
 #include "GlobalRelocalization.h"
 #include "LoopClosureOptions.h"
@@ -97,6 +98,7 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin,
   std::map<std::string, double> searched_;    // [m] travelled at the last search, by label
   std::vector<LoopSearch> searches_;          // of the key frame being measured
   TestedClosures closures_;
+  UsualMotion usual_motion_;
   std::size_t refused_before_ = 0;         // number of refused global closures at the last slip search
   std::vector<SlipSearch> slip_searches_;  // of the key frame being measured
   std::map<std::string, LastGlobalSearch> last_global_search_;     // by label
