@@ -49,7 +49,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
       return batch;
     }
     const auto fit = checkSession(*places_, label_, newest_, found->place.map_from_base + measured, state);
-    if (!fit.confirms()) {
+    if (!fit.confirms(false)) {
       decision.accepted = false;
       decision.reason = "other scans of the session contradict the map there, or come from one place only";
       decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));

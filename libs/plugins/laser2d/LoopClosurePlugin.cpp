@@ -88,7 +88,7 @@ void LoopClosurePlugin::watchSession(const map::KeyFrame& frame, const std::stri
   if (session.aligned && frame.id.session == session.number) {
     watch_.add(*places_, label, frame, travel, state);
   } else {
-    watch_.reset();
+    watch_.reset(travel);
   }
 }
 
@@ -102,7 +102,7 @@ LoopClosurePlugin::Says LoopClosurePlugin::aboutSession() const {
 mapper::Batch LoopClosurePlugin::takenBack(const map::KeyFrame& frame, const mapper::State& state) {
   mapper::Batch batch;
   if (context_.map_is_held || !watch_.isContradicted()) return batch;
-  watch_.reset();
+  watch_.reset(watch_.travel());
   const auto session = state.map.sessions.back().number;
   double count = 0;
   for (const auto id : closures_.between(session, state.graph)) {

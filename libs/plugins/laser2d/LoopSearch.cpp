@@ -76,10 +76,16 @@ bool LoopSearch::confirmsSession(const Attempt& attempt, const mapper::State& st
   const auto fit = checkSession(*saved_, label_, newest_, map_from_newest, state);
   decision.numbers.emplace_back("distance travelled along which scans fit [m]", fit.fitting);
   decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
-  if (!fit.confirms())
+  const auto off = distanceBetween(attempt.matches.front().reference_from_scan, attempt.guess);
+  const auto uncertainty = uncertaintyAt(*attempt.place, state);
+  constexpr double kNear = 2, kSigmas = 2;  // [m], and standard deviations of the estimate
+  const bool agrees = off.metres <= std::min(kNear, kSigmas / kReachSigmas * uncertainty.position) &&
+                      off.radians <= kSigmas / kReachSigmas * uncertainty.yaw;
+  const bool confirms = fit.confirms(agrees);
+  if (!confirms)
     decision.reason = fit.contradicting > 0 ? "other scans of the session contradict the map there"
                                             : "scans from another place must confirm where the session lies";
-  return fit.confirms();
+  return confirms;
 }
 
 // Overlap of a match at another place that is equally good and elsewhere in the map; none if there is none. The scans

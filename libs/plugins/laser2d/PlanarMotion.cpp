@@ -20,6 +20,11 @@ PoseDistance distanceBetween(const TPose2D& a, const TPose2D& b) {
   return {std::hypot(a.x - b.x, a.y - b.y), std::abs(mrpt::math::wrapToPi(a.phi - b.phi))};
 }
 
+double sizeOf(const TPose2D& motion) {
+  constexpr double kLever = 3;  // [m]
+  return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
+}
+
 mapper::RelativeMotion planarMotion(const TPose2D& begin_from_end, const Eigen::Matrix3d& covariance) {
   mapper::RelativeMotion motion;
   motion.begin_from_end = mrpt::poses::CPose3D(mrpt::poses::CPose2D(begin_from_end));

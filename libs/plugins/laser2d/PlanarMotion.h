@@ -26,4 +26,11 @@ PoseDistance distanceBetween(const mrpt::math::TPose2D& a, const mrpt::math::TPo
 /// A planar motion with its covariance (x, y, yaw). For spatial maps height and tilt get wide variances.
 mapper::RelativeMotion planarMotion(const mrpt::math::TPose2D& begin_from_end, const Eigen::Matrix3d& covariance);
 
+/// A share of a motion, as if position and heading changed evenly.
+inline mrpt::math::TPose2D scaled(const mrpt::math::TPose2D& motion, double factor) {
+  return {factor * motion.x, factor * motion.y, factor * motion.phi};
+}
+/// How far a motion displaces a point some metres away from the base [m].
+double sizeOf(const mrpt::math::TPose2D& motion);
+
 }  // namespace omnimapper::plugins

@@ -30,17 +30,7 @@ Eigen::Vector2f placeOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   return {static_cast<float>(scan.sensorPose.x()), static_cast<float>(scan.sensorPose.y())};
 }
 
-// How far [m] a motion displaces a point some metres away from the laser.
-double sizeOf(const TPose2D& motion) {
-  constexpr double kLever = 3;  // [m]
-  return std::hypot(motion.x, motion.y) + kLever * std::abs(mrpt::math::wrapToPi(motion.phi));
-}
-
 constexpr double kAlsoNear = 0.02;  // [m] more than the distance between points, within which beams end on the same
-
-TPose2D scaled(const TPose2D& motion, double factor) {
-  return {factor * motion.x, factor * motion.y, factor * motion.phi};
-}
 
 TPose2D perSecond(const TPose2D& motion, double seconds) {
   return {motion.x / seconds, motion.y / seconds, mrpt::math::wrapToPi(motion.phi) / seconds};
@@ -152,31 +142,6 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
   }
 }
 
-std::optional<mapper::RelativeMotion> ScanOdometryPlugin::Odometry::between(base::Stamp begin, base::Stamp end) const {
-  const auto offset = base::durationFromSeconds(clock.offset());
-  return source.between(begin + offset, end + offset);
-}
-
-// Gives the clock of an odometry the turns that have arrived. Between rare readings the turns are not known: an offset
-// would only choose how they are interpolated.
-void ScanOdometryPlugin::followTurns(Odometry& odometry) {
-  constexpr double kStep = matching::OdometryClock::kStep;
-  constexpr double kRare = 0.25;  // [s] between readings
-  const auto covered = odometry.source.coveredUntil();
-  if (!covered) return;
-  const double mean = base::secondsBetween(odometry.begun, *covered) / static_cast<double>(odometry.readings);
-  if (mean > kRare) return;
-  auto& clock = odometry.clock;
-  if (!clock.end()) clock.addTurn(*covered, 0);
-  for (;;) {
-    const base::Stamp begin = *clock.end(), end = begin + base::durationFromSeconds(kStep);
-    if (end > *covered) return;
-    const auto motion = odometry.source.between(begin, end);
-    if (!motion) return clock.addTurn(*covered, 0);  // begins again after a gap
-    clock.addTurn(end, planar(motion->begin_from_end).phi);
-  }
-}
-
 base::Stamp ScanOdometryPlugin::middleOf(const mrpt::obs::CObservation2DRangeScan& scan) const {
   return scan.timestamp + base::durationFromSeconds(0.5 * options_.sweep);
 }
@@ -186,21 +151,6 @@ matching::ScanWithNormals ScanOdometryPlugin::wallsOf(const mrpt::obs::CObservat
                                                       const TPose2D& velocity) const {
   if (options_.sweep == 0) return matching::scanInBaseWithThings(cloud);
   return matching::scanInBaseWithThings(cloud, {scan.aperture, scan.rightToLeft, scaled(velocity, options_.sweep)});
-}
-
-void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation) {
-  const std::string& label = observation.sensorLabel;
-  if (!options_.odometry_label.empty() && label != options_.odometry_label) return;
-  for (auto& known : odometries_) {
-    if (known.label != label) continue;
-    known.readings += known.source.add(observation) == matching::WheelOdometry::Taken::taken;
-    return;
-  }
-  matching::WheelOdometryOptions odometry;
-  odometry.label = label;
-  matching::WheelOdometry source(odometry);
-  if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
-    odometries_.push_back({label, std::move(source), 1, observation.timestamp, {}, {}, {}, {}, 0, {}, {}});
 }
 
 void ScanOdometryPlugin::judge(Predictor& predictor, const TPose2D& motion) {
@@ -225,24 +175,6 @@ double blindVariance(double seconds) {
 
 }  // namespace
 
-// Whether an odometry measured the motion to the current scan.
-bool ScanOdometryPlugin::isMeasuredByOdometry() const {
-  return std::any_of(odometries_.begin(), odometries_.end(),
-                     [](const Odometry& odometry) { return odometry.measured.has_value(); });
-}
-
-// Time since the scan before [s]; infinite for the first one.
-double ScanOdometryPlugin::sinceTheLast(const mrpt::obs::CObservation2DRangeScan& scan) {
-  constexpr double kKept = 0.95;
-  const auto before = std::exchange(pace_.last, scan.timestamp);
-  if (!before) return std::numeric_limits<double>::infinity();
-  const double gap = base::secondsBetween(*before, scan.timestamp);
-  constexpr double kLongest = 3;  // of the usual: a pause does not make pauses usual at once
-  pace_.seconds =
-      pace_.seconds == 0 ? gap : kKept * pace_.seconds + (1 - kKept) * std::min(gap, kLongest * pace_.seconds);
-  return gap;
-}
-
 void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstPtr& observation) {
   const auto& scan = *observation;
   const double gap = sinceTheLast(scan);
@@ -260,7 +192,7 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
   const auto derived = extractor_.extract(scan);
   const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*derived);
   auto walls = wallsOf(cloud, scan, velocity);
-  const bool contradicts = contradictsWheels(walls, scan, gap);
+  const bool contradicts = contradictsWheels(walls, placeOf(scan), gap);
   auto tracked = tracker_.track(std::move(walls), placeOf(scan), predictions, base::secondsBetween(*begun_, stamp),
                                 measuredMotion());
   constexpr double kSurely = 0.8;  // share of the points with a partner: then people stand around the base
@@ -312,40 +244,6 @@ void ScanOdometryPlugin::follow(const mrpt::obs::CObservation2DRangeScan::ConstP
   last_ = stamp;
 }
 
-// Covers the span up to a scan that matches nothing with the motion that odometry measured, if any did. Its covariance
-// is that of the errors that this odometry had where walls determined the motion, but not less than the usual one; if
-// the base was carried, odometry measured nothing.
-void ScanOdometryPlugin::bridge(base::Stamp stamp, bool is_carried) {
-  const auto* best = mostAccurate();
-  if (!best) {
-    if (gaps_.count++ == 0) gaps_.first = base::secondsBetween(*begun_, stamp);
-    return;
-  }
-  const auto usual = best->between(*last_, stamp);
-  if (!usual) return;
-  auto covariance = best->errors.covarianceOf(*best->measured);
-  const auto& least = usual->covariance;
-  covariance.diagonal() = covariance.diagonal().cwiseMax(Eigen::Vector3d(least(0, 0), least(1, 1), least(5, 5)));
-  if (is_carried) covariance.diagonal() += Eigen::Vector3d(kBrokenPosition, kBrokenPosition, kBrokenYaw).cwiseAbs2();
-  insertAlong(*best, stamp, planarMotion(*best->predictor.motion, covariance));
-}
-
-// Whether, after an unusual gap, the beams of a scan contradict what was seen before it wherever the wheels may have
-// brought the base. That they show something else is no contradiction: the base may have driven there. `gap`: [s] since
-// the scan before.
-bool ScanOdometryPlugin::contradictsWheels(const matching::ScanWithNormals& walls,
-                                           const mrpt::obs::CObservation2DRangeScan& scan, double gap) {
-  constexpr double kLong = 1.5, kUnusual = 4;                    // [s], and times the usual
-  constexpr double kSigmas = 3, kLeast = 0.3, kLeastTurn = 0.1;  // [m] [rad] of what the wheels may be off by
-  constexpr double kMostContradict = 0.2;                        // share of the beams; people explain less
-  const auto* best = mostAccurate();
-  if (!best || gap < kLong || gap < kUnusual * pace_.seconds) return false;
-  const Eigen::Vector3d sigmas = best->errors.covarianceOf(*best->measured).diagonal().cwiseSqrt();
-  const auto fit = tracker_.fitAround(walls, placeOf(scan), *best->predictor.motion, kLeast + kSigmas * sigmas.x(),
-                                      kLeastTurn + kSigmas * sigmas.z());
-  return fit && fit->contradicting > kMostContradict;
-}
-
 // If a direction is unconstrained, the match agrees with any prediction and cannot judge it.
 void ScanOdometryPlugin::learn(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp) {
   const TPose2D& motion = tracked.match.reference_from_scan;
@@ -376,63 +274,6 @@ Eigen::Matrix2d ScanOdometryPlugin::contradictionOf(const matching::ScanTracker:
   const Eigen::Matrix2d added = contradiction_.add(base::secondsBetween(*begun_, stamp), turn * tracked.difference,
                                                    turn * tracked.difference_covariance * turn.transpose());
   return turn.transpose() * added * turn;
-}
-
-// The odometry that measured the motion to the current scan and was most accurate recently; null if none measured it.
-const ScanOdometryPlugin::Odometry* ScanOdometryPlugin::mostAccurate() const {
-  const Odometry* best = nullptr;
-  for (const auto& odometry : odometries_) {
-    if (!odometry.measured) continue;
-    const auto rank = [](const Odometry& one) { return std::tuple(!one.predictor.is_judged, one.predictor.error); };
-    if (!best || rank(odometry) < rank(*best)) best = &odometry;
-  }
-  return best;
-}
-
-std::optional<matching::MeasuredMotion> ScanOdometryPlugin::measuredMotion() const {
-  const auto* best = mostAccurate();
-  if (!best) return std::nullopt;
-  return matching::MeasuredMotion{*best->predictor.motion, best->errors.covarianceOf(*best->measured)};
-}
-
-// The odometry whose motion is closest to a matched one; null if none is close.
-const ScanOdometryPlugin::Odometry* ScanOdometryPlugin::odometryLike(const TPose2D& motion) const {
-  constexpr double kLeast = 0.1, kShare = 0.2;  // [m], and of the motion: wheels that slip more do not show its path
-  const Odometry* nearest = nullptr;
-  double least = kLeast + kShare * sizeOf(motion);
-  for (const auto& odometry : odometries_) {
-    if (!odometry.measured) continue;
-    const double off = sizeOf(*odometry.predictor.motion - motion);
-    if (off >= least) continue;
-    least = off;
-    nearest = &odometry;
-  }
-  return nearest;
-}
-
-// Across missing scans the motion is not uniform, and other sensors may have measured meanwhile. The path is therefore
-// that of the wheels, with a correction that grows linearly in time so that it ends at the matched pose.
-void ScanOdometryPlugin::insertAlong(const Odometry& odometry, base::Stamp end,
-                                     const mapper::RelativeMotion& measured) {
-  constexpr double kStep = 0.1;  // [s] in which a driving base hardly turns
-  const base::Stamp begin = *last_;
-  const double seconds = base::secondsBetween(begin, end);
-  const int steps = static_cast<int>(std::ceil(seconds / kStep));
-  const TPose2D correction = planar(measured.begin_from_end) - *odometry.predictor.motion;
-  TPose2D reached{};
-  base::Stamp from = begin;
-  for (int step = 1; step <= steps; ++step) {
-    const double share = static_cast<double>(step) / steps;
-    const base::Stamp to = step == steps ? end : begin + base::durationFromSeconds(share * seconds);
-    const auto driven = odometry.between(begin, to);
-    if (!driven) continue;
-    const TPose2D pose = odometry.calibration.applied(planar(driven->begin_from_end)) + scaled(correction, share);
-    const double part = base::secondsBetween(from, to) / seconds;
-    timeline_.insert(from, to,
-                     {mrpt::poses::CPose3D(mrpt::poses::CPose2D(pose - reached)), part * measured.covariance});
-    reached = pose;
-    from = to;
-  }
 }
 
 // Starts again at this scan, unless it has too few points for the next scans to match with. The velocity is unknown.

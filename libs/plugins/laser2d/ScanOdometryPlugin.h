@@ -141,8 +141,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   const Odometry* mostAccurate() const;
   std::optional<matching::MeasuredMotion> measuredMotion() const;
   void bridge(base::Stamp stamp, bool is_carried);
-  bool contradictsWheels(const matching::ScanWithNormals& walls, const mrpt::obs::CObservation2DRangeScan& scan,
-                         double gap);
+  bool contradictsWheels(const matching::ScanWithNormals& walls, const Eigen::Vector2f& sensor, double gap);
   void learn(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);
   static void followTurns(Odometry& odometry);
   Eigen::Matrix2d contradictionOf(const matching::ScanTracker::Tracked& tracked, base::Stamp stamp);

@@ -29,6 +29,7 @@ std::optional<TPose2D> placeInSavedMap(const ScanDatabase& places, const map::Ke
 
 struct Verdict {
   bool fits, contradicts;
+  double contradicting;  // share of the beams
 };
 
 Verdict verdictOn(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame,
@@ -36,15 +37,18 @@ Verdict verdictOn(const ScanDatabase& places, const std::string& label, const ma
   const auto local = beamsInBase(frame, label);
   const auto fit = places.relocalizer().fitAround(local.scan, map_from_base + local.local_from_sensor, window, turn);
   const bool is_empty = local.scan.hits.empty();
-  return {!is_empty && fit.log_likelihood >= kFits, !is_empty && fit.contradicting > kContradicts};
+  return {!is_empty && fit.log_likelihood >= kFits, !is_empty && fit.contradicting > kContradicts, fit.contradicting};
 }
 
 }  // namespace
 
-bool SessionCheck::confirms() const {
+bool SessionCheck::confirms(bool agrees_with_start) const {
   constexpr double kApart = 3;             // [m] between two places
   constexpr double kMostContradict = 0.1;  // share of the scans
-  return fitting >= kApart && static_cast<double>(contradicting) <= kMostContradict * static_cast<double>(scans);
+  constexpr double kMostBeams = 0.06;      // of the scans that fit: in mirror images some furniture differs
+  const bool is_seen = agrees_with_start ? fits > 0 && contradicting == 0 : fitting >= kApart;
+  return is_seen && contradicting_beams <= kMostBeams &&
+         static_cast<double>(contradicting) <= kMostContradict * static_cast<double>(scans);
 }
 
 SessionCheck checkSession(const ScanDatabase& places, const std::string& label,
@@ -63,6 +67,8 @@ SessionCheck checkSession(const ScanDatabase& places, const std::string& label,
     ++fit.scans;
     fit.contradicting += verdict.contradicts;
     if (!verdict.fits) continue;
+    ++fit.fits;
+    fit.contradicting_beams += (verdict.contradicting - fit.contradicting_beams) / static_cast<double>(fit.fits);
     if (!last_fitting) last_fitting = last;
     fit.fitting = last_fitting->travel - key_scan->travel;
   }
@@ -91,7 +97,7 @@ bool SessionWatch::isContradicted() const {
 
 bool SessionWatch::isConfirmed() const {
   constexpr double kRecent = 10;  // [m]
-  return !isContradicted() && confirmed_ >= 0 && travel_ - confirmed_ <= kRecent;
+  return !isContradicted() && travel_ - confirmed_ <= kRecent;
 }
 
 }  // namespace omnimapper::plugins

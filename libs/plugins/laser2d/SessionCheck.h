@@ -13,10 +13,14 @@ namespace omnimapper::plugins {
 struct SessionCheck {
   double fitting = 0;             ///< [m] of travel from the first to the last scan that fits
   std::size_t scans = 0;          ///< number of scans that were compared
+  std::size_t fits = 0;           ///< number of those that fit
   std::size_t contradicting = 0;  ///< number of those that contradict the map there
 
-  /// Whether scans from at least two places fit, and hardly any contradicts the map.
-  bool confirms() const;
+  double contradicting_beams = 0;  ///< mean share of the beams of the scans that fit, which contradict the map there
+
+  /// Whether scans from two places fit, or from one if the place `agrees_with_start`, where the session was said to
+  /// begin; and hardly any contradicts the map.
+  bool confirms(bool agrees_with_start) const;
 };
 
 /// Compares scans along the travel of a session, the newest last, with the map, given the pose of the newest.
@@ -38,8 +42,12 @@ class SessionWatch {
   bool isContradicted() const;
   /// Whether a scan within the last metres travelled fits the map, and the latest do not contradict it.
   bool isConfirmed() const;
-  /// Begins again, as for a session that was not tied yet.
-  void reset() { *this = SessionWatch(map_is_held_); }
+  /// Begins again: the session is not tied to the map yet, or no longer. Once it is, what tied it confirms it at first.
+  void reset(double travel) {
+    latest_.clear();
+    travel_ = confirmed_ = travel;
+  }
+  double travel() const { return travel_; }  ///< [m] at the last key frame
 
  private:
   struct Scan {
@@ -48,7 +56,7 @@ class SessionWatch {
   };
   bool map_is_held_;
   std::deque<Scan> latest_;
-  double travel_ = 0, confirmed_ = -1;  // [m] of the last key frame, of the last scan that fits
+  double travel_ = 0, confirmed_ = 0;  // [m] of the last key frame, of the last scan that fits
 };
 
 }  // namespace omnimapper::plugins
