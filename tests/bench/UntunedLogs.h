@@ -111,6 +111,25 @@ inline void writeVariant(const Observations& log, LogVariant variant, const std:
   });
 }
 
+/// The command that maps the log into the folder in one thread, without pictures. `settings`: section.key=value.
+inline std::vector<std::string> mappingCommand(const std::string& ini, const std::string& log,
+                                               const std::string& folder, const std::vector<std::string>& settings) {
+  std::vector<std::string> command{omnimapper::testing::ownProgram("omnimapper-graphslam"),
+                                   "-q",
+                                   "-i",
+                                   ini,
+                                   "-r",
+                                   log,
+                                   "-o",
+                                   folder,
+                                   "--threads",
+                                   "1",
+                                   "--set",
+                                   "mapper.output_plugins=trajectory,summary"};
+  for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
+  return command;
+}
+
 /// The reference trajectory of a variant of the log.
 inline omnimapper::eval::Trajectory truthOf(const Log& log, const Observations& observations, LogVariant variant) {
   auto truth = omnimapper::eval::readTrajectory(log.reference);

@@ -112,19 +112,7 @@ int main(int argc, char** argv) {
         source::writeRawlog(folder + "/log.rawlog", [&](source::RawlogWriter& rawlog) {
           for (const auto& one : changed(observations, gap, kind)) rawlog.add(*one);
         });
-        std::vector<std::string> command{tests::ownProgram("omnimapper-graphslam"),
-                                         "-q",
-                                         "-i",
-                                         ini,
-                                         "-r",
-                                         folder + "/log.rawlog",
-                                         "-o",
-                                         folder,
-                                         "--threads",
-                                         "1",
-                                         "--set",
-                                         "mapper.output_plugins=trajectory,summary"};
-        for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
+        const auto command = untuned::mappingCommand(ini, folder + "/log.rawlog", folder, settings);
         fs::remove(folder + "/trajectory.tum");
         const auto ended = tests::runProgram(command, {600, 0});
         double error = NAN, off = NAN;

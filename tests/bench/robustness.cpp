@@ -236,19 +236,7 @@ int main(int argc, char** argv) {
         fs::create_directories(folder);
         untuned::writeVariant(*observations, variant, path);
       }
-      std::vector<std::string> command{tests::ownProgram("omnimapper-graphslam"),
-                                       "-q",
-                                       "-i",
-                                       ini,
-                                       "-r",
-                                       path,
-                                       "-o",
-                                       folder,
-                                       "--threads",
-                                       "1",
-                                       "--set",
-                                       "mapper.output_plugins=trajectory,summary"};
-      for (const auto& setting : settings) command.insert(command.end(), {"--set", setting});
+      const auto command = untuned::mappingCommand(ini, path, folder, settings);
       if (running.size() == static_cast<std::size_t>(jobs)) finishOne();
       fs::remove(folder + "/trajectory.tum");
       runs.emplace_back(log, variant);

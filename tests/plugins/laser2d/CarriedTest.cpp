@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/LogVariants.h>
 #include <omnimapper/testing/MapperRun.h>
 
@@ -34,7 +35,7 @@ base::Stamp later(const SimulatedLog& log, double seconds) {
 
 TEST(Carried, AcrossAGapIsToldToTheSecondOrFoundOut) {
   const auto log = ring(1.6);
-  for (const double metres : {2.0, 4.0, 8.0}) {
+  for (const double metres : testing::kIsSanitized ? std::vector<double>{4} : std::vector<double>{2, 4, 8}) {
     constexpr double kSpeed = 0.7;  // [m/s] of the simulated robot
     const double from = 20, to = from + metres / kSpeed;
     const auto engine = testing::makeEngine(testing::kLaserIni);
@@ -57,7 +58,7 @@ TEST(Carried, AcrossAGapIsToldToTheSecondOrFoundOut) {
 
 TEST(Carried, ARobotThatStandsOrDrivesDuringAGapIsNotSuspected) {
   const auto log = ring(1.6);
-  for (const double seconds : {3.0, 10.0}) {
+  for (const double seconds : testing::kIsSanitized ? std::vector<double>{3} : std::vector<double>{3, 10}) {
     const auto standing = testing::makeEngine(testing::kLaserIni);
     testing::run(*standing, testing::carried(log.observations(), later(log, 20), later(log, 20), seconds));
     EXPECT_TRUE(evidenceOf(standing->view(), kBrokenAfter).empty()) << seconds;
@@ -76,7 +77,7 @@ TEST(Carried, ARobotThatStandsOrDrivesDuringAGapIsNotSuspected) {
 
 TEST(Carried, TheClockOfTheWheelsIsSetRight) {
   const auto log = ring(2);
-  for (const double offset : {0.0, -0.2, 0.2}) {
+  for (const double offset : testing::kIsSanitized ? std::vector<double>{-0.2} : std::vector<double>{0, -0.2, 0.2}) {
     auto observations = log.observations();
     for (const auto& one : observations) {
       if (dynamic_cast<const mrpt::obs::CObservationOdometry*>(one.get()))
