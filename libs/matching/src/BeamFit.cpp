@@ -24,19 +24,20 @@ std::vector<Eigen::Vector2f> thinnedTo(const std::vector<Eigen::Vector2f>& beams
 
 BeamFit bestFit(const grid::HitMissGrid& map, const grid::BeamScan& beams, const TPose2D& map_from_sensor,
                 double distance, double angle) {
-  constexpr int kSteps = 4;              // to either side
   constexpr std::size_t kBeams = 90;     // of hits, and of misses
   constexpr double kContradicts = -2.5;  // log-likelihood of a beam
   grid::BeamScan some;
   some.hits = thinnedTo(beams.hits, kBeams);
   some.misses = thinnedTo(beams.misses, kBeams);
   if (some.hits.empty() && some.misses.empty()) return {};
+  const int steps = distance > 0 || angle > 0 ? 4 : 0;  // to either side
   BeamFit best{-std::numeric_limits<double>::infinity(), 1};
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    for (int j = -kSteps; j <= kSteps; ++j) {
-      for (int k = -kSteps; k <= kSteps; ++k) {
-        TPose2D pose(map_from_sensor.x + distance * i / kSteps, map_from_sensor.y + distance * j / kSteps,
-                     map_from_sensor.phi + angle * k / kSteps);
+  for (int i = -steps; i <= steps; ++i) {
+    for (int j = -steps; j <= steps; ++j) {
+      for (int k = -steps; k <= steps; ++k) {
+        const double share = steps == 0 ? 0 : 1.0 / steps;
+        const TPose2D pose(map_from_sensor.x + share * i * distance, map_from_sensor.y + share * j * distance,
+                           map_from_sensor.phi + share * k * angle);
         const auto fits = map.logLikelihoods(some, pose);
         const auto count = static_cast<double>(fits.size());
         const auto contradicting =

@@ -34,8 +34,13 @@ struct Verdict {
 
 Verdict verdictOn(const ScanDatabase& places, const std::string& label, const map::KeyFrame& frame,
                   const TPose2D& map_from_base, double window = kWindow, double turn = kTurn) {
+  constexpr double kHardly = 0.06;  // share of the beams; a scan that contradicts no more fits where it is
   const auto local = beamsInBase(frame, label);
-  const auto fit = places.relocalizer().fitAround(local.scan, map_from_base + local.local_from_sensor, window, turn);
+  const TPose2D map_from_sensor = map_from_base + local.local_from_sensor;
+  const auto& map = places.relocalizer();
+  auto fit = map.fitAround(local.scan, map_from_sensor, 0, 0);
+  if (fit.log_likelihood < kFits || fit.contradicting > kHardly)
+    fit = map.fitAround(local.scan, map_from_sensor, window, turn);
   const bool is_empty = local.scan.hits.empty();
   return {!is_empty && fit.log_likelihood >= kFits, !is_empty && fit.contradicting > kContradicts, fit.contradicting};
 }
