@@ -72,6 +72,7 @@ class LoopSearch {
   };
   /// None if, by the estimate, the place is out of reach or a closure would add no information.
   std::optional<Attempt> attemptAt(const Place& place, const mapper::State& state) const;
+  bool confirmsSession(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
   static std::optional<double> overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
                                                 const mapper::State& state);
   std::vector<mrpt::math::TPose2D> starts(const matching::ScanWithNormals& local,
@@ -81,8 +82,6 @@ class LoopSearch {
   LoopClosureOptions options_;
   mapper::PluginContext context_;
   std::shared_ptr<const matching::ScanMatcher> matcher_;
-  bool confirmsSession(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
-
   std::vector<KeyScan> newest_;  // the newest last
   std::vector<Place> places_;
   std::shared_ptr<const ScanDatabase> saved_;  // null if no map is continued

@@ -50,7 +50,7 @@ std::vector<ScanDatabase::Place> ScanDatabase::nearest(const TPose2D& map_from_b
   return nearest;
 }
 
-const matching::Relocalizer& ScanDatabase::relocalizer() const {
+void ScanDatabase::makeRelocalizer() const {
   std::call_once(once_, [this] {
     std::vector<matching::MapScan> scans;
     for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -63,6 +63,15 @@ const matching::Relocalizer& ScanDatabase::relocalizer() const {
       too_large_ = error.what();  // an exception out of call_once would make every later caller try again
     }
   });
+}
+
+bool ScanDatabase::hasRelocalizer() const {
+  makeRelocalizer();
+  return relocalizer_ != nullptr;
+}
+
+const matching::Relocalizer& ScanDatabase::relocalizer() const {
+  makeRelocalizer();
   if (!relocalizer_) throw base::Error(base::ExitCode::out_of_range, too_large_);
   return *relocalizer_;
 }

@@ -36,8 +36,12 @@ class ScanDatabase {
   const mapper::SessionStart& anywhere() const { return anywhere_; }
   /// Throws Error(out_of_range) if the map is too large for the grids of the relocalizer.
   const matching::Relocalizer& relocalizer() const;
+  /// Whether the map is small enough for relocalizer().
+  bool hasRelocalizer() const;
 
  private:
+  void makeRelocalizer() const;
+
   std::vector<Place> places_;
   // The key frame of each place. No copy of the map is kept, because only the engine's thread may destroy one.
   std::vector<map::KeyFrame> frames_;

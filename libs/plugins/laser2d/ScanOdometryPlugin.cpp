@@ -10,11 +10,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
-#include "BrokenMotion.h"
 #include "PlanarMotion.h"
 
 IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)

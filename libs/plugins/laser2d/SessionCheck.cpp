@@ -51,6 +51,7 @@ bool SessionCheck::confirms(bool agrees_with_start) const {
   constexpr double kApart = 3;             // [m] between two places
   constexpr double kMostContradict = 0.1;  // share of the scans
   constexpr double kMostBeams = 0.06;      // of the scans that fit: in mirror images some furniture differs
+  if (!is_possible) return true;
   const bool is_seen = agrees_with_start ? fits > 0 && contradicting == 0 : fitting >= kApart;
   return is_seen && contradicting_beams <= kMostBeams &&
          static_cast<double>(contradicting) <= kMostContradict * static_cast<double>(scans);
@@ -62,6 +63,8 @@ SessionCheck checkSession(const ScanDatabase& places, const std::string& label,
   constexpr double kSpacing = 1;  // [m] of travel from one scan to the next
   const auto& session_from_newest = state.map.keyFrame(newest.back().frame).map_from_base;
   SessionCheck fit;
+  fit.is_possible = places.hasRelocalizer();
+  if (!fit.is_possible) return fit;
   const LoopSearch::KeyScan *last = nullptr, *last_fitting = nullptr;
   for (auto key_scan = newest.rbegin(); key_scan != newest.rend(); ++key_scan) {
     if (last && last->travel - key_scan->travel < kSpacing) continue;
@@ -85,6 +88,10 @@ void SessionWatch::add(const ScanDatabase& places, const std::string& label, con
   constexpr double kSpacing = 0.5;  // [m] from one scan that is compared to the next
   constexpr std::size_t kKept = 6;
   travel_ = travel;
+  if (!places.hasRelocalizer()) {
+    confirmed_ = travel;  // nothing can tell
+    return;
+  }
   if (!latest_.empty() && travel - latest_.back().travel < kSpacing) return;
   const auto map_from_base = placeInSavedMap(places, frame, state);
   if (!map_from_base) return;

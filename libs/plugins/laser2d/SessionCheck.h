@@ -11,11 +11,11 @@ namespace omnimapper::plugins {
 
 /// How the scans of a session fit the saved map at a place that was found for the session.
 struct SessionCheck {
-  double fitting = 0;             ///< [m] of travel from the first to the last scan that fits
-  std::size_t scans = 0;          ///< number of scans that were compared
-  std::size_t fits = 0;           ///< number of those that fit
-  std::size_t contradicting = 0;  ///< number of those that contradict the map there
-
+  bool is_possible = true;         ///< false if the map is too large for the grids that are needed; it is then believed
+  double fitting = 0;              ///< [m] of travel from the first to the last scan that fits
+  std::size_t scans = 0;           ///< number of scans that were compared
+  std::size_t fits = 0;            ///< number of those that fit
+  std::size_t contradicting = 0;   ///< number of those that contradict the map there
   double contradicting_beams = 0;  ///< mean share of the beams of the scans that fit, which contradict the map there
 
   /// Whether scans from two places fit, or from one if the place `agrees_with_start`, where the session was said to
