@@ -26,7 +26,6 @@ class PlaneAssociator {
                   const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view,
                   bool others_seek);
 
-  Eigen::Vector3d upInBase() const { return map_from_base_.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
   /// To be called once.
   mapper::Batch take(const std::vector<PlaneMeasurement>& measurements);
 

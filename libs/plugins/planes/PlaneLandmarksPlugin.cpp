@@ -1,14 +1,21 @@
 #include "PlaneLandmarksPlugin.h"
 
+#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/landmarks/WallFactor.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/plugin/PoseFactors.h>
+#include <omnimapper/plugin/SessionStart.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "PlaneAssociator.h"
 #include "PlaneLandmarkIndex.h"
 #include "PlaneMerging.h"
+#include "SessionByPlanes.h"
 
 IMPLEMENTS_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
@@ -73,6 +80,8 @@ const base::OptionTable<PlaneLandmarksOptions>& PlaneLandmarksOptions::table() {
 
 namespace {
 
+constexpr std::size_t kRecentKeyFrames = 60;  // among which a session is searched for
+
 PlanePayload emptyPayload(const PlaneLandmarksOptions& options) {
   PlanePayload empty;
   empty.form = options.form == PlaneLandmarksOptions::Form::wall ? landmarks::PlaneParametrization::Kind::wall
@@ -84,10 +93,18 @@ PlanePayload emptyPayload(const PlaneLandmarksOptions& options) {
 
 }  // namespace
 
+// What the plugin knows of where the newest session lies in the map.
+struct PlaneSession {
+  RecentSurfaces recent;
+  SessionByPlanes search;
+  PlaneWatch watch;
+};
+
 PlaneLandmarksPlugin::PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context)
     : options_(options),
       context_(context),
-      known_(std::make_unique<PlaneLandmarkIndex>(context.section, emptyPayload(options))) {
+      known_(std::make_unique<PlaneLandmarkIndex>(context.section, emptyPayload(options))),
+      session_(std::make_unique<PlaneSession>()) {
   if (options.form != PlaneLandmarksOptions::Form::wall) return;
   options_.planes = false;
   if (context.motion == mapper::Motion::planar) return;
@@ -107,10 +124,81 @@ bool PlaneLandmarksPlugin::wants(const mrpt::obs::CObservation& observation) con
 mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                             const mapper::View& view) {
   known_->update(view);
-  // A run that only localizes states where it starts and must be located soon; a wrong association harms no map there.
-  const bool is_left_to_others = others_seek_ && !view.map_is_held;
-  PlaneAssociator associator(options_, context_, *known_, frame, view, is_left_to_others);
-  return associator.take(planeMeasurements(observed.observation, associator.upInBase(), known_->form(), options_));
+  const Eigen::Vector3d up_in_base =
+      geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose)).rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const auto measurements = planeMeasurements(observed.observation, up_in_base, known_->form(), options_);
+  mapper::Batch of_session;
+  if (view.map.sessions.size() > 1 && frame.id.session == view.map.sessions.back().number) {
+    mrpt::poses::CPose3D base_from_sensor;
+    observed.observation.getSensorPose(base_from_sensor);
+    of_session = watchSession(frame, measurements, geometry::fromMrpt(base_from_sensor).translation, view);
+    if (of_session.sessionPlace() || of_session.changesGraph()) return of_session;
+  }
+  // A run that only localizes and knows roughly where it starts must be located soon; a wrong association harms no map
+  // there.
+  const bool is_tied_by_others = session_->search.isLost() || (others_seek_ && !view.map_is_held);
+  auto batch = PlaneAssociator(options_, context_, *known_, frame, view, is_tied_by_others).take(measurements);
+  for (const auto& decision : of_session.decisions()) batch.log(decision);
+  return batch;
+}
+
+mapper::Batch PlaneLandmarksPlugin::watchSession(const map::KeyFrame& frame,
+                                                 const std::vector<PlaneMeasurement>& measurements,
+                                                 const Eigen::Vector3d& sensor_in_base, const mapper::View& view) {
+  auto& [recent, search, watch] = *session_;
+  const bool planar = context_.motion == mapper::Motion::planar;
+  recent.add(frame, measurements, sensor_in_base);
+  recent.keep(kRecentKeyFrames);
+  if (view.map.sessions.back().aligned) {
+    watch.add(recent, *known_, view, planar);
+    return watch.isContradicted() ? takenBack(frame, view) : mapper::Batch();
+  }
+  watch.reset();
+  mapper::Batch batch;
+  const auto before = search.found();
+  const bool is_free = !others_seek_ && mapper::whyFixed({frame.id, {}}, view.graph, view.map).empty();
+  const auto place = search.take(frame, is_free ? recent : RecentSurfaces(), *known_, view, planar);
+  if (place) batch.placeSession(*place);
+  if (place || search.found() != before) batch.log(aboutSearch(frame, place.has_value(), search.found()));
+  return batch;
+}
+
+mapper::Decision PlaneLandmarksPlugin::aboutSearch(const map::KeyFrame& frame, bool accepted,
+                                                   std::string reason) const {
+  mapper::Decision decision;
+  decision.stamp = frame.stamp;
+  decision.plugin = context_.section;
+  decision.kind = mapper::kRelocalization;
+  decision.from = frame.id;
+  decision.accepted = accepted;
+  decision.reason = std::move(reason);
+  return decision;
+}
+
+// What the session sees contradicts the map: the measurements that tie it to earlier sessions are of other surfaces.
+mapper::Batch PlaneLandmarksPlugin::takenBack(const map::KeyFrame& frame, const mapper::View& view) {
+  mapper::Batch batch;
+  const auto session = view.map.sessions.back().number;
+  for (const auto& [id, record] : view.graph.factors()) {
+    const auto isOf = [&](base::VariableId variable) { return variable.session == session; };
+    if (record.tags.owner != context_.section || !std::any_of(record.variables.begin(), record.variables.end(), isOf))
+      continue;
+    if (!std::all_of(record.variables.begin(), record.variables.end(), isOf)) batch.removeFactor(id);
+  }
+  session_->watch.reset();
+  if (batch.removedFactors().empty()) return batch;
+  session_->search.lose();
+  auto decision = aboutSearch(
+      frame, false, "the planes that are seen contradict the map: those that tied the session there are taken back");
+  decision.numbers = {{"measurements", static_cast<double>(batch.removedFactors().size())}};
+  batch.log(std::move(decision));
+  return batch;
+}
+
+PlaneLandmarksPlugin::Says PlaneLandmarksPlugin::aboutSession() const {
+  if (session_->recent.size() == 0) return Says::unable;
+  if (session_->watch.isContradicted()) return Says::contradicted;
+  return session_->watch.isConfirmed() ? Says::confirmed : Says::nothing;
 }
 
 void PlaneLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {

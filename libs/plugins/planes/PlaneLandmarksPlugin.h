@@ -52,7 +52,13 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
 /// A landmark that only lines at one height have measured is held upright by a prior with upright_sigma. Coplanar
 /// surfaces with a large gap between them are separate landmarks, and so are the two faces of a wall. Landmarks that
 /// turn out to be one surface are merged.
-class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::LeavesSeeking {
+///
+/// A session that begins at an unknown place is searched for by its planes if no other plugin searches for it
+/// (SessionByPlanes). While the session is tied to the map, its planes are compared with those of the map: if they
+/// contradict it, the measurements that tie the session there are taken back.
+class PlaneLandmarksPlugin : public mapper::MeasurementPlugin,
+                             public mapper::LeavesSeeking,
+                             public mapper::ConfirmsSession {
  public:
   PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context);
   ~PlaneLandmarksPlugin() override;
@@ -65,11 +71,20 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin, public mapper::Le
   mapper::Batch atEnd(const mapper::View& view) override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
   void leaveSeeking(bool others_seek) override { others_seek_ = others_seek; }
+  Says aboutSession() const override;
 
  private:
+  // Takes the measurements for the search of the session and for the comparison with the map. Returns edits that move
+  // the session or take its ties back; empty if there are none.
+  mapper::Batch watchSession(const map::KeyFrame& frame, const std::vector<struct PlaneMeasurement>& measurements,
+                             const Eigen::Vector3d& sensor_in_base, const mapper::View& view);
+  mapper::Batch takenBack(const map::KeyFrame& frame, const mapper::View& view);
+  mapper::Decision aboutSearch(const map::KeyFrame& frame, bool accepted, std::string reason) const;
+
   PlaneLandmarksOptions options_;
   mapper::PluginContext context_;
   std::unique_ptr<class PlaneLandmarkIndex> known_;
+  std::unique_ptr<struct PlaneSession> session_;
   std::size_t merged_at_solve_ = 0;
   bool others_seek_ = false;  // other plugins seek the pose of the newest session in the map
 };

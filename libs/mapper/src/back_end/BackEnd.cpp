@@ -266,18 +266,20 @@ void BackEnd::retireBefore(base::Stamp stamp) {
   estimator_.hold(window_->held());
 }
 
-// A session counts as located only while some plugin confirms it, if any plugin can, and none contradicts it.
+// A session counts as located only while some plugin confirms it, if any plugin can, and none contradicts it. Measured
+// absolute poses need no confirmation.
 bool BackEnd::isConfirmed() const {
   using Says = ConfirmsSession::Says;
   bool can_confirm = false, is_confirmed = false;
   for (const auto& [section, plugin] : plugins_.measurement) {
     const auto* confirming = dynamic_cast<const ConfirmsSession*>(plugin.get());
     if (!confirming || state_.fed.count(section) == 0) continue;
-    if (confirming->aboutSession() == Says::contradicted) return false;
-    can_confirm = true;
-    is_confirmed = is_confirmed || confirming->aboutSession() == Says::confirmed;
+    const Says says = confirming->aboutSession();
+    if (says == Says::contradicted) return false;
+    can_confirm = can_confirm || says != Says::unable;
+    is_confirmed = is_confirmed || says == Says::confirmed;
   }
-  return is_confirmed || !can_confirm;
+  return is_confirmed || !can_confirm || !absolute_.empty();
 }
 
 void BackEnd::addEstimate(base::KeyFrameId id) {

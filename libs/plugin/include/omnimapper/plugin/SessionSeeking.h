@@ -16,8 +16,9 @@ class SeeksSession {
 class ConfirmsSession {
  public:
   virtual ~ConfirmsSession() = default;
-  /// What the newest key frames show: `nothing` where the plugin has no data, or where the map has none for too long.
-  enum class Says { nothing, confirmed, contradicted };
+  /// What the newest key frames show. unable: the plugin has no data that could show anything. nothing: what is seen
+  /// neither confirms nor contradicts the place, as where the map has nothing.
+  enum class Says { unable, nothing, confirmed, contradicted };
   virtual Says aboutSession() const = 0;
 };
 

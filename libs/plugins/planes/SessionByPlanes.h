@@ -1,0 +1,88 @@
+#pragma once
+
+#include <omnimapper/plugin/SessionStart.h>
+#include <omnimapper/plugin/View.h>
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "SurfaceAgreement.h"
+
+namespace omnimapper::plugins {
+
+/// What the newest session has seen lately: pieces of surfaces by key frame, in the frame of the base.
+class RecentSurfaces {
+ public:
+  /// `sensor_in_base` [m].
+  void add(const map::KeyFrame& frame, const std::vector<PlaneMeasurement>& measurements,
+           const Eigen::Vector3d& sensor_in_base);
+  /// Forgets the oldest key frames, so that at most `key_frames` remain.
+  void keep(std::size_t key_frames);
+  void clear() { seen_.clear(); }
+  std::size_t size() const { return seen_.size(); }  ///< number of key frames
+
+  /// The pieces in the frame of the session, by the poses that the key frames have now; of pieces of one place, only
+  /// the one seen last. Those of the key frames from the `first` of size() on, up to the one before `end`.
+  std::vector<SurfaceSample> inSession(const map::Map& map, std::size_t first, std::size_t end) const;
+  std::vector<SurfaceSample> inSession(const map::Map& map) const { return inSession(map, 0, size()); }
+  /// Whether the sensor looked from two places or into two directions in these halves: 1 m or 45 deg apart.
+  std::optional<std::size_t> secondView(const map::Map& map) const;
+
+ private:
+  struct Seen {
+    base::KeyFrameId frame;
+    std::vector<SurfaceSample> in_base;
+  };
+  std::deque<Seen> seen_;
+};
+
+/// Where surfaces that a session has seen fit the map.
+struct SessionPlacing {
+  geometry::Se3 map_from_session;
+  SurfaceAgreement agreement;
+  bool is_distinct = false;  ///< no other place explains nearly as much
+};
+
+/// The place in the map that explains most of the samples, found from triples of planes; none if nothing fits.
+/// `planar`: the session can be moved only along the floor and turned about z.
+std::optional<SessionPlacing> placeOf(const std::vector<SurfaceSample>& in_session, const KnownSurfaces& map,
+                                      bool planar);
+
+/// Locates a session whose start is unknown by the planes that it sees. Planes look alike: the place must explain what
+/// is seen in two views, hold the session in each direction, and be better by far than every other place.
+class SessionByPlanes {
+ public:
+  /// Takes the planes at a key frame of the newest session; the session must be free to move (mapper::whyFixed()).
+  /// Returns the place of the session when it becomes known.
+  std::optional<mapper::SessionPlace> take(const map::KeyFrame& frame, const RecentSurfaces& recent,
+                                           const PlaneLandmarkIndex& known, const mapper::View& view, bool planar);
+  /// True if the place of the session is unknown, so that positions do not show which surface of the map is seen.
+  bool isLost() const { return is_lost_ || is_unsolved_; }
+  /// What tied the session to the map was wrong: it is searched for again.
+  void lose() { is_lost_ = is_known_whether_lost_ = true; }
+  /// In words, what the last search found.
+  const std::string& found() const { return found_; }
+
+ private:
+  bool is_known_whether_lost_ = false, is_lost_ = false;
+  bool is_unsolved_ = false;                         // it was placed, but its uncertainty is still that of before
+  std::size_t since_placed_ = 0, since_search_ = 0;  // [key frames]
+  std::string found_;
+};
+
+/// Watches whether what a session sees agrees with the map, at the place where the estimate has it.
+class PlaneWatch {
+ public:
+  void add(const RecentSurfaces& recent, const PlaneLandmarkIndex& known, const mapper::View& view, bool planar);
+  void reset() { *this = {}; }
+  bool isContradicted() const { return contradicting_ >= kInTurn; }
+  bool isConfirmed() const { return since_confirmed_ <= kRecent; }
+
+ private:
+  static constexpr std::size_t kInTurn = 3, kRecent = 40;  // [key frames]
+  std::size_t contradicting_ = 0, since_confirmed_ = kRecent + 1;
+};
+
+}  // namespace omnimapper::plugins

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <omnimapper/geometry/Plane3.h>
+#include <omnimapper/geometry/Se3.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "PlaneLandmarkIndex.h"
+#include "PlaneMeasurement.h"
+
+namespace omnimapper::plugins {
+
+/// A small piece of a measured surface.
+struct SurfaceSample {
+  Eigen::Vector3d point;   ///< [m]
+  Eigen::Vector3d normal;  ///< unit, to the free side
+  Eigen::Vector3d sensor;  ///< where it was seen from [m]
+  double area = 0;         ///< of the piece [m^2]
+};
+
+/// The measured planes in pieces of a quarter of a metre, in the frame of the base. Lines of lasers have no area and
+/// give none. `sensor_in_base` [m].
+std::vector<SurfaceSample> samplesOf(const std::vector<PlaneMeasurement>& measurements,
+                                     const Eigen::Vector3d& sensor_in_base);
+/// The sample in frame a.
+SurfaceSample operator*(const geometry::Se3& a_from_b, const SurfaceSample& sample_in_b);
+
+/// How measured surfaces agree with those of a map [m^2].
+struct SurfaceAgreement {
+  double agrees = 0;       ///< area that lies on a surface of the map
+  double contradicts = 0;  ///< area that was seen through a surface of the map
+  double all = 0;          ///< area that was compared; for the rest, the map has nothing at this place
+  /// Sum of area * normal * normal^T over the area that agrees: how well it holds the place in each direction.
+  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
+
+  /// Area that holds the place in the direction in which it is held worst [m^2]; `planar`: the height is given.
+  double heldAtLeast(bool planar) const;
+  /// Of the area about which the map says something, the share that agrees; 0 if there is none.
+  double share() const { return agrees + contradicts > 0 ? agrees / (agrees + contradicts) : 0; }
+};
+
+/// The surfaces of earlier sessions in a map, for comparison with what the newest session sees. Refers to the index
+/// that it was made of, and is valid until that changes.
+class KnownSurfaces {
+ public:
+  /// Candidates, which may be noise, and surfaces of `session` are left out.
+  KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t session);
+
+  const std::vector<const PlaneLandmarkIndex::Surface*>& all() const { return surfaces_; }
+  /// The surface that a sample lies on; null if there is none.
+  const PlaneLandmarkIndex::Surface* under(const SurfaceSample& sample_in_map) const;
+  SurfaceAgreement compare(const std::vector<SurfaceSample>& samples, const geometry::Se3& map_from_samples) const;
+  /// The pose near `map_from_samples` at which the samples that lie on surfaces of the map lie on them best. `planar`:
+  /// only x, y and the heading change.
+  geometry::Se3 settled(const std::vector<SurfaceSample>& samples, geometry::Se3 map_from_samples, bool planar) const;
+
+ private:
+  std::vector<const PlaneLandmarkIndex::Surface*> surfaces_;
+};
+
+/// Whether a surface was seen at the foot of a point, or within 0.1 m of it.
+bool wasSeenNear(const PlaneLandmarkIndex::Surface& surface, const Eigen::Vector3d& point_in_map);
+
+}  // namespace omnimapper::plugins
