@@ -45,7 +45,7 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
   mapper::Batch batch;
   for (auto& attempt : attempts) {
     auto& decision = attempt.decision;
-    judgeClosure(options_, attempt.matches, attempt.guess, decision);
+    judgeClosure(optionsFor(attempt, state), attempt.matches, attempt.guess, decision);
     if (decision.accepted) {
       if (const auto elsewhere = overlapElsewhere(attempts, attempt, state)) {
         decision.accepted = false;
@@ -54,6 +54,7 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
       }
     }
     if (decision.accepted && !confirmsSession(attempt, state, decision)) decision.accepted = false;
+    if (decision.accepted && !confirmsAcrossBreak(attempt, state, decision)) decision.accepted = false;
     if (!decision.accepted) {
       batch.log(std::move(decision));
       continue;
@@ -64,6 +65,42 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
     batch.addHypothesis(std::move(closure), std::move(decision));
   }
   return batch;
+}
+
+// Across a gap, a match near the estimate has two witnesses, the scans and the wheels: it may overlap less, as where
+// people came near meanwhile.
+LoopClosureOptions LoopSearch::optionsFor(const Attempt& attempt, const mapper::State& state) const {
+  constexpr double kShare = 0.8;  // of the overlap that others must have
+  LoopClosureOptions options = options_;
+  if (isAcrossBreak(attempt, state) && isNearEstimate(attempt)) options.min_overlap *= kShare;
+  return options;
+}
+
+bool LoopSearch::isNearEstimate(const Attempt& attempt) {
+  constexpr double kNear = 0.5, kNearTurn = 0.2;  // [m] [rad]
+  return !attempt.matches.empty() &&
+         distanceBetween(attempt.matches.front().reference_from_scan, attempt.guess).within(kNear, kNearTurn);
+}
+
+// Whether the base may have been carried between the place and now, so that a wide window was searched.
+bool LoopSearch::isAcrossBreak(const Attempt& attempt, const mapper::State& state) const {
+  return attempt.place->centre.frame.session == newest_.back().frame.session &&
+         uncertaintyAt(*attempt.place, state).position > options_.max_window;
+}
+
+// In a wide window, points lie on walls in more than one place, where corridors look alike. The beams of all newest
+// scans must fit what was seen around the place, too.
+bool LoopSearch::confirmsAcrossBreak(const Attempt& attempt, const mapper::State& state,
+                                     mapper::Decision& decision) const {
+  if (!isAcrossBreak(attempt, state)) return true;
+  const ScanDatabase around(state.map, {{label_, attempt.place->around}}, matcher_);
+  const TPose2D map_from_newest = planar(state.map.keyFrame(attempt.place->centre.frame).map_from_base) +
+                                  attempt.matches.front().reference_from_scan;
+  const auto fit = checkSession(around, label_, newest_, map_from_newest, state);
+  decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
+  if (fit.confirms(true) || (isNearEstimate(attempt) && fit.fits > 0 && 2 * fit.contradicting < fit.scans)) return true;
+  decision.reason = "beams contradict what was seen there before the gap";
+  return false;
 }
 
 // A closure that ties a session to the saved map decides where all of it lies. Points that lie on walls do not suffice:
@@ -129,7 +166,7 @@ double LoopSearch::queryTravel(const SearchUncertainty& uncertainty) const {
 matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                                  const mapper::State& state) const {
   const double reach = 2 * options_.context + uncertainty.position,
-               end = newest_.back().travel - queryTravel(uncertainty);
+               end = std::max(newest_.front().travel, newest_.back().travel - queryTravel(uncertainty));
   std::vector<KeyScan> key_scans;
   std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(key_scans), [&](const KeyScan& key_scan) {
     const bool is_query = key_scan.frame.session == newest_.back().frame.session && key_scan.travel >= end;
@@ -165,7 +202,10 @@ std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, 
   limits.min_score = 0.5;
   limits.min_share_of_best = 0.9;
   limits.max_blocks = kMostBlocks;
+  // Across a gap the base may have been carried; most often it was not, and the search may miss the estimate where
+  // people hide the walls.
   std::vector<TPose2D> found;
+  if (uncertainty.position > options_.max_window) found.push_back(guess);
   for (const auto& result :
        matching::search(pyramid, matching::voxelDownsample(query, kSpacing).points, window, limits)) {
     found.push_back(result.map_from_scan);

@@ -72,6 +72,10 @@ class LoopSearch {
   };
   /// None if, by the estimate, the place is out of reach or a closure would add no information.
   std::optional<Attempt> attemptAt(const Place& place, const mapper::State& state) const;
+  LoopClosureOptions optionsFor(const Attempt& attempt, const mapper::State& state) const;
+  static bool isNearEstimate(const Attempt& attempt);
+  bool isAcrossBreak(const Attempt& attempt, const mapper::State& state) const;
+  bool confirmsAcrossBreak(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
   bool confirmsSession(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
   static std::optional<double> overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
                                                 const mapper::State& state);
