@@ -5,13 +5,7 @@
 // Example: bench-session_alignment -i ini/laser2d.ini -r aces.rawlog -o out/alignment
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
-#include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
-#include <omnimapper/source/RawlogSource.h>
-#include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
@@ -22,35 +16,21 @@
 #include <string>
 #include <vector>
 
+#include "LogParts.h"
+
 namespace {
 
 using namespace omnimapper;
+using log_parts::mapIn;
+using log_parts::spanOf;
+using log_parts::trajectoryOf;
+using log_parts::write;
 
 struct Setup {
   std::string ini, log, out;
   std::vector<std::string> settings;
   int threads = 1;
 };
-
-std::pair<base::Stamp, base::Stamp> spanOf(const std::string& log) {
-  source::RawlogSource source(log);
-  base::Stamp begin = base::Stamp::max(), end = base::Stamp::min();
-  while (const auto observation = source.next()) {
-    if (!base::isValid(observation->timestamp)) continue;
-    begin = std::min(begin, observation->timestamp);
-    end = std::max(end, observation->timestamp);
-  }
-  return {begin, end};
-}
-
-void write(const std::string& log, base::Stamp from, base::Stamp until, const std::string& path) {
-  source::RawlogSource source(log);
-  source::writeRawlog(path, [&](source::RawlogWriter& writer) {
-    while (const auto observation = source.next()) {
-      if (observation->timestamp >= from && observation->timestamp < until) writer.add(*observation);
-    }
-  });
-}
 
 mapper::RunResult run(const Setup& setup, const std::string& log, const std::string& folder,
                       const std::string& continued) {
@@ -65,13 +45,6 @@ mapper::RunResult run(const Setup& setup, const std::string& log, const std::str
   request.continue_map = continued;
   base::Progress quiet;
   return mapper::runMapping(request, config, quiet, [] { return false; });
-}
-
-eval::Trajectory trajectoryOf(const map::Map& map) {
-  std::vector<eval::StampedPose> poses;
-  for (const auto& pose : map::denseTrajectory(map))
-    poses.push_back({pose.stamp, geometry::fromMrpt(pose.map_from_base)});
-  return eval::sortedByStamp(std::move(poses), "map");
 }
 
 // Distance [m] that the newest session had travelled when it was aligned with the map.
@@ -120,7 +93,6 @@ int main(int argc, char** argv) {
   testing::registerPlugins();
   std::filesystem::create_directories(setup.out);
   run(setup, setup.log, setup.out + "/whole", "");
-  const auto mapIn = [](const std::string& folder) { return mapper::readMap(folder, mapper::registeredKinds()).map; };
   const auto whole = trajectoryOf(mapIn(setup.out + "/whole"));
   const auto [begin, end] = spanOf(setup.log);
   std::printf(

@@ -77,6 +77,9 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
     searches_.emplace_back(options_, context_, matcher_,
                            keyScans(history, index, options_.context + options_.max_window, 0), std::move(places));
     searches_.back().testSessionsWith(places_, observed.observation.sensorLabel);
+    const auto broken = newestBreak(history, index);
+    if (broken && history[*broken].since == StampedScan::Since::broken)
+      searches_.back().setBroken(history[*broken].key_scan.travel);
   }
   return {};
 }

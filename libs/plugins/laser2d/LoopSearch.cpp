@@ -45,7 +45,7 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
   mapper::Batch batch;
   for (auto& attempt : attempts) {
     auto& decision = attempt.decision;
-    judgeClosure(optionsFor(attempt, state), attempt.matches, attempt.guess, decision);
+    judgeClosure(optionsFor(attempt), attempt.matches, attempt.guess, decision);
     if (decision.accepted) {
       if (const auto elsewhere = overlapElsewhere(attempts, attempt, state)) {
         decision.accepted = false;
@@ -69,10 +69,10 @@ mapper::Batch LoopSearch::operator()(const mapper::State& state) const {
 
 // Across a gap, a match near the estimate has two witnesses, the scans and the wheels: it may overlap less, as where
 // people came near meanwhile.
-LoopClosureOptions LoopSearch::optionsFor(const Attempt& attempt, const mapper::State& state) const {
+LoopClosureOptions LoopSearch::optionsFor(const Attempt& attempt) const {
   constexpr double kShare = 0.8;  // of the overlap that others must have
   LoopClosureOptions options = options_;
-  if (isAcrossBreak(attempt, state) && isNearEstimate(attempt)) options.min_overlap *= kShare;
+  if (isAcrossBreak(*attempt.place) && isNearEstimate(attempt)) options.min_overlap *= kShare;
   return options;
 }
 
@@ -82,17 +82,15 @@ bool LoopSearch::isNearEstimate(const Attempt& attempt) {
          distanceBetween(attempt.matches.front().reference_from_scan, attempt.guess).within(kNear, kNearTurn);
 }
 
-// Whether the base may have been carried between the place and now, so that a wide window was searched.
-bool LoopSearch::isAcrossBreak(const Attempt& attempt, const mapper::State& state) const {
-  return attempt.place->centre.frame.session == newest_.back().frame.session &&
-         uncertaintyAt(*attempt.place, state).position > options_.max_window;
+bool LoopSearch::isAcrossBreak(const Place& place) const {
+  return place.centre.frame.session == newest_.back().frame.session && place.centre.travel < broken_;
 }
 
 // In a wide window, points lie on walls in more than one place, where corridors look alike. The beams of all newest
 // scans must fit what was seen around the place, too.
 bool LoopSearch::confirmsAcrossBreak(const Attempt& attempt, const mapper::State& state,
                                      mapper::Decision& decision) const {
-  if (!isAcrossBreak(attempt, state)) return true;
+  if (!isAcrossBreak(*attempt.place)) return true;
   const ScanDatabase around(state.map, {{label_, attempt.place->around}}, matcher_);
   const TPose2D map_from_newest = planar(state.map.keyFrame(attempt.place->centre.frame).map_from_base) +
                                   attempt.matches.front().reference_from_scan;
@@ -166,7 +164,7 @@ double LoopSearch::queryTravel(const SearchUncertainty& uncertainty) const {
 matching::ScanWithNormals LoopSearch::localMapOf(const Place& place, const SearchUncertainty& uncertainty,
                                                  const mapper::State& state) const {
   const double reach = 2 * options_.context + uncertainty.position,
-               end = std::max(newest_.front().travel, newest_.back().travel - queryTravel(uncertainty));
+               end = std::max(newest_.back().travel - queryTravel(uncertainty), broken_);
   std::vector<KeyScan> key_scans;
   std::copy_if(place.around.begin(), place.around.end(), std::back_inserter(key_scans), [&](const KeyScan& key_scan) {
     const bool is_query = key_scan.frame.session == newest_.back().frame.session && key_scan.travel >= end;
@@ -185,7 +183,8 @@ matching::ScanWithNormals LoopSearch::query(const SearchUncertainty& uncertainty
 
 // Poses at which the fine matcher starts; within its own convergence region only the guess.
 std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, const matching::ScanWithNormals& query,
-                                        const TPose2D& guess, const SearchUncertainty& uncertainty) const {
+                                        const TPose2D& guess, const SearchUncertainty& uncertainty,
+                                        bool is_across_break) const {
   constexpr double kReach = 0.4;       // [m]
   constexpr double kAngleReach = 0.2;  // [rad]
   constexpr double kSpacing = 0.25;    // [m] between the points that are searched with
@@ -205,7 +204,7 @@ std::vector<TPose2D> LoopSearch::starts(const matching::ScanWithNormals& local, 
   // Across a gap the base may have been carried; most often it was not, and the search may miss the estimate where
   // people hide the walls.
   std::vector<TPose2D> found;
-  if (uncertainty.position > options_.max_window) found.push_back(guess);
+  if (is_across_break) found.push_back(guess);
   for (const auto& result :
        matching::search(pyramid, matching::voxelDownsample(query, kSpacing).points, window, limits)) {
     found.push_back(result.map_from_scan);
@@ -242,7 +241,7 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
              query = matching::voxelDownsample(this->query(uncertainty, state), kSpacing);
   const auto reference = matcher_->prepare(local);
   auto& matches = attempt.matches;
-  for (const auto& start : starts(local, query, guess, uncertainty))
+  for (const auto& start : starts(local, query, guess, uncertainty, isAcrossBreak(place)))
     matches.push_back(matcher_->match(*reference, query, start));
   std::sort(matches.begin(), matches.end(), [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
   return attempt;

@@ -4,6 +4,7 @@
 #include <omnimapper/plugin/Job.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ class LoopSearch {
     label_ = std::move(label);
   }
 
+  /// Tells the distance travelled [m] at which the base may have been carried last: how it moved then is unknown.
+  void setBroken(double travel) { broken_ = travel; }
+
   /// A hypothesis for each place that matches, and a decision for each place that was tried.
   mapper::Batch operator()(const mapper::State& state) const;
 
@@ -72,16 +76,17 @@ class LoopSearch {
   };
   /// None if, by the estimate, the place is out of reach or a closure would add no information.
   std::optional<Attempt> attemptAt(const Place& place, const mapper::State& state) const;
-  LoopClosureOptions optionsFor(const Attempt& attempt, const mapper::State& state) const;
+  LoopClosureOptions optionsFor(const Attempt& attempt) const;
   static bool isNearEstimate(const Attempt& attempt);
-  bool isAcrossBreak(const Attempt& attempt, const mapper::State& state) const;
+  // Whether the base may have been carried between the place and now.
+  bool isAcrossBreak(const Place& place) const;
   bool confirmsAcrossBreak(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
   bool confirmsSession(const Attempt& attempt, const mapper::State& state, mapper::Decision& decision) const;
   static std::optional<double> overlapElsewhere(const std::vector<Attempt>& attempts, const Attempt& attempt,
                                                 const mapper::State& state);
   std::vector<mrpt::math::TPose2D> starts(const matching::ScanWithNormals& local,
                                           const matching::ScanWithNormals& query, const mrpt::math::TPose2D& guess,
-                                          const SearchUncertainty& uncertainty) const;
+                                          const SearchUncertainty& uncertainty, bool is_across_break) const;
 
   LoopClosureOptions options_;
   mapper::PluginContext context_;
@@ -90,6 +95,7 @@ class LoopSearch {
   std::vector<Place> places_;
   std::shared_ptr<const ScanDatabase> saved_;  // null if no map is continued
   std::string label_;
+  double broken_ = -std::numeric_limits<double>::infinity();  // [m] travelled when the base may have been carried
 };
 
 /// The note that marks the factors of closures found by a search of the whole map.

@@ -23,6 +23,7 @@ void RecentSurfaces::add(const map::KeyFrame& frame, const std::vector<PlaneMeas
   if (seen_.empty() || seen_.back().frame != frame.id) seen_.push_back({frame.id, {}});
   auto& all = seen_.back().in_base;
   all.insert(all.end(), samples.begin(), samples.end());
+  sensor_in_base_ = sensor_in_base;
 }
 
 void RecentSurfaces::keep(std::size_t key_frames) {
@@ -68,33 +69,6 @@ std::optional<std::size_t> RecentSurfaces::secondView(const map::Map& map) const
 }
 
 namespace {
-
-// Samples of one plane that a session has seen.
-struct SeenPlane {
-  Vector3d normal = Vector3d::Zero(), middle = Vector3d::Zero();
-  double area = 0;
-  std::vector<Vector3d> points;
-};
-
-// Largest first.
-std::vector<SeenPlane> planesOf(const std::vector<SurfaceSample>& samples) {
-  constexpr double kAlong = 0.99, kOff = 0.1;  // cosine of 8 deg, [m]
-  std::vector<SeenPlane> planes;
-  for (const auto& sample : samples) {
-    const auto same = std::find_if(planes.begin(), planes.end(), [&](const SeenPlane& plane) {
-      return plane.normal.normalized().dot(sample.normal) > kAlong &&
-             std::abs(plane.normal.normalized().dot(sample.point - plane.middle)) < kOff;
-    });
-    SeenPlane& plane = same == planes.end() ? planes.emplace_back() : *same;
-    plane.normal += sample.area * sample.normal;
-    plane.middle = (plane.area * plane.middle + sample.area * sample.point) / (plane.area + sample.area);
-    plane.area += sample.area;
-    plane.points.push_back(sample.point);
-  }
-  for (auto& plane : planes) plane.normal.normalize();
-  std::stable_sort(planes.begin(), planes.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
-  return planes;
-}
 
 using SeenTriple = std::array<const SeenPlane*, 3>;
 using MapTriple = std::array<const PlaneLandmarkIndex::Surface*, 3>;
@@ -173,7 +147,7 @@ bool isLevelMotion(const Se3& pose) {
 // Whether one place is better than another by far: it explains much more, or it leaves out only little of what the
 // other one leaves out, as where a room looks nearly the same from the other end. `all`: area that is compared [m^2].
 bool isDistinct(const Hypothesis& best, const Hypothesis& other, double all) {
-  constexpr double kShare = 0.75, kTimes = 3, kLeast = 1;  // of the score; of what is left out, and [m^2] beyond
+  constexpr double kShare = 0.6, kTimes = 3, kLeast = 1;  // of the score; of what is left out, and [m^2] beyond
   return other.score <= kShare * best.score || all - other.score >= kTimes * (all - best.score) + kLeast;
 }
 
@@ -224,7 +198,7 @@ std::optional<SessionPlacing> placeOf(const std::vector<SurfaceSample>& in_sessi
   const std::size_t every = std::max<std::size_t>(1, in_session.size() / kThinned);
   for (std::size_t i = 0; i < in_session.size(); i += every) thinned.push_back(in_session[i]);
 
-  auto found = hypothesesOf(planesOf(in_session), map, planar);
+  auto found = hypothesesOf(seenPlanesOf(in_session), map, planar);
   for (auto& one : found) {
     double agrees = 0;
     for (const auto& sample : thinned)
@@ -268,11 +242,12 @@ std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& f
     is_lost_ = true;
     since_placed_ = 0;
   }
-  if (!is_lost_ || ++since_search_ < kSpacing) return std::nullopt;
+  if (!is_lost_ || ++since_search_ < kSpacing + searches_ / 2) return std::nullopt;
   const auto second = recent.secondView(view.map);
   if (!second) return std::nullopt;
   since_search_ = 0;
-  const KnownSurfaces map(known, view.map.sessions.back().number);
+  ++searches_;  // they become rarer, because a session of another place is never found
+  const KnownSurfaces map(known, view.map.sessions.back().number, view.map.key_frames, recent.sensorInBase());
   const auto placing = placeOf(recent.inSession(view.map), map, planar);
   found_ = "the planes that are seen fit no place of the map";
   if (!placing) return std::nullopt;
@@ -289,6 +264,7 @@ std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& f
   if (!fits(placing->agreement) || !is_seen_twice) return std::nullopt;
   found_ = "the planes of two views fit one place of the map: the session is moved there";
   is_lost_ = false;
+  searches_ = 0;
   since_placed_ = 1;
   const auto map_from_base = geometry::toMrpt(pose * geometry::fromMrpt(frame.map_from_base));
   return mapper::SessionPlace{frame.id, {map_from_base, kPositionSigma, kAngleSigma}};
@@ -299,7 +275,7 @@ void PlaneWatch::add(const RecentSurfaces& recent, const PlaneLandmarkIndex& kno
   constexpr std::size_t kCompared = 5;                                             // [key frames]
   constexpr double kContradicts = 0.3, kConfirms = 0.9, kSeen = 0.4, kHeld = 0.3;  // shares, [m^2]
   if (recent.size() == 0) return;
-  const KnownSurfaces map(known, view.map.sessions.back().number);
+  const KnownSurfaces map(known, view.map.sessions.back().number, view.map.key_frames, recent.sensorInBase());
   const std::size_t first = recent.size() - std::min(recent.size(), kCompared);
   const auto agreement = map.compare(recent.inSession(view.map, first, recent.size()), {});
   const bool contradicts = agreement.contradicts > 0 && 1 - agreement.share() > kContradicts;

@@ -21,7 +21,8 @@ class RecentSurfaces {
   /// Forgets the oldest key frames, so that at most `key_frames` remain.
   void keep(std::size_t key_frames);
   void clear() { seen_.clear(); }
-  std::size_t size() const { return seen_.size(); }  ///< number of key frames
+  std::size_t size() const { return seen_.size(); }                        ///< number of key frames
+  const Eigen::Vector3d& sensorInBase() const { return sensor_in_base_; }  ///< of the newest [m]
 
   /// The pieces in the frame of the session, by the poses that the key frames have now; of pieces of one place, only
   /// the one seen last. Those of the key frames from the `first` of size() on, up to the one before `end`.
@@ -36,6 +37,7 @@ class RecentSurfaces {
     std::vector<SurfaceSample> in_base;
   };
   std::deque<Seen> seen_;
+  Eigen::Vector3d sensor_in_base_ = Eigen::Vector3d::Zero();
 };
 
 /// Where surfaces that a session has seen fit the map.
@@ -69,6 +71,7 @@ class SessionByPlanes {
   bool is_known_whether_lost_ = false, is_lost_ = false;
   bool is_unsolved_ = false;                         // it was placed, but its uncertainty is still that of before
   std::size_t since_placed_ = 0, since_search_ = 0;  // [key frames]
+  std::size_t searches_ = 0;                         // without an answer
   std::string found_;
 };
 

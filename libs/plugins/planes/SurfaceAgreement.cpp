@@ -1,5 +1,7 @@
 #include "SurfaceAgreement.h"
 
+#include <omnimapper/geometry/Conversions.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -18,26 +20,25 @@ namespace {
 constexpr double kOnSurface = 0.1;  // [m] from a surface to a sample that lies on it
 constexpr double kParallel = 0.94;  // cosine of 20 deg: normals of one surface
 
-bool wasSeenAt(const Surface& surface, const Vector3d& point) {
-  const auto cell = surface.seen.cellAt(point);
-  return cell && surface.seen.isSet(*cell);
+bool wasSeenAt(const surfaces::CellGrid& seen, const Vector3d& point) {
+  const auto cell = seen.cellAt(point);
+  return cell && seen.isSet(*cell);
 }
 
 // At an edge, a ray may pass beside the real surface.
-bool wasSeenAround(const Surface& surface, const Vector3d& point) {
-  constexpr double kEdge = 0.15;  // [m]
-  const Vector3d u = kEdge * surface.seen.u(), v = kEdge * surface.seen.v();
-  return wasSeenAt(surface, point) && wasSeenAt(surface, point + u) && wasSeenAt(surface, point - u) &&
-         wasSeenAt(surface, point + v) && wasSeenAt(surface, point - v);
+bool wasSeenAround(const surfaces::CellGrid& seen, const Vector3d& point) {
+  const double edge = std::max(0.15, seen.cell());  // [m]
+  const Vector3d u = edge * seen.u(), v = edge * seen.v();
+  return wasSeenAt(seen, point) && wasSeenAt(seen, point + u) && wasSeenAt(seen, point - u) &&
+         wasSeenAt(seen, point + v) && wasSeenAt(seen, point - v);
 }
 
-// Whether the ray from the sensor to the sample passes through the surface.
-bool isSeenThrough(const Surface& surface, const SurfaceSample& sample) {
+// Whether the ray from the sensor to the sample passes through the part of the plane that was seen.
+bool isSeenThrough(const geometry::Plane3& plane, const surfaces::CellGrid& seen, const SurfaceSample& sample) {
   constexpr double kThick = 0.25, kSensor = 0.05;  // [m]
-  const double before = signedDistance(surface.plane, sample.sensor),
-               behind = signedDistance(surface.plane, sample.point);
+  const double before = signedDistance(plane, sample.sensor), behind = signedDistance(plane, sample.point);
   if (before * behind >= 0 || std::abs(before) < kSensor || std::abs(behind) < kThick) return false;
-  return wasSeenAround(surface, sample.sensor + before / (before - behind) * (sample.point - sample.sensor));
+  return wasSeenAround(seen, sample.sensor + before / (before - behind) * (sample.point - sample.sensor));
 }
 
 }  // namespace
@@ -72,14 +73,68 @@ double SurfaceAgreement::heldAtLeast(bool planar) const {
 bool wasSeenNear(const Surface& surface, const Vector3d& point) {
   constexpr double kNear = 0.1;  // [m]
   const Vector3d u = kNear * surface.seen.u(), v = kNear * surface.seen.v();
-  return wasSeenAt(surface, point) || wasSeenAt(surface, point + u) || wasSeenAt(surface, point - u) ||
-         wasSeenAt(surface, point + v) || wasSeenAt(surface, point - v);
+  return wasSeenAt(surface.seen, point) || wasSeenAt(surface.seen, point + u) || wasSeenAt(surface.seen, point - u) ||
+         wasSeenAt(surface.seen, point + v) || wasSeenAt(surface.seen, point - v);
 }
 
-KnownSurfaces::KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t session) {
+std::vector<SeenPlane> seenPlanesOf(const std::vector<SurfaceSample>& samples) {
+  constexpr double kAlong = 0.99, kOff = 0.1;  // cosine of 8 deg, [m]
+  std::vector<SeenPlane> planes;
+  for (const auto& sample : samples) {
+    const auto same = std::find_if(planes.begin(), planes.end(), [&](const SeenPlane& plane) {
+      return plane.normal.normalized().dot(sample.normal) > kAlong &&
+             std::abs(plane.normal.normalized().dot(sample.point - plane.middle)) < kOff;
+    });
+    SeenPlane& plane = same == planes.end() ? planes.emplace_back() : *same;
+    plane.normal += sample.area * sample.normal;
+    plane.middle = (plane.area * plane.middle + sample.area * sample.point) / (plane.area + sample.area);
+    plane.area += sample.area;
+    plane.points.push_back(sample.point);
+  }
+  for (auto& plane : planes) plane.normal.normalize();
+  std::stable_sort(planes.begin(), planes.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+  return planes;
+}
+
+namespace {
+
+// A few points of each part of a surface, with the place that they were seen from.
+void addSamples(const PlanePayload& payload, const Surface& surface, const map::KeyFrames& key_frames,
+                const Vector3d& sensor_in_base, std::vector<SurfaceSample>& samples) {
+  constexpr std::size_t kOfPatch = 4;
+  const double area = surface.seen.area() / static_cast<double>(std::max<std::size_t>(1, payload.patches.size()));
+  for (const auto& patch : payload.patches) {
+    const auto* frame = key_frames.find(patch.frame);
+    const auto& outline = patch.outlineInBase();
+    if (!frame || outline.size() < 3) continue;
+    const Se3 pose = geometry::fromMrpt(frame->map_from_base);
+    Vector3d middle = Vector3d::Zero();
+    for (const auto& corner : outline) middle += corner / static_cast<double>(outline.size());
+    const std::size_t every = std::max<std::size_t>(1, outline.size() / kOfPatch);
+    for (std::size_t i = 0; i < outline.size(); i += every)
+      samples.push_back({pose * (0.5 * (middle + outline[i])), surface.plane.normal, pose * sensor_in_base,
+                         area * static_cast<double>(every) / static_cast<double>(outline.size())});
+  }
+}
+
+// The part of a plane that a session has seen.
+surfaces::CellGrid gridOf(const SeenPlane& plane) {
+  constexpr double kCell = 0.25;  // [m]
+  auto grid = surfaces::CellGrid::around(geometry::Plane3::through(plane.middle, plane.normal), plane.points, kCell);
+  for (const auto& point : plane.points)
+    if (const auto cell = grid.cellAt(point)) grid.set(*cell);
+  return grid;
+}
+
+}  // namespace
+
+KnownSurfaces::KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t session, const map::KeyFrames& key_frames,
+                             const Vector3d& sensor_in_base) {
   for (const auto& [id, surface] : known.all()) {
-    if (id.session == session || dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate) continue;
-    if (surface.seen.count() > 0) surfaces_.push_back(&surface);
+    const auto& payload = dynamic_cast<const PlanePayload&>(*surface.payload);
+    if (id.session == session || payload.is_candidate || surface.seen.count() == 0) continue;
+    surfaces_.push_back(&surface);
+    addSamples(payload, surface, key_frames, sensor_in_base, samples_);
   }
 }
 
@@ -105,9 +160,16 @@ SurfaceAgreement KnownSurfaces::compare(const std::vector<SurfaceSample>& sample
       agreement.agrees += sample.area;
       agreement.held += sample.area * in_map.normal * in_map.normal.transpose();
     } else if (std::any_of(surfaces_.begin(), surfaces_.end(),
-                           [&](const auto* surface) { return isSeenThrough(*surface, in_map); })) {
+                           [&](const auto* surface) { return isSeenThrough(surface->plane, surface->seen, in_map); })) {
       agreement.contradicts += sample.area;
     }
+  }
+  const Se3 samples_from_map = inverse(map_from_samples);
+  for (const auto& plane : seenPlanesOf(samples)) {
+    const auto in_samples = geometry::Plane3::through(plane.middle, plane.normal);
+    const auto grid = gridOf(plane);
+    for (const auto& sample : samples_)
+      if (isSeenThrough(in_samples, grid, samples_from_map * sample)) agreement.contradicts += sample.area;
   }
   return agreement;
 }

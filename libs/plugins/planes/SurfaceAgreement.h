@@ -29,9 +29,10 @@ SurfaceSample operator*(const geometry::Se3& a_from_b, const SurfaceSample& samp
 
 /// How measured surfaces agree with those of a map [m^2].
 struct SurfaceAgreement {
-  double agrees = 0;       ///< area that lies on a surface of the map
-  double contradicts = 0;  ///< area that was seen through a surface of the map
-  double all = 0;          ///< area that was compared; for the rest, the map has nothing at this place
+  double agrees = 0;  ///< area that lies on a surface of the map
+  /// Area that was seen through a surface of the map, and area of the map that was seen through what is seen now.
+  double contradicts = 0;
+  double all = 0;  ///< area that was compared; for the rest, the map has nothing at this place
   /// Sum of area * normal * normal^T over the area that agrees: how well it holds the place in each direction.
   Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
 
@@ -46,7 +47,9 @@ struct SurfaceAgreement {
 class KnownSurfaces {
  public:
   /// Candidates, which may be noise, and surfaces of `session` are left out.
-  KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t session);
+  /// `sensor_in_base`: where the sensor was on the base when the map was made [m]; it is taken for that of now.
+  KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t session, const map::KeyFrames& key_frames,
+                const Eigen::Vector3d& sensor_in_base);
 
   const std::vector<const PlaneLandmarkIndex::Surface*>& all() const { return surfaces_; }
   /// The surface that a sample lies on; null if there is none.
@@ -58,7 +61,17 @@ class KnownSurfaces {
 
  private:
   std::vector<const PlaneLandmarkIndex::Surface*> surfaces_;
+  std::vector<SurfaceSample> samples_;  // of the surfaces, as they were seen when the map was made
 };
+
+/// A plane that a session has seen, by its samples.
+struct SeenPlane {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(), middle = Eigen::Vector3d::Zero();
+  double area = 0;  ///< [m^2]
+  std::vector<Eigen::Vector3d> points;
+};
+/// The planes of samples, the largest first.
+std::vector<SeenPlane> seenPlanesOf(const std::vector<SurfaceSample>& samples);
 
 /// Whether a surface was seen at the foot of a point, or within 0.1 m of it.
 bool wasSeenNear(const PlaneLandmarkIndex::Surface& surface, const Eigen::Vector3d& point_in_map);

@@ -27,13 +27,12 @@ std::vector<Rectangle> emptyRoom() {
           {{0, -2, 1.25}, {-3, 0, 0}, {0, 0, 1.25}}};
 }
 
-// The same with a table and a cupboard.
+// The same with a corner cut off by a slanted wall. It is convex, so that nothing hides anything.
 std::vector<Rectangle> room() {
-  auto all = emptyRoom();
-  all.push_back({{1.5, 1, 0.75}, {0.8, 0, 0}, {0, 0.5, 0}});
-  all.push_back({{-2.4, -1, 1}, {0, 0.6, 0}, {0, 0, 1}});
-  all.push_back({{-2.7, -0.4, 1}, {0.3, 0, 0}, {0, 0, 1}});
-  return all;
+  return {{{-0.75, 0, 0}, {2.25, 0, 0}, {0, 2, 0}},  {{2.25, -1, 0}, {0.75, 0, 0}, {0, 1, 0}},
+          {{3, -1, 1.25}, {0, -1, 0}, {0, 0, 1.25}}, {{2.25, 1, 1.25}, {0.75, -1, 0}, {0, 0, 1.25}},
+          {{-3, 0, 1.25}, {0, 2, 0}, {0, 0, 1.25}},  {{-0.75, 2, 1.25}, {2.25, 0, 0}, {0, 0, 1.25}},
+          {{0, -2, 1.25}, {-3, 0, 0}, {0, 0, 1.25}}};
 }
 
 std::vector<obs::ObservedPlane> seen(const std::vector<Rectangle>& room, const Se3& sensor_from_map) {
@@ -129,11 +128,10 @@ TEST_F(SessionPlanes, OfOneWallFitNowhere) {
 // The corner of a room is in every room; the rest shows that it is another one.
 TEST_F(SessionPlanes, OfAnotherRoomFitNowhere) {
   mapOf(room());
-  auto other = room();
-  other[1] = {{5, 0, 1.25}, {0, -3, 0}, {0, 0, 1.25}};
-  other[3] = {{0, 3, 1.25}, {5, 0, 0}, {0, 0, 1.25}};
-  other[5] = {{-1, 0, 0.45}, {0.4, 0, 0}, {0, 0.9, 0}};
-  other.resize(6);
+  std::vector<Rectangle> other = emptyRoom();
+  other[0] = {{0.5, 0.5, 0}, {3.5, 0, 0}, {0, 2.5, 0}};
+  other[1] = {{4, 0.5, 1.25}, {0, -2.5, 0}, {0, 0, 1.25}};
+  other[3] = {{0.5, 3, 1.25}, {3.5, 0, 0}, {0, 0, 1.25}};
   goOn(other, kSession);
   EXPECT_FALSE(place_);
 }

@@ -210,9 +210,17 @@ void BackEnd::judgeMap() {
   collect(plugins_.measurement, [this](const MeasurementPlugin& plugin) { return plugin.evidence(state_.view()); });
   if (!state_.map_is_held) {
     for (const auto& session : state_.map.sessions) {
-      if (session.aligned) continue;
-      evidence.push_back({"session_" + std::to_string(session.number) + "_not_aligned", 1, Evidence::Says::against_it,
-                          alignedText(session) + " with the map and lies at its assumed start"});
+      const std::string name = "session_" + std::to_string(session.number);
+      const auto ties = testedTies(state_.graph, session.number);
+      if (!session.aligned) {
+        evidence.push_back({name + "_not_aligned", 1, Evidence::Says::against_it,
+                            alignedText(session) + " with the map and lies at its assumed start"});
+      } else if (ties.areMostlyRefused()) {
+        evidence.push_back({name + "_ties_refused", static_cast<double>(ties.refused), Evidence::Says::against_it,
+                            std::to_string(ties.refused) + " of the " + std::to_string(ties.refused + ties.accepted) +
+                                " measurements that tie session " + std::to_string(session.number) +
+                                " to the map do not fit"});
+      }
     }
   }
   if (settings_.engine.motion == Motion::planar) {
