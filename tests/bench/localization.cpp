@@ -11,12 +11,16 @@
 #include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "LogParts.h"
 
@@ -170,7 +174,8 @@ std::string localize(const Setup& setup, const std::string& log, const std::stri
 
 // A session that continues the map: the poses of all its key frames at the end, located if the session is aligned.
 Row compareContinued(const std::string& folder, std::uint16_t session, const eval::Trajectory& whole) {
-  constexpr double kWrong = 0.5;  // [m]
+  constexpr double kWrong = 0.5;                                     // [m]
+  if (!std::filesystem::exists(folder + "/map.omnimap")) return {};  // the run failed
   const auto both = log_parts::mapIn(folder);
   const auto half = halfOf(both, whole);
   Row row;
@@ -195,6 +200,7 @@ Row compareContinued(const std::string& folder, std::uint16_t session, const eva
 // Starts in the map that are at least 3 m away from where the log begins, with any heading.
 std::vector<std::vector<std::string>> wrongStarts(const Half& half, const Se3& right, int count, unsigned seed) {
   constexpr double kApart = 3;  // [m]
+  if (half.frames.empty()) return {};
   std::mt19937 generator(seed);
   std::uniform_int_distribution<std::size_t> frame(0, half.frames.size() - 1);
   std::uniform_real_distribution<double> heading(-180, 180);

@@ -77,8 +77,9 @@ mapper::Batch LoopClosurePlugin::measure(const map::KeyFrame& frame, const mappe
     searches_.emplace_back(options_, context_, matcher_,
                            keyScans(history, index, options_.context + options_.max_window, 0), std::move(places));
     searches_.back().testSessionsWith(places_, observed.observation.sensorLabel);
-    const auto broken = newestBreak(history, index);
-    if (broken && history[*broken].since == StampedScan::Since::broken)
+    const auto tied = closures_.newestTied(view.graph);
+    const auto broken = newestBreak(history, index, StampedScan::Since::broken);
+    if (broken && (!tied || history[*broken].stamp > *tied))
       searches_.back().setBroken(history[*broken].key_scan.travel);
   }
   return {};
@@ -96,6 +97,7 @@ void LoopClosurePlugin::watchSession(const map::KeyFrame& frame, const std::stri
 }
 
 LoopClosurePlugin::Says LoopClosurePlugin::aboutSession() const {
+  if (!places_) return Says::unable;
   if (watch_.isContradicted()) return Says::contradicted;
   return watch_.isConfirmed() ? Says::confirmed : Says::nothing;
 }
@@ -167,10 +169,11 @@ void LoopClosurePlugin::seekSlip(const History& history, const mapper::View& vie
   slip_searches_.emplace_back(options_, context_, matcher_, std::move(refused), std::move(trajectory));
 }
 
-std::optional<std::size_t> LoopClosurePlugin::newestBreak(const History& history, std::size_t index) {
+std::optional<std::size_t> LoopClosurePlugin::newestBreak(const History& history, std::size_t index,
+                                                          StampedScan::Since least) {
   const auto session = history[index].key_scan.frame.session;
   for (std::size_t i = index + 1; i-- > 0 && history[i].key_scan.frame.session == session;) {
-    if (history[i].since != StampedScan::Since::known) return i;
+    if (history[i].since >= least) return i;
   }
   return std::nullopt;
 }

@@ -77,7 +77,8 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin,
   std::size_t remember(const map::KeyFrame& frame, const Scan& scan, const mapper::State& state, History& history);
 
   /// Index of the newest scan up to `index`, in its session, before which the motion is not well known.
-  static std::optional<std::size_t> newestBreak(const History& history, std::size_t index);
+  static std::optional<std::size_t> newestBreak(const History& history, std::size_t index,
+                                                StampedScan::Since least = StampedScan::Since::weak);
   static double travelSince(std::optional<base::Stamp> stamp, const History& history, std::size_t index);
   void seekSlip(const History& history, const mapper::View& view);
   void seekGlobally(const std::string& label, const History& history, std::size_t index, const mapper::State& state);

@@ -86,18 +86,21 @@ bool LoopSearch::isAcrossBreak(const Place& place) const {
   return place.centre.frame.session == newest_.back().frame.session && place.centre.travel < broken_;
 }
 
-// In a wide window, points lie on walls in more than one place, where corridors look alike. The beams of all newest
-// scans must fit what was seen around the place, too.
+// In a wide window, points lie on walls in more than one place, where corridors look alike. So the beams of the newest
+// scans are compared with what was seen around the place: near the estimate most must not contradict it, elsewhere
+// none.
 bool LoopSearch::confirmsAcrossBreak(const Attempt& attempt, const mapper::State& state,
                                      mapper::Decision& decision) const {
   if (!isAcrossBreak(*attempt.place)) return true;
   const ScanDatabase around(state.map, {{label_, attempt.place->around}}, matcher_);
+  if (around.empty()) return true;  // a session that is not aligned: nothing can tell
   const TPose2D map_from_newest = planar(state.map.keyFrame(attempt.place->centre.frame).map_from_base) +
                                   attempt.matches.front().reference_from_scan;
   const auto fit = checkSession(around, label_, newest_, map_from_newest, state);
   decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
   if (fit.confirms(true) || (isNearEstimate(attempt) && fit.fits > 0 && 2 * fit.contradicting < fit.scans)) return true;
-  decision.reason = "beams contradict what was seen there before the gap";
+  decision.reason = fit.contradicting > 0 ? "beams contradict what was seen there before the gap"
+                                          : "beams do not confirm what was seen there before the gap";
   return false;
 }
 

@@ -49,7 +49,7 @@ class LoopSearch {
     label_ = std::move(label);
   }
 
-  /// Tells the distance travelled [m] at which the base may have been carried last: how it moved then is unknown.
+  /// Sets the distance travelled [m] at the newest gap across which the base may have been carried.
   void setBroken(double travel) { broken_ = travel; }
 
   /// A hypothesis for each place that matches, and a decision for each place that was tried.

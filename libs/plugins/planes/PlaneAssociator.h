@@ -75,8 +75,8 @@ class PlaneAssociator {
   const landmarks::PlaneParametrization& form_;
   const map::KeyFrame& frame_;
   const mapper::View& view_;
-  // True while other plugins seek the pose of the newest session; no measurement here may then tie it to other
-  // sessions.
+  // True while the pose of the newest session in the map is sought, by this plugin or by others; no measurement here
+  // may then tie it to other sessions.
   const bool others_seek_;
   geometry::Se3 map_from_base_;
   double pose_sigma_ = 0;                                                  // [m] of the base in the map

@@ -9,7 +9,6 @@
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SessionStart.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "PlaneAssociator.h"
@@ -132,7 +131,7 @@ mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const ma
     mrpt::poses::CPose3D base_from_sensor;
     observed.observation.getSensorPose(base_from_sensor);
     of_session = watchSession(frame, measurements, geometry::fromMrpt(base_from_sensor).translation, view);
-    if (of_session.sessionPlace() || of_session.changesGraph()) return of_session;
+    if (of_session.sessionPlace()) return of_session;
   }
   // A run that only localizes and knows roughly where it starts must be located soon; a wrong association harms no map
   // there.
@@ -147,14 +146,14 @@ mapper::Batch PlaneLandmarksPlugin::watchSession(const map::KeyFrame& frame,
                                                  const Eigen::Vector3d& sensor_in_base, const mapper::View& view) {
   auto& [recent, search, watch] = *session_;
   const bool planar = context_.motion == mapper::Motion::planar;
-  recent.add(frame, measurements, sensor_in_base);
+  mapper::Batch batch;
+  if (!recent.add(frame, measurements, sensor_in_base)) return batch;
   recent.keep(kRecentKeyFrames);
   if (view.map.sessions.back().aligned) {
     watch.add(recent, *known_, view, planar);
-    return watch.isContradicted() ? takenBack(frame, view) : mapper::Batch();
+    return batch;
   }
-  watch.reset();
-  mapper::Batch batch;
+  watch = PlaneWatch();
   const auto before = search.found();
   const bool is_free = !others_seek_ && mapper::whyFixed({frame.id, {}}, view.graph, view.map).empty();
   const auto place = search.take(frame, is_free ? recent : RecentSurfaces(), *known_, view, planar);
@@ -175,26 +174,6 @@ mapper::Decision PlaneLandmarksPlugin::aboutSearch(const map::KeyFrame& frame, b
   return decision;
 }
 
-// What the session sees contradicts the map: the measurements that tie it to earlier sessions are of other surfaces.
-mapper::Batch PlaneLandmarksPlugin::takenBack(const map::KeyFrame& frame, const mapper::View& view) {
-  mapper::Batch batch;
-  const auto session = view.map.sessions.back().number;
-  for (const auto& [id, record] : view.graph.factors()) {
-    const auto isOf = [&](base::VariableId variable) { return variable.session == session; };
-    if (record.tags.owner != context_.section || !std::any_of(record.variables.begin(), record.variables.end(), isOf))
-      continue;
-    if (!std::all_of(record.variables.begin(), record.variables.end(), isOf)) batch.removeFactor(id);
-  }
-  session_->watch.reset();
-  if (batch.removedFactors().empty()) return batch;
-  session_->search.lose();
-  auto decision = aboutSearch(
-      frame, false, "the planes that are seen contradict the map: those that tied the session there are taken back");
-  decision.numbers = {{"measurements", static_cast<double>(batch.removedFactors().size())}};
-  batch.log(std::move(decision));
-  return batch;
-}
-
 PlaneLandmarksPlugin::Says PlaneLandmarksPlugin::aboutSession() const {
   if (session_->recent.size() == 0) return Says::unable;
   if (session_->watch.isContradicted()) return Says::contradicted;
@@ -206,6 +185,7 @@ void PlaneLandmarksPlugin::applied(const mapper::AppliedBatch& ids) {
 }
 
 mapper::FollowUp PlaneLandmarksPlugin::afterCommit(const map::KeyFrame&, const mapper::View& view) {
+  session_->watch.endKeyFrame();
   if (view.solves.size() == merged_at_solve_ || view.map_is_held) return {};
   merged_at_solve_ = view.solves.size();
   return {mergeAlike(*known_, options_, context_.section, view), {}};
@@ -213,6 +193,11 @@ mapper::FollowUp PlaneLandmarksPlugin::afterCommit(const map::KeyFrame&, const m
 
 mapper::Batch PlaneLandmarksPlugin::atEnd(const mapper::View& view) {
   return view.map_is_held ? mapper::Batch() : mergeAndJudge(*known_, options_, context_.section, view);
+}
+
+std::vector<mapper::Evidence> PlaneLandmarksPlugin::evidence(const mapper::View&) const {
+  const auto evidence = session_->watch.evidence();
+  return evidence ? std::vector{*evidence} : std::vector<mapper::Evidence>();
 }
 
 void PlaneLandmarksPlugin::restore(const map::MapSection*, const mapper::View& view) {

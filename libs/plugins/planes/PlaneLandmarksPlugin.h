@@ -54,8 +54,8 @@ struct PlaneLandmarksOptions : mapper::AssociationOptions {
 /// turn out to be one surface are merged.
 ///
 /// A session that begins at an unknown place is searched for by its planes if no other plugin searches for it
-/// (SessionByPlanes). While the session is tied to the map, its planes are compared with those of the map: if they
-/// contradict it, the measurements that tie the session there are taken back.
+/// (SessionByPlanes). While the session is tied to the map, its planes are compared with those of the map: that
+/// confirms where it is, or contradicts it.
 class PlaneLandmarksPlugin : public mapper::MeasurementPlugin,
                              public mapper::LeavesSeeking,
                              public mapper::ConfirmsSession {
@@ -69,16 +69,16 @@ class PlaneLandmarksPlugin : public mapper::MeasurementPlugin,
   void applied(const mapper::AppliedBatch& ids) override;
   mapper::FollowUp afterCommit(const map::KeyFrame& frame, const mapper::View& view) override;
   mapper::Batch atEnd(const mapper::View& view) override;
+  std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
   void leaveSeeking(bool others_seek) override { others_seek_ = others_seek; }
   Says aboutSession() const override;
 
  private:
-  // Takes the measurements for the search of the session and for the comparison with the map. Returns edits that move
-  // the session or take its ties back; empty if there are none.
+  // Takes the measurements for the search of the session and for the comparison with the map. The batch moves the
+  // session if its place was found.
   mapper::Batch watchSession(const map::KeyFrame& frame, const std::vector<struct PlaneMeasurement>& measurements,
                              const Eigen::Vector3d& sensor_in_base, const mapper::View& view);
-  mapper::Batch takenBack(const map::KeyFrame& frame, const mapper::View& view);
   mapper::Decision aboutSearch(const map::KeyFrame& frame, bool accepted, std::string reason) const;
 
   PlaneLandmarksOptions options_;

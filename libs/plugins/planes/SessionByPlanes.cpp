@@ -4,11 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace omnimapper::plugins {
@@ -16,14 +16,15 @@ namespace omnimapper::plugins {
 using Eigen::Vector3d;
 using geometry::Se3;
 
-void RecentSurfaces::add(const map::KeyFrame& frame, const std::vector<PlaneMeasurement>& measurements,
+bool RecentSurfaces::add(const map::KeyFrame& frame, const std::vector<PlaneMeasurement>& measurements,
                          const Vector3d& sensor_in_base) {
-  auto samples = samplesOf(measurements, sensor_in_base);
-  if (samples.empty()) return;
+  const auto samples = samplesOf(measurements, sensor_in_base);
+  if (samples.empty()) return false;
   if (seen_.empty() || seen_.back().frame != frame.id) seen_.push_back({frame.id, {}});
   auto& all = seen_.back().in_base;
   all.insert(all.end(), samples.begin(), samples.end());
   sensor_in_base_ = sensor_in_base;
+  return true;
 }
 
 void RecentSurfaces::keep(std::size_t key_frames) {
@@ -31,7 +32,7 @@ void RecentSurfaces::keep(std::size_t key_frames) {
 }
 
 std::vector<SurfaceSample> RecentSurfaces::inSession(const map::Map& map, std::size_t first, std::size_t end) const {
-  constexpr double kPlace = 0.25;  // [m]
+  constexpr double kPlace = 0.25, kFarthest = 1e6;  // [m]
   std::vector<SurfaceSample> samples;
   std::set<std::array<int, 6>> places;
   for (std::size_t i = end; i-- > first;) {
@@ -40,6 +41,7 @@ std::vector<SurfaceSample> RecentSurfaces::inSession(const map::Map& map, std::s
     const Se3 pose = geometry::fromMrpt(frame->map_from_base);
     for (const auto& sample : seen_[i].in_base) {
       const SurfaceSample moved = pose * sample;
+      if (!(moved.point.cwiseAbs().maxCoeff() < kFarthest)) continue;
       std::array<int, 6> place{};
       for (int axis = 0; axis < 3; ++axis) {
         place[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(moved.point[axis] / kPlace));
@@ -71,7 +73,7 @@ std::optional<std::size_t> RecentSurfaces::secondView(const map::Map& map) const
 namespace {
 
 using SeenTriple = std::array<const SeenPlane*, 3>;
-using MapTriple = std::array<const PlaneLandmarkIndex::Surface*, 3>;
+using MapTriple = std::array<const KnownSurfaces::Part*, 3>;
 
 // Triples that hold a pose in each direction, those of large planes first.
 std::vector<SeenTriple> triplesOf(const std::vector<SeenPlane>& planes) {
@@ -116,7 +118,7 @@ double overlapOf(const SeenTriple& seen, const MapTriple& known, const Se3& pose
   double area = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto on = std::count_if(seen[i]->points.begin(), seen[i]->points.end(),
-                                  [&](const Vector3d& point) { return wasSeenNear(*known[i], pose * point); });
+                                  [&](const Vector3d& point) { return known[i]->wasSeenNear(pose * point); });
     const double share = static_cast<double>(on) / static_cast<double>(seen[i]->points.size());
     if (share < kLeastShare) return 0;
     area += share * seen[i]->area;
@@ -155,11 +157,10 @@ bool isDistinct(const Hypothesis& best, const Hypothesis& other, double all) {
 std::vector<Hypothesis> hypothesesOf(const std::vector<SeenPlane>& planes, const KnownSurfaces& map, bool planar) {
   constexpr std::size_t kLargest = 100, kKept = 400;
   constexpr double kLeastArea = 0.3, kAngle = 0.12;  // [m^2], of cosines
-  std::vector<const PlaneLandmarkIndex::Surface*> surfaces;
-  for (const auto* surface : map.all())
-    if (surface->seen.area() >= kLeastArea) surfaces.push_back(surface);
-  std::stable_sort(surfaces.begin(), surfaces.end(),
-                   [](const auto* a, const auto* b) { return a->seen.area() > b->seen.area(); });
+  std::vector<const KnownSurfaces::Part*> surfaces;
+  for (const auto& part : map.all())
+    if (part.area >= kLeastArea) surfaces.push_back(&part);
+  std::stable_sort(surfaces.begin(), surfaces.end(), [](const auto* a, const auto* b) { return a->area > b->area; });
   if (surfaces.size() > kLargest) surfaces.resize(kLargest);
   std::vector<Hypothesis> found;
   for (const auto& seen : triplesOf(planes)) {
@@ -174,8 +175,9 @@ std::vector<Hypothesis> hypothesesOf(const std::vector<SeenPlane>& planes, const
         for (const auto* third : surfaces) {
           if (!isAlike(first, third, 0, 2) || !isAlike(second, third, 1, 2)) continue;
           if (cross.dot(third->plane.normal) * handed <= 0) continue;
-          const Se3 pose = poseOf(seen, {first, second, third});
+          Se3 pose = poseOf(seen, {first, second, third});
           if (planar && !isLevelMotion(pose)) continue;
+          if (planar) pose = geometry::lift(geometry::project(pose));
           const double overlap = overlapOf(seen, {first, second, third}, pose);
           if (overlap > 0) found.push_back({pose, overlap});
         }
@@ -228,7 +230,7 @@ std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& f
                                                           bool planar) {
   constexpr double kLost = 3;                                 // [m]
   constexpr std::size_t kSpacing = 5, kPatience = 30;         // [key frames]
-  constexpr double kShare = 0.9, kLeastSeen = 0.4;            // of what is compared with the map, of what is seen
+  constexpr double kShare = 0.97, kLeastSeen = 0.4;           // of what is compared with the map, of what is seen
   constexpr double kHeld = 0.5;                               // [m^2] in each direction
   constexpr double kPositionSigma = 0.1, kAngleSigma = 0.05;  // [m] [rad]
   const auto covariance = view.jointCovariance({frame.pose});
@@ -256,12 +258,13 @@ std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& f
            agreement.heldAtLeast(planar) >= kHeld;
   };
   const auto& pose = placing->map_from_session;
-  const bool is_seen_twice = fits(map.compare(recent.inSession(view.map, 0, *second), pose)) &&
-                             fits(map.compare(recent.inSession(view.map, *second, recent.size()), pose));
   found_ = "the planes that are seen fit more than one place of the map";
   if (!placing->is_distinct) return std::nullopt;
   found_ = "the planes that are seen fit a place of the map too poorly";
-  if (!fits(placing->agreement) || !is_seen_twice) return std::nullopt;
+  if (!fits(placing->agreement)) return std::nullopt;
+  for (const auto& view_of_it :
+       {recent.inSession(view.map, 0, *second), recent.inSession(view.map, *second, recent.size())})
+    if (!fits(map.compare(view_of_it, pose))) return std::nullopt;
   found_ = "the planes of two views fit one place of the map: the session is moved there";
   is_lost_ = false;
   searches_ = 0;
@@ -272,18 +275,32 @@ std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& f
 
 void PlaneWatch::add(const RecentSurfaces& recent, const PlaneLandmarkIndex& known, const mapper::View& view,
                      bool planar) {
-  constexpr std::size_t kCompared = 5;                                             // [key frames]
-  constexpr double kContradicts = 0.3, kConfirms = 0.9, kSeen = 0.4, kHeld = 0.3;  // shares, [m^2]
-  if (recent.size() == 0) return;
+  constexpr std::size_t kCompared = 5, kEvery = 3;                                  // [key frames] [calls]
+  constexpr double kContradicts = 0.3, kConfirms = 0.95, kSeen = 0.4, kHeld = 0.3;  // shares, [m^2]
+  if (calls_++ % kEvery != 0) return;                                               // the cost grows with the map
   const KnownSurfaces map(known, view.map.sessions.back().number, view.map.key_frames, recent.sensorInBase());
   const std::size_t first = recent.size() - std::min(recent.size(), kCompared);
   const auto agreement = map.compare(recent.inSession(view.map, first, recent.size()), {});
   const bool contradicts = agreement.contradicts > 0 && 1 - agreement.share() > kContradicts;
+  ++compared_;
+  contradicted_ += contradicts;
   contradicting_ = contradicts ? contradicting_ + 1 : 0;
-  ++since_confirmed_;
   if (agreement.share() >= kConfirms && agreement.agrees >= kSeen * agreement.all &&
       agreement.heldAtLeast(planar) >= kHeld)
     since_confirmed_ = 0;
+}
+
+std::optional<mapper::Evidence> PlaneWatch::evidence() const {
+  constexpr double kMuch = 20;  // [%]
+  if (compared_ == 0) return std::nullopt;
+  const double percent = 100 * static_cast<double>(contradicted_) / static_cast<double>(compared_);
+  mapper::Evidence evidence{"session_views_contradicting_percent", percent, mapper::Evidence::Says::good, ""};
+  if (percent <= kMuch) return evidence;
+  evidence.says = mapper::Evidence::Says::against_it;
+  evidence.reason =
+      "planes that the newest session sees contradict those of the earlier sessions: it may be aligned to a "
+      "wrong place that looks similar";
+  return evidence;
 }
 
 }  // namespace omnimapper::plugins

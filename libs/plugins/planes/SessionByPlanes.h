@@ -1,8 +1,10 @@
 #pragma once
 
 #include <omnimapper/plugin/SessionStart.h>
+#include <omnimapper/plugin/Verdict.h>
 #include <omnimapper/plugin/View.h>
 
+#include <cstddef>
 #include <deque>
 #include <optional>
 #include <string>
@@ -15,12 +17,11 @@ namespace omnimapper::plugins {
 /// What the newest session has seen lately: pieces of surfaces by key frame, in the frame of the base.
 class RecentSurfaces {
  public:
-  /// `sensor_in_base` [m].
-  void add(const map::KeyFrame& frame, const std::vector<PlaneMeasurement>& measurements,
+  /// Returns whether there was any plane. `sensor_in_base` [m].
+  bool add(const map::KeyFrame& frame, const std::vector<PlaneMeasurement>& measurements,
            const Eigen::Vector3d& sensor_in_base);
   /// Forgets the oldest key frames, so that at most `key_frames` remain.
   void keep(std::size_t key_frames);
-  void clear() { seen_.clear(); }
   std::size_t size() const { return seen_.size(); }                        ///< number of key frames
   const Eigen::Vector3d& sensorInBase() const { return sensor_in_base_; }  ///< of the newest [m]
 
@@ -28,7 +29,8 @@ class RecentSurfaces {
   /// the one seen last. Those of the key frames from the `first` of size() on, up to the one before `end`.
   std::vector<SurfaceSample> inSession(const map::Map& map, std::size_t first, std::size_t end) const;
   std::vector<SurfaceSample> inSession(const map::Map& map) const { return inSession(map, 0, size()); }
-  /// Whether the sensor looked from two places or into two directions in these halves: 1 m or 45 deg apart.
+  /// The first key frame of the newest view: those before it were seen from 1 m away or in a direction 45 deg away from
+  /// the newest. None if there are none.
   std::optional<std::size_t> secondView(const map::Map& map) const;
 
  private:
@@ -62,8 +64,6 @@ class SessionByPlanes {
                                            const PlaneLandmarkIndex& known, const mapper::View& view, bool planar);
   /// True if the place of the session is unknown, so that positions do not show which surface of the map is seen.
   bool isLost() const { return is_lost_ || is_unsolved_; }
-  /// What tied the session to the map was wrong: it is searched for again.
-  void lose() { is_lost_ = is_known_whether_lost_ = true; }
   /// In words, what the last search found.
   const std::string& found() const { return found_; }
 
@@ -78,14 +78,19 @@ class SessionByPlanes {
 /// Watches whether what a session sees agrees with the map, at the place where the estimate has it.
 class PlaneWatch {
  public:
+  /// To be called when planes were added to `recent`.
   void add(const RecentSurfaces& recent, const PlaneLandmarkIndex& known, const mapper::View& view, bool planar);
-  void reset() { *this = {}; }
+  /// To be called after each key frame: what was seen long ago confirms nothing.
+  void endKeyFrame() { ++since_confirmed_; }
   bool isContradicted() const { return contradicting_ >= kInTurn; }
-  bool isConfirmed() const { return since_confirmed_ <= kRecent; }
+  bool isConfirmed() const { return since_confirmed_ <= kRecent && !isContradicted(); }
+  /// Whether the views of the session contradicted the map; none if nothing was compared.
+  std::optional<mapper::Evidence> evidence() const;
 
  private:
-  static constexpr std::size_t kInTurn = 3, kRecent = 40;  // [key frames]
-  std::size_t contradicting_ = 0, since_confirmed_ = kRecent + 1;
+  static constexpr std::size_t kInTurn = 2, kRecent = 40;  // [comparisons] [key frames]
+  std::size_t calls_ = 0, compared_ = 0, contradicted_ = 0, contradicting_ = 0;
+  std::size_t since_confirmed_ = kRecent + 1;
 };
 
 }  // namespace omnimapper::plugins

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "PlaneExtent.h"
 
@@ -13,7 +14,7 @@ namespace omnimapper::plugins {
 
 using Eigen::Vector3d;
 using geometry::Se3;
-using Surface = PlaneLandmarkIndex::Surface;
+using Part = KnownSurfaces::Part;
 
 namespace {
 
@@ -25,12 +26,17 @@ bool wasSeenAt(const surfaces::CellGrid& seen, const Vector3d& point) {
   return cell && seen.isSet(*cell);
 }
 
+// Of the four points at `distance` [m] from a point along the axes of the grid, the number of those that were seen.
+int countAround(const surfaces::CellGrid& seen, const Vector3d& point, double distance) {
+  const Vector3d u = distance * seen.u(), v = distance * seen.v();
+  return wasSeenAt(seen, point + u) + wasSeenAt(seen, point - u) + wasSeenAt(seen, point + v) +
+         wasSeenAt(seen, point - v);
+}
+
 // At an edge, a ray may pass beside the real surface.
 bool wasSeenAround(const surfaces::CellGrid& seen, const Vector3d& point) {
   const double edge = std::max(0.15, seen.cell());  // [m]
-  const Vector3d u = edge * seen.u(), v = edge * seen.v();
-  return wasSeenAt(seen, point) && wasSeenAt(seen, point + u) && wasSeenAt(seen, point - u) &&
-         wasSeenAt(seen, point + v) && wasSeenAt(seen, point - v);
+  return wasSeenAt(seen, point) && countAround(seen, point, edge) == 4;
 }
 
 // Whether the ray from the sensor to the sample passes through the part of the plane that was seen.
@@ -70,11 +76,9 @@ double SurfaceAgreement::heldAtLeast(bool planar) const {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(held).eigenvalues()[0];
 }
 
-bool wasSeenNear(const Surface& surface, const Vector3d& point) {
+bool Part::wasSeenNear(const Vector3d& point) const {
   constexpr double kNear = 0.1;  // [m]
-  const Vector3d u = kNear * surface.seen.u(), v = kNear * surface.seen.v();
-  return wasSeenAt(surface.seen, point) || wasSeenAt(surface.seen, point + u) || wasSeenAt(surface.seen, point - u) ||
-         wasSeenAt(surface.seen, point + v) || wasSeenAt(surface.seen, point - v);
+  return wasSeenAt(*seen, point) || countAround(*seen, point, kNear) > 0;
 }
 
 std::vector<SeenPlane> seenPlanesOf(const std::vector<SurfaceSample>& samples) {
@@ -98,12 +102,11 @@ std::vector<SeenPlane> seenPlanesOf(const std::vector<SurfaceSample>& samples) {
 
 namespace {
 
-// A few points of each part of a surface, with the place that they were seen from.
-void addSamples(const PlanePayload& payload, const Surface& surface, const map::KeyFrames& key_frames,
-                const Vector3d& sensor_in_base, std::vector<SurfaceSample>& samples) {
+// A few points of each patch of a surface, with the place that they were seen from. `area`: of all patches [m^2].
+void addSamples(const std::vector<SurfacePatch>& patches, double area, const Vector3d& normal,
+                const map::KeyFrames& key_frames, const Vector3d& sensor_in_base, std::vector<SurfaceSample>& samples) {
   constexpr std::size_t kOfPatch = 4;
-  const double area = surface.seen.area() / static_cast<double>(std::max<std::size_t>(1, payload.patches.size()));
-  for (const auto& patch : payload.patches) {
+  for (const auto& patch : patches) {
     const auto* frame = key_frames.find(patch.frame);
     const auto& outline = patch.outlineInBase();
     if (!frame || outline.size() < 3) continue;
@@ -111,15 +114,16 @@ void addSamples(const PlanePayload& payload, const Surface& surface, const map::
     Vector3d middle = Vector3d::Zero();
     for (const auto& corner : outline) middle += corner / static_cast<double>(outline.size());
     const std::size_t every = std::max<std::size_t>(1, outline.size() / kOfPatch);
+    const double share = static_cast<double>(every) / static_cast<double>(outline.size() * patches.size());
     for (std::size_t i = 0; i < outline.size(); i += every)
-      samples.push_back({pose * (0.5 * (middle + outline[i])), surface.plane.normal, pose * sensor_in_base,
-                         area * static_cast<double>(every) / static_cast<double>(outline.size())});
+      samples.push_back({pose * (0.5 * (middle + outline[i])), normal, pose * sensor_in_base, share * area});
   }
 }
 
 // The part of a plane that a session has seen.
 surfaces::CellGrid gridOf(const SeenPlane& plane) {
   constexpr double kCell = 0.25;  // [m]
+  if (!(extentOf(plane.points) < kLargestCounted)) return {};
   auto grid = surfaces::CellGrid::around(geometry::Plane3::through(plane.middle, plane.normal), plane.points, kCell);
   for (const auto& point : plane.points)
     if (const auto cell = grid.cellAt(point)) grid.set(*cell);
@@ -132,20 +136,30 @@ KnownSurfaces::KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t sess
                              const Vector3d& sensor_in_base) {
   for (const auto& [id, surface] : known.all()) {
     const auto& payload = dynamic_cast<const PlanePayload&>(*surface.payload);
-    if (id.session == session || payload.is_candidate || surface.seen.count() == 0) continue;
-    surfaces_.push_back(&surface);
-    addSamples(payload, surface, key_frames, sensor_in_base, samples_);
+    if (id.session == session || payload.is_candidate) continue;
+    std::vector<SurfacePatch> earlier;
+    for (const auto& patch : payload.patches)
+      if (patch.frame.session != session) earlier.push_back(patch);
+    const surfaces::CellGrid* seen = &surface.seen;
+    if (earlier.size() < payload.patches.size()) {
+      seen = &grids_.emplace_back();
+      addSeen(grids_.back(), surface.plane, earlier, key_frames);
+    }
+    const double area = seen->area();
+    if (!(area > 0)) continue;
+    parts_.push_back({surface.plane, seen, area});
+    addSamples(earlier, area, surface.plane.normal, key_frames, sensor_in_base, samples_);
   }
 }
 
-const Surface* KnownSurfaces::under(const SurfaceSample& sample) const {
-  const Surface* nearest = nullptr;
+const Part* KnownSurfaces::under(const SurfaceSample& sample) const {
+  const Part* nearest = nullptr;
   double distance = kOnSurface;
-  for (const auto* surface : surfaces_) {
-    if (surface->plane.normal.dot(sample.normal) < kParallel) continue;
-    const double off = std::abs(signedDistance(surface->plane, sample.point));
-    if (off >= distance || !wasSeenNear(*surface, sample.point)) continue;
-    nearest = surface;
+  for (const auto& part : parts_) {
+    if (part.plane.normal.dot(sample.normal) < kParallel) continue;
+    const double off = std::abs(signedDistance(part.plane, sample.point));
+    if (off >= distance || !part.wasSeenNear(sample.point)) continue;
+    nearest = &part;
     distance = off;
   }
   return nearest;
@@ -159,8 +173,8 @@ SurfaceAgreement KnownSurfaces::compare(const std::vector<SurfaceSample>& sample
     if (under(in_map)) {
       agreement.agrees += sample.area;
       agreement.held += sample.area * in_map.normal * in_map.normal.transpose();
-    } else if (std::any_of(surfaces_.begin(), surfaces_.end(),
-                           [&](const auto* surface) { return isSeenThrough(surface->plane, surface->seen, in_map); })) {
+    } else if (std::any_of(parts_.begin(), parts_.end(),
+                           [&](const Part& part) { return isSeenThrough(part.plane, *part.seen, in_map); })) {
       agreement.contradicts += sample.area;
     }
   }
@@ -179,21 +193,21 @@ Se3 KnownSurfaces::settled(const std::vector<SurfaceSample>& samples, Se3 map_fr
   for (int round = 0; round < kRounds; ++round) {
     // Of a change (t, w) about the mean of the samples, in the map: distance + n.t + (p - mean) x n . w = 0.
     Vector3d mean = Vector3d::Zero();
-    std::vector<std::pair<SurfaceSample, const Surface*>> on;
+    std::vector<std::pair<SurfaceSample, const Part*>> on;
     for (const auto& sample : samples) {
       const SurfaceSample in_map = map_from_samples * sample;
-      if (const auto* surface = under(in_map)) on.emplace_back(in_map, surface);
+      if (const auto* part = under(in_map)) on.emplace_back(in_map, part);
     }
     if (on.empty()) return map_from_samples;
-    for (const auto& [sample, surface] : on) mean += sample.point / static_cast<double>(on.size());
+    for (const auto& [sample, part] : on) mean += sample.point / static_cast<double>(on.size());
     geometry::Matrix6d information = geometry::Matrix6d::Identity() * 1e-3;
     geometry::Vector6d gradient = geometry::Vector6d::Zero();
-    for (const auto& [sample, surface] : on) {
+    for (const auto& [sample, part] : on) {
       geometry::Vector6d by;
-      by << surface->plane.normal, (sample.point - mean).cross(surface->plane.normal);
+      by << part->plane.normal, (sample.point - mean).cross(part->plane.normal);
       if (planar) by[2] = by[3] = by[4] = 0;
       information += sample.area * by * by.transpose();
-      gradient += sample.area * by * signedDistance(surface->plane, sample.point);
+      gradient += sample.area * by * signedDistance(part->plane, sample.point);
     }
     const geometry::Vector6d change = -information.ldlt().solve(gradient);
     const Eigen::Quaterniond turn = geometry::expSo3(change.tail<3>());

@@ -2,9 +2,12 @@
 
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/geometry/Se3.h>
+#include <omnimapper/map/KeyFrames.h>
+#include <omnimapper/surfaces/CellGrid.h>
 
 #include <Eigen/Core>
-#include <optional>
+#include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "PlaneLandmarkIndex.h"
@@ -32,7 +35,7 @@ struct SurfaceAgreement {
   double agrees = 0;  ///< area that lies on a surface of the map
   /// Area that was seen through a surface of the map, and area of the map that was seen through what is seen now.
   double contradicts = 0;
-  double all = 0;  ///< area that was compared; for the rest, the map has nothing at this place
+  double all = 0;  ///< area of all samples; where they neither agree nor contradict, the map has nothing
   /// Sum of area * normal * normal^T over the area that agrees: how well it holds the place in each direction.
   Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
 
@@ -46,22 +49,32 @@ struct SurfaceAgreement {
 /// that it was made of, and is valid until that changes.
 class KnownSurfaces {
  public:
-  /// Candidates, which may be noise, and surfaces of `session` are left out.
+  /// Candidates, which may be noise, are left out, and so is all that `session` has seen.
   /// `sensor_in_base`: where the sensor was on the base when the map was made [m]; it is taken for that of now.
   KnownSurfaces(const PlaneLandmarkIndex& known, std::uint16_t session, const map::KeyFrames& key_frames,
                 const Eigen::Vector3d& sensor_in_base);
 
-  const std::vector<const PlaneLandmarkIndex::Surface*>& all() const { return surfaces_; }
+  /// A surface, as far as earlier sessions have seen it.
+  struct Part {
+    geometry::Plane3 plane;
+    const surfaces::CellGrid* seen;
+    double area;  ///< [m^2]
+
+    /// Whether it was seen at the foot of a point, or within 0.1 m of it.
+    bool wasSeenNear(const Eigen::Vector3d& point_in_map) const;
+  };
+  const std::vector<Part>& all() const { return parts_; }
   /// The surface that a sample lies on; null if there is none.
-  const PlaneLandmarkIndex::Surface* under(const SurfaceSample& sample_in_map) const;
+  const Part* under(const SurfaceSample& sample_in_map) const;
   SurfaceAgreement compare(const std::vector<SurfaceSample>& samples, const geometry::Se3& map_from_samples) const;
   /// The pose near `map_from_samples` at which the samples that lie on surfaces of the map lie on them best. `planar`:
   /// only x, y and the heading change.
   geometry::Se3 settled(const std::vector<SurfaceSample>& samples, geometry::Se3 map_from_samples, bool planar) const;
 
  private:
-  std::vector<const PlaneLandmarkIndex::Surface*> surfaces_;
-  std::vector<SurfaceSample> samples_;  // of the surfaces, as they were seen when the map was made
+  std::vector<Part> parts_;
+  std::deque<surfaces::CellGrid> grids_;  // of surfaces that the session has seen, too
+  std::vector<SurfaceSample> samples_;    // of the surfaces, as they were seen when the map was made
 };
 
 /// A plane that a session has seen, by its samples.
@@ -72,8 +85,5 @@ struct SeenPlane {
 };
 /// The planes of samples, the largest first.
 std::vector<SeenPlane> seenPlanesOf(const std::vector<SurfaceSample>& samples);
-
-/// Whether a surface was seen at the foot of a point, or within 0.1 m of it.
-bool wasSeenNear(const PlaneLandmarkIndex::Surface& surface, const Eigen::Vector3d& point_in_map);
 
 }  // namespace omnimapper::plugins

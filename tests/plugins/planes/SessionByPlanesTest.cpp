@@ -145,27 +145,34 @@ TEST_F(SessionPlanes, SeenFromOnePlaceAloneDoNotDecide) {
   EXPECT_FALSE(place_);
 }
 
-// Where a session is tied to the wrong place, it sees through walls: its ties are taken back, and it is searched for.
-TEST_F(SessionPlanes, ThatContradictTheMapTakeTheTiesBack) {
+// Where a session is tied to the wrong place, it sees through walls of the map.
+TEST_F(SessionPlanes, ThatContradictTheMapAreNotConfirmed) {
+  using Says = mapper::ConfirmsSession::Says;
   mapOf(room());
-  addAnywhere({0, 0, 1.2, 0, 0, 0});
-  const auto pose = run_.map.key_frames.back().pose;
-  const auto landmark = active().front().id;
-  const auto of_first = run_.graph.factorsOf(run_.map.landmark(landmark).variables.front()).front();
-  auto wrong = run_.graph.factor(of_first);
-  wrong.variables = {pose, run_.map.landmark(landmark).variables.front()};
-  run_.graph.addFactor(wrong);
+  EXPECT_EQ(plugin_->aboutSession(), Says::unable);
   run_.map.sessions[1].aligned = true;
-  const Se3 outside{Eigen::Quaterniond::Identity(), {-1, 1, 1.2}};
   auto large = room();
   for (auto& part : large) part = {1.6 * part.middle, 1.6 * part.a, 1.6 * part.b};
-  mapper::Batch last;
-  for (int i = 0; i < 3; ++i) {
-    const auto planes = planesOf(seen(large, inverse(outside)));
-    last = plugin_->measure(run_.map.key_frames.back(), {planes, nullptr}, run_.view());
+  for (int i = 0; i < 6; ++i) {
+    addAnywhere(kFirst);
+    see(planesOf(seen(large, inverse(geometry::fromMrpt(kFirst)))));
   }
-  EXPECT_EQ(last.removedFactors().size(), 1U);
-  EXPECT_NE(plugin_->aboutSession(), mapper::ConfirmsSession::Says::confirmed);
+  EXPECT_EQ(plugin_->aboutSession(), Says::contradicted);
+  const auto evidence = plugin_->evidence(run_.view());
+  ASSERT_EQ(evidence.size(), 1U);
+  EXPECT_EQ(evidence[0].says, mapper::Evidence::Says::against_it);
+}
+
+TEST_F(SessionPlanes, ThatAgreeWithTheMapConfirmThePlaceForSomeTime) {
+  using Says = mapper::ConfirmsSession::Says;
+  mapOf(room());
+  run_.map.sessions[1].aligned = true;
+  addAnywhere(kFirst);
+  see(planesOf(seen(room(), inverse(geometry::fromMrpt(kFirst)))));
+  EXPECT_EQ(plugin_->aboutSession(), Says::confirmed);
+  EXPECT_EQ(plugin_->evidence(run_.view()).at(0).says, mapper::Evidence::Says::good);
+  for (int i = 0; i < 50; ++i) plugin_->afterCommit(run_.map.key_frames.back(), run_.view());
+  EXPECT_EQ(plugin_->aboutSession(), Says::nothing);
 }
 
 }  // namespace

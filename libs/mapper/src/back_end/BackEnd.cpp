@@ -219,7 +219,7 @@ void BackEnd::judgeMap() {
         evidence.push_back({name + "_ties_refused", static_cast<double>(ties.refused), Evidence::Says::against_it,
                             std::to_string(ties.refused) + " of the " + std::to_string(ties.refused + ties.accepted) +
                                 " measurements that tie session " + std::to_string(session.number) +
-                                " to the map do not fit"});
+                                " to the map do not fit, or were not confirmed"});
       }
     }
   }
@@ -287,7 +287,9 @@ bool BackEnd::isConfirmed() const {
     can_confirm = can_confirm || says != Says::unable;
     is_confirmed = is_confirmed || says == Says::confirmed;
   }
-  return is_confirmed || !can_confirm || !absolute_.empty();
+  const bool is_absolute = std::any_of(absolute_.begin(), absolute_.end(),
+                                       [&](const auto& section) { return state_.fed.count(section) > 0; });
+  return is_confirmed || !can_confirm || is_absolute;
 }
 
 void BackEnd::addEstimate(base::KeyFrameId id) {
