@@ -135,8 +135,8 @@ mapper::Batch PlaneLandmarksPlugin::measure(const map::KeyFrame& frame, const ma
   }
   // A run that only localizes and knows roughly where it starts must be located soon; a wrong association harms no map
   // there.
-  const bool is_tied_by_others = session_->search.isLost() || (others_seek_ && !view.map_is_held);
-  auto batch = PlaneAssociator(options_, context_, *known_, frame, view, is_tied_by_others).take(measurements);
+  const bool is_sought = session_->search.isLost() || (others_seek_ && !view.map_is_held);
+  auto batch = PlaneAssociator(options_, context_, *known_, frame, view, is_sought).take(measurements);
   for (const auto& decision : of_session.decisions()) batch.log(decision);
   return batch;
 }
@@ -156,7 +156,7 @@ mapper::Batch PlaneLandmarksPlugin::watchSession(const map::KeyFrame& frame,
   watch = PlaneWatch();
   const auto before = search.found();
   const bool is_free = !others_seek_ && mapper::whyFixed({frame.id, {}}, view.graph, view.map).empty();
-  const auto place = search.take(frame, is_free ? recent : RecentSurfaces(), *known_, view, planar);
+  const auto place = search.take(frame, recent, *known_, view, planar, is_free);
   if (place) batch.placeSession(*place);
   if (place || search.found() != before) batch.log(aboutSearch(frame, place.has_value(), search.found()));
   return batch;

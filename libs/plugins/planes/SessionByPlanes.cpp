@@ -227,7 +227,7 @@ std::optional<SessionPlacing> placeOf(const std::vector<SurfaceSample>& in_sessi
 
 std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& frame, const RecentSurfaces& recent,
                                                           const PlaneLandmarkIndex& known, const mapper::View& view,
-                                                          bool planar) {
+                                                          bool planar, bool is_free) {
   constexpr double kLost = 3;                                 // [m]
   constexpr std::size_t kSpacing = 5, kPatience = 30;         // [key frames]
   constexpr double kShare = 0.97, kLeastSeen = 0.4;           // of what is compared with the map, of what is seen
@@ -244,7 +244,7 @@ std::optional<mapper::SessionPlace> SessionByPlanes::take(const map::KeyFrame& f
     is_lost_ = true;
     since_placed_ = 0;
   }
-  if (!is_lost_ || ++since_search_ < kSpacing + searches_ / 2) return std::nullopt;
+  if (!is_lost_ || !is_free || ++since_search_ < kSpacing + searches_ / 2) return std::nullopt;
   const auto second = recent.secondView(view.map);
   if (!second) return std::nullopt;
   since_search_ = 0;

@@ -58,10 +58,11 @@ std::optional<SessionPlacing> placeOf(const std::vector<SurfaceSample>& in_sessi
 /// is seen in two views, hold the session in each direction, and be better by far than every other place.
 class SessionByPlanes {
  public:
-  /// Takes the planes at a key frame of the newest session; the session must be free to move (mapper::whyFixed()).
-  /// Returns the place of the session when it becomes known.
+  /// Takes the planes at a key frame of the newest session. `is_free`: no other plugin searches for the session, and it
+  /// is free to move (mapper::whyFixed()). Returns the place of the session when it becomes known.
   std::optional<mapper::SessionPlace> take(const map::KeyFrame& frame, const RecentSurfaces& recent,
-                                           const PlaneLandmarkIndex& known, const mapper::View& view, bool planar);
+                                           const PlaneLandmarkIndex& known, const mapper::View& view, bool planar,
+                                           bool is_free);
   /// True if the place of the session is unknown, so that positions do not show which surface of the map is seen.
   bool isLost() const { return is_lost_ || is_unsolved_; }
   /// In words, what the last search found.

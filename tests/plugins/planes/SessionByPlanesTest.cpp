@@ -54,7 +54,7 @@ class SessionPlanes : public SurfaceRun {
     run_.map.sessions = {{0, "first", {}, true}, {1, "second", {}, false}};
     run_.graph.setSession(1);
   }
-  // Sees the room from three places along a path, which begins at the origin of the session.
+  // Sees the room from several places along a path, which begins at the origin of the session.
   void goOn(const std::vector<Rectangle>& room, const Se3& map_from_session) {
     for (const double x : {0.0, 0.7, 1.4, 1.5, 1.6, 1.7, 1.8}) {
       const CPose3D session_from_base(x, 0, 0, 0.8 * x, 0, 0);
@@ -71,11 +71,7 @@ class SessionPlanes : public SurfaceRun {
       run_.map.sessions[1].anchor = frame.pose;
       run_.graph.addFactor(mapper::startFactor(run_.motion, frame.pose, mapper::startAnywhere(run_.map)));
     } else {
-      mrpt::math::CMatrixDouble66 covariance;
-      covariance.setDiagonal(6, 1e-6);
-      run_.graph.addFactor(mapper::betweenPoses(run_.motion, before.pose, frame.pose,
-                                                {session_from_base - before.map_from_base, covariance.asEigen()},
-                                                "odometry"));
+      link(before, frame, 1e-6);
     }
     run_.uncertainty = mapper::Uncertainty(run_.graph);
   }
@@ -88,7 +84,6 @@ class SessionPlanes : public SurfaceRun {
   void see(const mrpt::obs::CObservation& observation) {
     const auto batch = plugin_->measure(run_.map.key_frames.back(), {observation, nullptr}, run_.view());
     if (batch.sessionPlace()) place_ = batch.sessionPlace();
-    mapper::Batch rest;
     for (const auto& decision : batch.decisions()) run_.decisions.push_back(decision);
     if (run_.map.key_frames.back().id.session == 0) SurfaceRun::apply(batch);
   }

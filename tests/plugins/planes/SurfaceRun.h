@@ -90,13 +90,17 @@ class SurfaceRun : public ::testing::Test {
     const map::KeyFrame before = is_first ? map::KeyFrame() : run_.map.key_frames.back();
     const map::KeyFrame& frame = run_.addFrame(map_from_base);
     if (!is_first) {
-      mrpt::math::CMatrixDouble66 covariance;
-      covariance.setDiagonal(6, 1e-4);
-      run_.graph.addFactor(mapper::betweenPoses(run_.motion, before.pose, frame.pose,
-                                                {map_from_base - before.map_from_base, covariance.asEigen()},
-                                                "odometry"));
+      link(before, frame, 1e-4);
     }
     run_.uncertainty = mapper::Uncertainty(run_.graph);
+  }
+  // The motion between two key frames, as odometry measures it; `variance` in each direction [m^2] [rad^2].
+  void link(const map::KeyFrame& before, const map::KeyFrame& frame, double variance) {
+    mrpt::math::CMatrixDouble66 covariance;
+    covariance.setDiagonal(6, variance);
+    run_.graph.addFactor(mapper::betweenPoses(run_.motion, before.pose, frame.pose,
+                                              {frame.map_from_base - before.map_from_base, covariance.asEigen()},
+                                              "odometry"));
   }
   void apply(const mapper::Batch& batch) {
     const auto ids = mapper::apply(batch, {"planes", run_.map.key_frames.back().stamp}, run_.graph, run_.map);
