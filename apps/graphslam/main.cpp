@@ -1,5 +1,6 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/check/LogWatch.h>
 #include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/mapper/EngineOptions.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include "MappingArguments.h"
@@ -78,6 +80,7 @@ int run(Arguments& arguments) {
     if (!arguments.quiet) std::cout << "The window shows the map; close it to end.\n" << std::flush;
     is_printed = true;
   };
+  if (is_of_logs) arguments.run.watch = std::make_shared<check::LogWatch>(config);
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
   if (!is_printed) printResult(result, arguments);

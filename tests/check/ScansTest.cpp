@@ -1,4 +1,9 @@
 // Findings on 2D scans and the pose of their laser.
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CObservationIMU.h>
+
+#include <algorithm>
+
 #include "CheckedLog.h"
 
 namespace omnimapper::check::scans_test {
@@ -142,9 +147,54 @@ TEST(SensorPose, ThatIsMissingIsSaidAndMeasuredByTheMotion) {
   EXPECT_NEAR(std::stod(checked.proposed("place_of_laser", "pose_y_m")), 0.1, 0.05);
 }
 
-TEST(SensorPose, UpsideDownUnsaidIsFoundAndProposed) {
+TEST(SensorPose, UpsideDownUnsaidAndWheelsThatTakeLeftForRightAreBothNamed) {
   const CPose3D said(0.2, 0, 0.3, 0, 0, 0);
-  const Checked checked(mounted({0.2, 0, 0.3, 0, 0, kPi}, said));
+  auto swapped = halfALap();
+  each<CObservationOdometry>(swapped, [](auto& odometry) {
+    const auto& p = odometry.odometry;
+    odometry.odometry = mrpt::poses::CPose2D(p.x(), -p.y(), -p.phi());
+  });
+  for (const auto& log : {mounted({0.2, 0, 0.3, 0, 0, kPi}, said), swapped}) {
+    const Checked checked(log);
+    EXPECT_TRUE(checked.says("problem: 'laser' and 'odometry': where the scans turn left, the odometry turns right"))
+        << checked.text();
+    EXPECT_TRUE(checked.says("pose_roll_deg = 180")) << checked.text();
+    EXPECT_EQ(checked.proposed("mapper", "sensors"), "") << "neither is switched on by a guess";
+    EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), "");
+  }
+}
+
+/// A gyroscope of the base that measures the turns of the odometry times `sign`.
+Observations withGyroscope(Observations log, double sign) {
+  std::shared_ptr<CObservationOdometry> last;
+  Observations all;
+  for (const auto& observation : log) {
+    all.push_back(observation);
+    const auto odometry = std::dynamic_pointer_cast<CObservationOdometry>(observation);
+    if (!odometry) continue;
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    const double seconds = last ? base::secondsBetween(last->timestamp, odometry->timestamp) : 1;
+    const double turn = last ? mrpt::math::wrapToPi(odometry->odometry.phi() - last->odometry.phi()) : 0;
+    imu->timestamp = odometry->timestamp - base::durationFromSeconds(0.5 * seconds);
+    imu->sensorLabel = "imu";
+    imu->set(mrpt::obs::IMU_WX, 0);
+    imu->set(mrpt::obs::IMU_WY, 0);
+    imu->set(mrpt::obs::IMU_WZ, sign * turn / seconds);
+    all.push_back(imu);
+    last = odometry;
+  }
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
+  return all;
+}
+
+TEST(SensorPose, OfTheWheelsAndTheLaserAGyroscopeTellsWhichIsWrong) {
+  const CPose3D said(0.2, 0, 0.3, 0, 0, 0);
+  const Checked wheels_are_wrong(withGyroscope(mounted({0.2, 0, 0.3, 0, 0, kPi}, said), -1));
+  EXPECT_TRUE(wheels_are_wrong.says("problem: 'odometry': is reversed compared with the scans"))
+      << wheels_are_wrong.text();
+  EXPECT_EQ(wheels_are_wrong.proposed("mapper", "sensors"), "");
+
+  const Checked checked(withGyroscope(mounted({0.2, 0, 0.3, 0, 0, kPi}, said), 1));
   EXPECT_TRUE(checked.says("problem: 'laser': is mounted upside down, which")) << checked.text();
   EXPECT_EQ(std::abs(std::stod(checked.proposed("place_of_laser", "pose_roll_deg"))), 180);
   EXPECT_EQ(checked.proposed("place_of_laser", "pose_x_m"), "0.20");

@@ -33,9 +33,8 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
                      base::Progress& progress, const std::function<bool()>& stop) {
   const auto options = config.section("mapper").read<mapper::EngineOptions>();
   const auto extractors = config.section("perception").read<mapper::PerceptionOptions>().extractors;
-  const mapper::SensorPoses sensor_poses(options.sensors, config);
-  const auto log = source::openRawlogs(logs, config.section("source").read<source::SourceOptions>(), stop);
-  const auto facts = gatherFacts(*log, sensor_poses, stop, &progress);
+  const auto log = source::openRawlogs(logs, mapper::sourceOptions(config), stop);
+  const auto facts = gatherFacts(*log, Declared::read(config), stop, &progress);
   if (stop())
     throw base::Error(base::ExitCode::interrupted,
                       "interrupted before the log was read to its end; half a log is not judged");
@@ -44,7 +43,7 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   std::string text;
   bool is_fallback = false;  // the section may be of another plugin, whose keys are not known here
   if (config.section("odometry").find("fallback", text)) base::option_text::parse(text, is_fallback);
-  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, is_fallback};
+  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, is_fallback, options.sensors};
   std::string ini;  // the INI that settings are proposed for
   std::vector<Setting> settings;
   if (!inis.empty()) {

@@ -59,11 +59,31 @@ std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::st
   return motions;
 }
 
+// Gyroscopes, other lasers and other odometries are asked which of the two they agree with.
+Culprit wrongTurnOf(const LogFacts& facts, const std::string& laser, const std::string& odometry) {
+  const auto* motion = motionOf(facts, laser, odometry);
+  if (!motion || contradictionOf(*motion) != Contradiction::turning) return Culprit::none;
+  int against_laser = 0, against_odometry = 0;
+  const auto count = [&](bool agrees_with_laser) { ++(agrees_with_laser ? against_odometry : against_laser); };
+  for (const auto& gyroscope : facts.gyroscopes) {
+    if (gyroscope.laser == laser && gyroscope.clock) count(!gyroscope.clock->is_reversed);
+  }
+  for (const auto& other : facts.motions) {
+    if (&other == motion || other.turning < kFewestPairs) continue;
+    const bool is_against = contradictionOf(other) == Contradiction::turning;
+    if (other.laser == laser && other.odometry != odometry) count(!is_against);
+    if (other.odometry == odometry && other.laser != laser) count(is_against);
+  }
+  if (against_laser == against_odometry) return Culprit::not_known;
+  return against_laser > against_odometry ? Culprit::laser : Culprit::odometry;
+}
+
 // A wrong sensor pose hardly explains both directions at once, or several lasers that are wrong in the same way.
 bool isReversed(const LogFacts& facts, const std::string& odometry) {
   const auto motions = motionsWith(facts, odometry);
   if (motions.empty()) return false;
   const auto first = contradictionOf(*motions.front());
+  if (first == Contradiction::turning) return wrongTurnOf(facts, motions.front()->laser, odometry) == Culprit::odometry;
   const bool all_same = std::all_of(motions.begin(), motions.end(),
                                     [&](const MotionFacts* motion) { return contradictionOf(*motion) == first; });
   return first == Contradiction::both || (first != Contradiction::none && motions.size() > 1 && all_same);
@@ -144,7 +164,10 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   const auto& scans = facts.scans.at(laser);
   if (!motion || scans.sensor_pose_moves) return std::nullopt;
   const CPose3D& reported = scans.base_from_sensor;
-  if (contradictionOf(*motion) == Contradiction::turning) return reported + CPose3D(0, 0, 0, 0, 0, std::acos(-1.0));
+  if (contradictionOf(*motion) == Contradiction::turning) {
+    if (wrongTurnOf(facts, laser, *odometry) != Culprit::laser) return std::nullopt;
+    return reported + CPose3D(0, 0, 0, 0, 0, std::acos(-1.0));
+  }
   if (!motion->mounting) return std::nullopt;
   const auto& found = *motion->mounting;
   const double offset = std::hypot(found.x, found.y);
@@ -158,12 +181,55 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
          reported;
 }
 
+std::map<std::string, double> clockOffsets(const LogFacts& facts) {
+  std::map<std::string, double> offsets;
+  const auto lasers = usableLasers(facts);
+  if (lasers.empty()) return offsets;
+  const auto& laser = lasers.front();
+  std::size_t measured = 0;
+  std::vector<double> wrong;  // offsets of the sensors that differ from the laser
+  const auto add = [&](const std::string& label, const std::optional<ClockFacts>& clock) {
+    if (!clock) return;
+    ++measured;
+    if (!clock->isWrong()) return;
+    offsets[label] = -clock->offset;
+    wrong.push_back(clock->offset);
+  };
+  for (const auto& motion : facts.motions) {
+    if (motion.laser == laser) add(motion.odometry, motion.clock);
+  }
+  for (const auto& gyroscope : facts.gyroscopes) {
+    if (gyroscope.laser == laser) add(gyroscope.gyroscope, gyroscope.clock);
+  }
+  for (const auto& camera : facts.cameras) {
+    if (camera.laser == laser && camera.clock)
+      add(camera.camera, ClockFacts{camera.clock->value, camera.clock->sigma, 0, false});
+  }
+  // If several others agree with each other and none with the laser, it is the laser's clock that differs.
+  constexpr double kSame = 0.05;  // [s]
+  const auto ends = std::minmax_element(wrong.begin(), wrong.end());
+  if (wrong.size() > 1 && wrong.size() == measured && *ends.second - *ends.first < kSame) {
+    const double middle = 0.5 * (*ends.first + *ends.second);
+    offsets.clear();
+    for (const auto& label : lasers) offsets[label] = middle;
+  }
+  return offsets;
+}
+
+std::optional<double> scaleByHeight(const CameraFacts& camera) {
+  constexpr double kLeast = 0.05, kRatio = 1.33;  // [m] [-]
+  if (!camera.height || camera.declared.z() < kLeast) return std::nullopt;
+  const double scale = camera.declared.z() / *camera.height;
+  if (scale < kRatio && scale > 1 / kRatio) return std::nullopt;
+  return scale;
+}
+
 bool clockStands(const LogFacts& facts) {
   constexpr std::size_t kSome = 10;  // observations that a sensor must have to be judged
   bool stands = false;
   for (const auto& [sensor, stamps] : facts.sensors) {
     if (stamps.count < kSome) continue;
-    if (2 * stamps.repeated <= stamps.count) return false;
+    if (2 * (stamps.repeated + stamps.no_stamp) <= stamps.count) return false;
     stands = true;
   }
   return stands;

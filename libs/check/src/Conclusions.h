@@ -2,6 +2,7 @@
 
 #include <omnimapper/check/LogFacts.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,10 @@ enum class Contradiction { none, forward, turning, both };
 Contradiction contradictionOf(const MotionFacts& motion);
 /// Whether the odometry is at rest in most pairs of scans that show motion.
 bool isFrozen(const MotionFacts& motion);
+/// Which of the two is wrong where scans and odometry turn against each other: none if they do not, not_known if
+/// nothing else in the log measures the turns.
+enum class Culprit { none, laser, odometry, not_known };
+Culprit wrongTurnOf(const LogFacts& facts, const std::string& laser, const std::string& odometry);
 /// Whether the odometry is reversed, rather than a laser mounted otherwise than its pose states.
 bool isReversed(const LogFacts& facts, const std::string& odometry);
 /// Whether the log has several odometries, and usableOdometry() agrees with the scans much better than the others or is
@@ -22,8 +27,13 @@ bool isOneOdometryBest(const LogFacts& facts);
 bool isTilted(const ScanFacts& scans);
 /// Whether beams that met nothing are marked as valid, all at one range.
 bool saturates(const ScanFacts& scans);
-/// Whether most stamps of every sensor repeat the one before, so that the clock stands still and not one sensor.
+/// Whether most stamps of every sensor are missing or repeat the one before, so that the clock stands still and not one
+/// sensor.
 bool clockStands(const LogFacts& facts);
+constexpr double kWrongScale = 0.04, kWrongFocal = 0.06;  ///< [-] of a camera, that are no errors of the measurement
+/// True depth divided by depth in the log, if the declared height of the camera is right and the floor appears at
+/// another distance by a third or more; none else, or if no height is declared.
+std::optional<double> scaleByHeight(const CameraFacts& camera);
 /// Comparisons of that odometry with all usable lasers, the best laser first.
 std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::string& odometry);
 

@@ -1,10 +1,19 @@
 #include "Format.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace omnimapper::check {
 
+std::string significant(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 std::string fixed(double value, int decimals) {
+  constexpr double kLarge = 1e7;  // beyond it all digits are noise
+  if (std::abs(value) >= kLarge) return significant(value);
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   const std::string written = text;

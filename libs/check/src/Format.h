@@ -11,6 +11,8 @@ namespace omnimapper::check {
 
 /// Fixed-point text such as "1.50", without "-0".
 std::string fixed(double value, int decimals);
+/// Text with three significant digits, such as "0.202" or "1.11e+30".
+std::string significant(double value);
 /// Text such as "37 %", or "0.4 %" where whole numbers would hide the share.
 std::string percent(double share);
 using base::counted;

@@ -1,10 +1,8 @@
 #include "LevelStatistics.h"
 
-#include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Polygon3.h>
 #include <omnimapper/obs/GivenPose.h>
-#include <omnimapper/perception/PlaneExtractor.h>
 #include <omnimapper/surfaces/levelOfSurfaces.h>
 
 #include <Eigen/Eigenvalues>
@@ -17,7 +15,6 @@ namespace omnimapper::check {
 
 namespace {
 
-constexpr std::size_t kMostImages = 24;
 constexpr std::size_t kMostLabels = 10;
 
 void setLevel(LevelFacts& facts, const std::optional<Eigen::Vector3d>& up, const Eigen::Matrix3d& covariance) {
@@ -43,24 +40,7 @@ void LevelStatistics::add(const mrpt::obs::CObservation& observation) {
     const auto reference_from_base = obs::referenceFromBase(*pose);
     if (reference_from_base && (poses_.count(label) > 0 || poses_.size() < kMostLabels))
       poses_[label].push_back({pose->timestamp, *reference_from_base});
-  } else if (const auto* image = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&observation)) {
-    if (image->hasRangeImage && seen_++ % stride_ == 0) addImage(*image);
   }
-}
-
-// Images spread over the whole log determine the level best, so every second one is dropped when there are too many.
-void LevelStatistics::addImage(const mrpt::obs::CObservation3DRangeScan& image) {
-  static const perception::PlaneExtractor extractor({}, {});
-  try {
-    images_.push_back({image.sensorLabel, extractor.extract(image)});
-  } catch (const base::Error&) {
-    return;  // other findings report images that cannot be used
-  }
-  if (images_.size() < kMostImages) return;
-  std::vector<Image> kept;
-  for (std::size_t i = 0; i < images_.size(); i += 2) kept.push_back(images_[i]);
-  images_ = std::move(kept);
-  stride_ *= 2;
 }
 
 const LevelStatistics::Pose* LevelStatistics::poseAt(const std::vector<Pose>& poses, base::Stamp stamp) const {
@@ -92,31 +72,32 @@ LevelFacts LevelStatistics::byImu(const std::string& label, const matching::Stea
   return facts;
 }
 
-LevelFacts LevelStatistics::byPlanes(const std::vector<Pose>* poses) const {
+LevelFacts LevelStatistics::byPlanes(const std::vector<SampledImage>& images, const std::vector<Pose>* poses) const {
   std::vector<surfaces::FlatArea> areas;
   std::vector<surfaces::Viewpoint> viewpoints;
   std::string label;
-  for (const auto& image : images_) {
+  for (const auto& image : images) {
     const Pose* pose = poses ? poseAt(*poses, image.planes->timestamp) : nullptr;
     if (poses && !pose) continue;
     const auto frame_from_sensor =
         geometry::fromMrpt((pose ? pose->reference_from_base : mrpt::poses::CPose3D()) + image.planes->sensorPose);
     viewpoints.push_back({frame_from_sensor.translation, frame_from_sensor.rotation * Eigen::Vector3d::UnitZ(),
                           frame_from_sensor.rotation * Eigen::Vector3d::UnitX()});
-    label = image.label;
+    label = image.image->sensorLabel;
     for (const auto& plane : image.planes->planes)
       areas.push_back({frame_from_sensor.rotation * plane.plane_in_sensor.normal, frame_from_sensor * plane.centroid,
                        geometry::area(plane.outline), 1});
   }
   const auto level = surfaces::levelOfSurfaces(areas, viewpoints);
   LevelFacts facts;
+  facts.by_planes = true;
   facts.by = "the surfaces that " + std::to_string(viewpoints.size()) + " images of " + check::quoted(label) + " show";
   facts.reason = level.reason;
   setLevel(facts, level.up, level.covariance);
   return facts;
 }
 
-std::vector<LevelFacts> LevelStatistics::facts(bool has_wheels) const {
+std::vector<LevelFacts> LevelStatistics::facts(bool has_wheels, const std::vector<SampledImage>& images) const {
   std::vector<LevelFacts> all;
   const auto collect = [&](const std::string& poses_label, const std::vector<Pose>* poses) {
     const auto add = [&](LevelFacts facts) {
@@ -125,7 +106,7 @@ std::vector<LevelFacts> LevelStatistics::facts(bool has_wheels) const {
       all.push_back(std::move(facts));
     };
     for (const auto& [label, spans] : imus_) add(byImu(label, spans, poses));
-    if (!images_.empty()) add(byPlanes(poses));
+    if (!images.empty()) add(byPlanes(images, poses));
   };
   for (auto [label, poses] : poses_) {
     std::stable_sort(poses.begin(), poses.end(), [](const Pose& a, const Pose& b) { return a.stamp < b.stamp; });

@@ -1,14 +1,14 @@
 #pragma once
 
-#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/LogFacts.h>
 #include <omnimapper/matching/Gravity.h>
-#include <omnimapper/obs/CObservationPlanes.h>
 
 #include <map>
 #include <string>
 #include <vector>
+
+#include "SampledImages.h"
 
 namespace omnimapper::check {
 
@@ -18,26 +18,19 @@ class LevelStatistics {
  public:
   void add(const mrpt::obs::CObservation& observation);
   /// `has_wheels`: the robot has wheel odometry, so its base should be level and is judged too.
-  std::vector<LevelFacts> facts(bool has_wheels) const;
+  std::vector<LevelFacts> facts(bool has_wheels, const std::vector<SampledImage>& images) const;
 
  private:
   struct Pose {
     base::Stamp stamp;
     mrpt::poses::CPose3D reference_from_base;
   };
-  struct Image {
-    std::string label;
-    std::shared_ptr<const obs::CObservationPlanes> planes;
-  };
-  void addImage(const mrpt::obs::CObservation3DRangeScan& image);
   const Pose* poseAt(const std::vector<Pose>& poses, base::Stamp stamp) const;
   LevelFacts byImu(const std::string& label, const matching::SteadySpans& spans, const std::vector<Pose>* poses) const;
-  LevelFacts byPlanes(const std::vector<Pose>* poses) const;
+  LevelFacts byPlanes(const std::vector<SampledImage>& images, const std::vector<Pose>* poses) const;
 
   std::map<std::string, matching::SteadySpans> imus_;  // by label
   std::map<std::string, std::vector<Pose>> poses_;     // by label
-  std::vector<Image> images_;                          // a few, evenly spread
-  std::size_t seen_ = 0, stride_ = 1;                  // depth images so far; every stride-th is used
 };
 
 }  // namespace omnimapper::check

@@ -76,6 +76,13 @@ std::optional<mrpt::poses::CPose2D> OdometryStatistics::between(base::Stamp begi
   return mrpt::poses::CPose2D(motion->begin_from_end);
 }
 
+Headings OdometryStatistics::headings() const {
+  return headingsOf(stamps_, [this](base::Stamp begin, base::Stamp end) {
+    const auto motion = between(begin, end);
+    return motion ? motion->phi() : std::nan("");
+  });
+}
+
 OdometryPair compareOdometries(const std::string& a, const OdometryStatistics& of_a, const std::string& b,
                                const OdometryStatistics& of_b) {
   constexpr double kShortest = 1;  // [s] of a span

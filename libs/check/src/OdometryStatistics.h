@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "ClockFit.h"
+
 namespace omnimapper::check {
 
 /// Statistics on the odometry of one label, and its motion between two times as the mapper would compute it.
@@ -18,6 +20,7 @@ class OdometryStatistics {
   void add(const mrpt::obs::CObservation& observation);
   const OdometryFacts& facts() const { return facts_; }
   std::optional<mrpt::poses::CPose2D> between(base::Stamp begin, base::Stamp end) const;
+  Headings headings() const;
   /// Valid stamps of its readings, in order of arrival.
   const std::vector<base::Stamp>& stamps() const { return stamps_; }
 

@@ -41,17 +41,30 @@ matching::ScanMatcherOptions wideOptions() {
 
 void ScanPairs::add(const ScanPtr& scan) {
   if (!base::isValid(scan->timestamp)) return;
-  const double seconds = begin_ ? base::secondsBetween(begin_->timestamp, scan->timestamp) : -1;
-  if (seconds >= 0 && seconds < kShortest) return;
-  if (seconds >= kShortest && seconds <= kLongest && ended_++ % stride_ == 0) {
-    pairs_.push_back({begin_, scan});
+  if (misses_last_) {
+    pairs_.back().after_end = scan;
+    misses_last_ = false;
     if (pairs_.size() == kMostPairs) {
       for (std::size_t i = 0; 2 * i < pairs_.size(); ++i) pairs_[i] = pairs_[2 * i];
       pairs_.resize(kMostPairs / 2);
       stride_ *= 2;
     }
   }
+  if (begin_ && !after_begin_) after_begin_ = scan;
+  const double seconds = begin_ ? base::secondsBetween(begin_->timestamp, scan->timestamp) : -1;
+  if (seconds >= 0 && seconds < kShortest) return;
+  if (seconds >= kShortest && seconds <= kLongest && ended_++ % stride_ == 0) {
+    pairs_.push_back({begin_, scan, after_begin_, nullptr});
+    misses_last_ = true;
+  }
   begin_ = scan;
+  after_begin_ = nullptr;
+}
+
+std::vector<MeasuredTurn> turnsOf(const std::vector<MatchedMotion>& motions) {
+  std::vector<MeasuredTurn> turns;
+  for (const auto& motion : motions) turns.push_back({motion.begin, motion.end, motion.by_scans.phi()});
+  return turns;
 }
 
 std::vector<ScanPair> withAperture(const std::vector<ScanPair>& pairs, double aperture) {
@@ -61,7 +74,7 @@ std::vector<ScanPair> withAperture(const std::vector<ScanPair>& pairs, double ap
     return copy;
   };
   std::vector<ScanPair> copies;
-  for (const auto& pair : pairs) copies.push_back({changed(pair.begin), changed(pair.end)});
+  for (const auto& pair : pairs) copies.push_back({changed(pair.begin), changed(pair.end), nullptr, nullptr});
   return copies;
 }
 

@@ -8,13 +8,16 @@
 #include <optional>
 #include <vector>
 
+#include "ClockFit.h"
+
 namespace omnimapper::check {
 
 using ScanPtr = std::shared_ptr<const mrpt::obs::CObservation2DRangeScan>;
 
-/// Two scans of one laser, about half a second after one another.
+/// Two scans of one laser, about half a second after one another, and the scan that follows each; null at the end of
+/// the log.
 struct ScanPair {
-  ScanPtr begin, end;
+  ScanPtr begin, end, after_begin, after_end;
 };
 
 /// Picks pairs evenly over a log whose length is not known beforehand.
@@ -26,7 +29,8 @@ class ScanPairs {
  private:
   std::vector<ScanPair> pairs_;
   std::size_t ended_ = 0, stride_ = 1;  // every stride-th pair is kept
-  ScanPtr begin_;
+  ScanPtr begin_, after_begin_;
+  bool misses_last_ = false;  // the scan after the newest pair
 };
 
 /// Motion of the base between the scans of a pair, by scan matching and by odometry.
@@ -37,6 +41,9 @@ struct MatchedMotion {
   double wall_distance;  ///< [m] root mean square of the points of one to the walls of the other
   double seconds() const { return base::secondsBetween(begin, end); }
 };
+
+/// The turns of the motions by scans.
+std::vector<MeasuredTurn> turnsOf(const std::vector<MatchedMotion>& motions);
 
 using OdometryBetween = std::function<std::optional<mrpt::poses::CPose2D>(base::Stamp, base::Stamp)>;
 

@@ -79,6 +79,37 @@ std::string odometryLines(const LogFacts& facts) {
   return text;
 }
 
+std::string valueText(const std::string& name, const std::optional<Measured>& value, double unit, int decimals,
+                      const std::string& unit_name) {
+  if (!value) return "";
+  return ", " + name + " " + fixed(value->value / unit, decimals) + " +- " + fixed(value->sigma / unit, decimals) +
+         unit_name;
+}
+
+std::string cameraLines(const LogFacts& facts) {
+  std::string text;
+  for (const auto& camera : facts.cameras) {
+    text += quoted(camera.camera) + ": " + std::to_string(camera.columns) + " x " + std::to_string(camera.rows) +
+            " px, median depth " + fixed(camera.median_depth, 2) +
+            " m; pose on the base: " + poseText(camera.declared) + "\n  " + counted(camera.planes, "plane") + " in " +
+            counted(camera.images, "image");
+    if (camera.height) {
+      text += "; the floor in " + std::to_string(camera.floor_images) + " of them, " + fixed(*camera.height, 2) +
+              " m below the camera and tilted by " + fixed(degrees(camera.tilt), 1) + " deg";
+    }
+    if (!camera.laser.empty()) {
+      text += "; " + std::to_string(camera.matched) + " of " + counted(camera.walls, "upright plane") +
+              " on walls of " + quoted(camera.laser) +
+              valueText("yaw off by", camera.yaw, base::option_text::kRadiansPerDegree, 1, " deg") +
+              valueText("scale of the depths", camera.scale, 1, 3, "") +
+              valueText("of the focal length", camera.focal, 1, 3, "") +
+              valueText("clock late by", camera.clock, 1, 3, " s");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 std::string findingLines(const std::vector<Finding>& findings) {
   if (findings.empty()) return "\nNothing is wrong with the observations.\n";
   std::string text = "\n";
@@ -116,7 +147,7 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
                      counted(static_cast<std::size_t>(report.observations()), "observation") + " in " +
                      fixed(base::secondsBetween(first, last), 1) + " s\n";
   if (!report.message.empty()) text += report.message + "\n";
-  text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + findingLines(findings);
+  text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + cameraLines(facts) + findingLines(findings);
   if (inis.empty()) return text;
   text += "\nINIs that fit this log, first the one that uses most of its sensors:\n" + iniLines(inis);
   if (settings.empty() && inis.front().file == ini && inis.front().needs_settings) return text;

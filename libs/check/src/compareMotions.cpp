@@ -150,6 +150,16 @@ std::optional<double> turnScaleOf(const std::vector<MatchedMotion>& motions) {
   return quantile(ratios, 0.5);
 }
 
+// The odometry's motions at the moments of the scans, if the clocks of both differ.
+std::optional<ClockFacts> alignClocks(std::vector<MatchedMotion>& motions, const OdometryBetween& odometry,
+                                      const Headings& headings) {
+  const auto clock = fitClock(turnsOf(motions), headings);
+  if (!clock || !clock->isWrong()) return clock;
+  const auto shift = base::durationFromSeconds(clock->offset);
+  for (auto& motion : motions) motion.by_odometry = odometry(motion.begin + shift, motion.end + shift);
+  return clock;
+}
+
 MotionFacts compare(const std::vector<MatchedMotion>& motions) {
   MotionFacts facts;
   facts.matched = motions.size();
@@ -182,13 +192,18 @@ MotionFacts compare(const std::vector<MatchedMotion>& motions) {
 // The turns of the odometry, which have errors too, only raise the suspicion that the declared aperture is wrong. The
 // right one is that with which the scans match best. It was found this way on five real logs of 180 deg and one of 220
 // deg that were declared as 90 and 270 (mit-csail, intel, aces, fhw, belgioioso, driving_in_office).
-MotionFacts compareMotions(const std::vector<ScanPair>& pairs, double aperture, const OdometryBetween& odometry) {
+ComparedMotions compareMotions(const std::vector<ScanPair>& pairs, double aperture, const OdometryBetween& odometry,
+                               const Headings& headings) {
   constexpr double kWrong = 0.15;       // turn by odometry divided by turn by scans, minus 1
   constexpr double kFitsBetter = 0.95;  // factor on the distance from the walls
   constexpr double kFewer = 0.9;        // share of the matched pairs
-  MotionFacts facts = compare(matchPairs(pairs, odometry));
+  ComparedMotions declared{{}, matchPairs(pairs, odometry)};
+  const auto clock = alignClocks(declared.motions, odometry, headings);
+  auto& facts = declared.facts;
+  facts = compare(declared.motions);
+  facts.clock = clock;
   const auto excess = [](const MotionFacts& some) { return std::abs(some.turn_scale.value_or(0) - 1); };
-  if (!facts.turn_scale || excess(facts) < kWrong) return facts;
+  if (!facts.turn_scale || excess(facts) < kWrong) return declared;
   // Apertures of lasers on the market, and the one that the odometry suggests if it is none of these.
   std::vector<double> apertures;
   for (const double sold : {90, 100, 120, 180, 190, 220, 240, 270, 360}) {  // [deg]
@@ -199,16 +214,21 @@ MotionFacts compareMotions(const std::vector<ScanPair>& pairs, double aperture, 
                    [&](double sold) { return std::abs(sold - by_turning) < 0.05 * sold; })) {
     apertures.push_back(by_turning);
   }
-  std::optional<MotionFacts> best;
+  const auto shift = base::durationFromSeconds(clock && clock->isWrong() ? clock->offset : 0);
+  const auto at_scans = [&](base::Stamp begin, base::Stamp end) { return odometry(begin + shift, end + shift); };
+  std::optional<ComparedMotions> best;
   for (const double other : apertures) {
-    auto with = compare(matchPairs(withAperture(pairs, other), odometry));
-    if (static_cast<double>(with.matched) < kFewer * static_cast<double>(facts.matched)) continue;
-    with.aperture = other;
-    if (!best || with.wall_distance < best->wall_distance) best = std::move(with);
+    ComparedMotions with{{}, matchPairs(withAperture(pairs, other), at_scans)};
+    with.facts = compare(with.motions);
+    if (static_cast<double>(with.facts.matched) < kFewer * static_cast<double>(facts.matched)) continue;
+    with.facts.aperture = other;
+    with.facts.clock = clock;
+    if (!best || with.facts.wall_distance < best->facts.wall_distance) best = std::move(with);
   }
-  const bool is_better = best && best->wall_distance < kFitsBetter * facts.wall_distance &&
-                         excess(*best) < 0.5 * excess(facts) && std::abs(*best->aperture - aperture) > 0.05 * aperture;
-  return is_better ? *best : facts;
+  const bool is_better = best && best->facts.wall_distance < kFitsBetter * facts.wall_distance &&
+                         excess(best->facts) < 0.5 * excess(facts) &&
+                         std::abs(*best->facts.aperture - aperture) > 0.05 * aperture;
+  return is_better ? *best : declared;
 }
 
 }  // namespace omnimapper::check

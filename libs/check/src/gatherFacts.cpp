@@ -1,16 +1,23 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <omnimapper/check/gatherFacts.h>
+#include <omnimapper/check/judge.h>
+#include <omnimapper/geometry/Rotation3.h>
+#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/matching/Gyroscope.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "CameraFit.h"
 #include "LevelStatistics.h"
 #include "OdometryStatistics.h"
 #include "PoseStatistics.h"
 #include "ScanPairs.h"
 #include "ScanStatistics.h"
 #include "StampStatistics.h"
+#include "SweepFit.h"
 #include "compareMotions.h"
 
 namespace omnimapper::check {
@@ -25,20 +32,29 @@ typename Map::const_iterator beginningOf(const Map& map, std::size_t count) {
   return std::next(map.begin(), static_cast<std::ptrdiff_t>(std::min(count, map.size())));
 }
 
+}  // namespace
+
 // Collects all statistics while the log is read.
-class Gatherer {
+class FactGatherer::Statistics {
  public:
+  explicit Statistics(double declared_sweep) : declared_sweep_(declared_sweep) {}
+
   void add(const mrpt::obs::CObservation::Ptr& observation) {
     const auto stamp = observation->timestamp;
     const std::string& label = observation->sensorLabel;
     clock_.add(stamp);
     stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, clock_);
     if (OdometryStatistics::isOdometry(*observation)) odometry_[label].add(*observation);
+    if (dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get())) {
+      auto& gyroscope = gyroscopes_[label];
+      if (gyroscope.sensor.add(*observation)) gyroscope.stamps.push_back(stamp);
+    }
     level_.add(*observation);
     if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
       poses_[label].add(*pose);
     }
     if (const auto image = std::dynamic_pointer_cast<const mrpt::obs::CObservation3DRangeScan>(observation)) {
+      images_[label].add(image);
       const bool is_calibrated = image->cameraParams.fx() > 0 && image->cameraParams.fy() > 0;
       if (image->hasRangeImage && !is_calibrated) {
         auto& left_out = uncalibrated_[{label, "the camera is not calibrated: its focal length is not positive"}];
@@ -49,6 +65,7 @@ class Gatherer {
       auto& laser = lasers_[label];
       laser.statistics.add(*scan);
       laser.pairs.add(scan);
+      laser.walls.add(scan);
       if (base::isValid(stamp)) laser.stamps.push_back(stamp);
     }
   }
@@ -59,7 +76,10 @@ class Gatherer {
     for (const auto& [sensor, statistics] : stamps_) facts.sensors[sensor] = stampFacts(statistics);
     for (const auto& [label, statistics] : odometry_) facts.odometry[label] = statistics.facts();
     for (const auto& [label, statistics] : poses_) facts.poses[label] = statistics.facts();
-    facts.levels = level_.facts(!odometry_.empty());
+    std::vector<SampledImage> images;
+    for (const auto& [label, sampled] : images_)
+      images.insert(images.end(), sampled.all().begin(), sampled.all().end());
+    facts.levels = level_.facts(!odometry_.empty(), images);
     // No robot has more lasers or odometries; comparing a log with more labels would take minutes.
     constexpr std::size_t kMost = 10;
     const auto compared = beginningOf(odometry_, kMost);
@@ -72,11 +92,12 @@ class Gatherer {
       facts.scans[label] = laser.statistics.facts();
       if (facts.scans.size() > kMost) continue;
       for (auto odometry = odometry_.begin(); odometry != compared; ++odometry) {
-        facts.motions.push_back(motionOf(label, laser, odometry->first, &odometry->second));
+        compare(label, laser, odometry->first, &odometry->second, facts);
         facts.covered[{label, odometry->first}] = coveredShare(laser, odometry->second);
       }
-      if (odometry_.empty()) facts.motions.push_back(motionOf(label, laser, "", nullptr));
+      if (odometry_.empty()) compare(label, laser, "", nullptr, facts);
     }
+    addCameras(facts);
     return facts;
   }
 
@@ -84,7 +105,51 @@ class Gatherer {
   struct Laser {
     ScanStatistics statistics;
     ScanPairs pairs;
+    WallTrack walls;
     std::vector<base::Stamp> stamps;
+  };
+
+  // Compares the depth cameras with the best laser, and the best odometry at the moments of that laser.
+  void addCameras(LogFacts& facts) const {
+    const auto lasers = usableLasers(facts);
+    const auto odometry = usableOdometry(facts);
+    if (!odometry) return;
+    double late = 0;  // stamps of the odometry against those of the laser [s]
+    for (const auto& motion : facts.motions) {
+      const bool is_wanted = !lasers.empty() && motion.laser == lasers.front() && motion.odometry == *odometry;
+      if (is_wanted && motion.clock && motion.clock->isWrong()) late = motion.clock->offset;
+    }
+    const auto& wheels = odometry_.at(*odometry);
+    const auto between = [&](base::Stamp begin, base::Stamp end) {
+      const auto shift = base::durationFromSeconds(late);
+      return wheels.between(begin + shift, end + shift);
+    };
+    CameraWitness witness;
+    witness.walls = [&](base::Stamp stamp) {
+      return lasers.empty() ? std::vector<BaseWall>() : lasers_.at(lasers.front()).walls.wallsAt(stamp, between);
+    };
+    witness.turning = [&](base::Stamp stamp) -> std::optional<double> {
+      const auto half = base::durationFromSeconds(0.15);
+      const auto motion = between(stamp - half, stamp + half);
+      return motion ? std::optional(motion->phi() / 0.3) : std::nullopt;
+    };
+    for (const auto& [label, images] : images_) {
+      if (images.all().empty()) continue;
+      facts.cameras.push_back(fitCamera(images.all(), witness));
+      if (!lasers.empty()) facts.cameras.back().laser = lasers.front();
+    }
+  }
+
+  struct Gyroscope {
+    matching::Gyroscope sensor{{}};
+    std::vector<base::Stamp> stamps;
+
+    Headings headings() const {
+      return headingsOf(stamps, [this](base::Stamp begin, base::Stamp end) {
+        const auto turn = sensor.between(begin, end);
+        return turn ? geometry::logSo3(turn->begin_from_end).z() : std::nan("");
+      });
+    }
   };
 
   StampFacts stampFacts(const StampStatistics& statistics) const {
@@ -110,16 +175,32 @@ class Gatherer {
     return is_measured;
   }
 
-  static MotionFacts motionOf(const std::string& label, const Laser& laser, const std::string& odometry,
-                              const OdometryStatistics* statistics) {
+  // Adds the comparison of a laser with an odometry, which may be none, and the sweep of the laser.
+  void compare(const std::string& label, const Laser& laser, const std::string& odometry,
+               const OdometryStatistics* statistics, LogFacts& facts) const {
     const auto between = [&](base::Stamp begin, base::Stamp end) {
       return statistics ? statistics->between(begin, end) : std::nullopt;
     };
-    auto facts = compareMotions(laser.pairs.pairs(), laser.statistics.facts().aperture, between);
-    facts.laser = label;
-    facts.odometry = odometry;
-    facts.tried = laser.pairs.pairs().size();
-    return facts;
+    const auto& pairs = laser.pairs.pairs();
+    auto& scans = facts.scans.at(label);
+    auto compared = compareMotions(pairs, scans.aperture, between, statistics ? statistics->headings() : Headings());
+    compared.facts.laser = label;
+    compared.facts.odometry = odometry;
+    compared.facts.tried = pairs.size();
+    if (!compared.facts.aperture) {
+      const auto sweep = fitSweep(pairs, compared.motions, declared_sweep_);
+      if (sweep && (!scans.sweep || sweep->sigma < scans.sweep->sigma)) scans.sweep = sweep;
+    }
+    if (facts.motions.empty() || facts.motions.back().laser != label) {
+      for (const auto& [gyroscope, turned] : gyroscopes_) {
+        if (!turned.stamps.empty())
+          facts.gyroscopes.push_back({gyroscope, label, fitClock(turnsOf(compared.motions), turned.headings())});
+      }
+    }
+    // The turn of a scan is that of the middle of its sweep, and its stamp that of the beginning.
+    if (auto& clock = compared.facts.clock)
+      clock->offset -= 0.5 * (scans.sweep && scans.sweep->isWrong() ? scans.sweep->sweep : declared_sweep_);
+    facts.motions.push_back(std::move(compared.facts));
   }
 
   static double coveredShare(const Laser& laser, const OdometryStatistics& odometry) {
@@ -129,24 +210,45 @@ class Gatherer {
     return static_cast<double>(covered) / static_cast<double>(laser.stamps.size());
   }
 
+  double declared_sweep_;  // [s]
   std::map<std::pair<std::string, std::string>, StampStatistics> stamps_;
   std::map<std::string, OdometryStatistics> odometry_;
+  std::map<std::string, Gyroscope> gyroscopes_;
   std::map<std::string, PoseStatistics> poses_;
   LevelStatistics level_;
+  std::map<std::string, SampledImages> images_;  // by label
   std::map<std::string, Laser> lasers_;
   StreamClock clock_;
   std::map<std::pair<std::string, std::string>, source::LeftOut> uncalibrated_;  // as LogFacts::unusable
 };
 
-}  // namespace
+Declared Declared::read(const base::Config& config) {
+  Declared declared{mapper::SensorPoses(config.section("mapper").read<mapper::EngineOptions>().sensors, config), 0};
+  std::string text;
+  if (config.has("scan_odometry") && config.section("scan_odometry").find("sweep_s", text))
+    base::option_text::parse(text, base::Range::notNegative(), declared.sweep);
+  return declared;
+}
 
-LogFacts gatherFacts(source::ObservationSource& log, const mapper::SensorPoses& sensor_poses,
-                     const std::function<bool()>& stop, base::Progress* progress) {
-  Gatherer gatherer;
+FactGatherer::FactGatherer(Declared declared)
+    : statistics_(std::make_unique<Statistics>(declared.sweep)), sensor_poses_(std::move(declared.sensor_poses)) {}
+FactGatherer::~FactGatherer() = default;
+
+void FactGatherer::add(const mrpt::obs::CObservation::Ptr& observation) {
+  statistics_->add(sensor_poses_.applied(observation));
+}
+
+LogFacts FactGatherer::facts() const {
+  return statistics_->facts();
+}
+
+LogFacts gatherFacts(source::ObservationSource& log, const Declared& declared, const std::function<bool()>& stop,
+                     base::Progress* progress) {
+  FactGatherer gatherer(declared);
   while (!stop()) {
     const auto observation = log.next();
     if (!observation) break;
-    gatherer.add(sensor_poses.applied(observation));
+    gatherer.add(observation);
     if (progress) progress->report(log.progress(), "reading the log");
   }
   auto facts = gatherer.facts();

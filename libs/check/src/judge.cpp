@@ -27,6 +27,8 @@ class Judge {
     judgeContent();
     judgeOdometry();
     judgePairs();
+    judgeClocks();
+    for (const auto& camera : facts_.cameras) judgeCamera(camera);
     judgePoses();
     judgeLevels();
     for (const auto& laser : usableLasers(facts_)) judgeSensorPose(laser);
@@ -36,7 +38,8 @@ class Judge {
   }
 
  private:
-  void add(Weight weight, const std::string& text) { findings_.push_back({weight, text}); }
+  void add(Weight weight, const std::string& text) { findings_.push_back({weight, text, false}); }
+  void contradict(Weight weight, const std::string& text) { findings_.push_back({weight, text, true}); }
   std::string sinceStart(base::Stamp stamp) const {
     base::Stamp first = stamp;
     for (const auto& [sensor, stamps] : facts_.sensors) {
@@ -69,7 +72,8 @@ class Judge {
     if (stamps.no_stamp > 0) {
       add(weigh(stamps.no_stamp),
           who + std::to_string(stamps.no_stamp) + " of " + counted(stamps.count, "observation") +
-              " are without a stamp and are left out of the map; record this sensor with stamps");
+              " are without a stamp and are left out of the map; " +
+              (clockStands(facts_) ? "set [source] step_s to make stamps" : "record this sensor with stamps"));
     }
     if (stamps.repeated > 0) {
       add(weigh(stamps.repeated),
@@ -87,7 +91,7 @@ class Judge {
       add(Weight::warning,
           who + "stamps run backwards " + counted(stamps.backward, "time") + ", by less than 10 s each");
     }
-    if (stamps.lateness > mapper::EngineOptions().window) {
+    if (stamps.lateness > mapper::EngineOptions().window && !isLateByItsClock(label, stamps.lateness)) {
       add(Weight::warning, who + "comes up to " + fixed(stamps.lateness, 1) +
                                " s after later stamps of other sensors; set [mapper] window_s to more than that");
     }
@@ -102,6 +106,13 @@ class Judge {
           who + counted(stamps.rests, "gap") +
               " in which the robot moved by less than 1.5 m and turned by less than 1 rad according to odometry");
     }
+  }
+
+  // Whether observations come after later stamps of others because their clock differs.
+  bool isLateByItsClock(const std::string& label, double lateness) const {
+    const auto offsets = clockOffsets(facts_);
+    const auto found = offsets.find(label);
+    return found != offsets.end() && found->second > 0 && lateness < found->second + mapper::EngineOptions().window;
   }
 
   void judgeLabels() {
@@ -166,6 +177,7 @@ class Judge {
                                "correct it in [mapper] sensors");
     }
     if (scans.isUpsideDown()) add(Weight::note, who + "is mounted upside down according to its sensor pose");
+    judgeSweep(who, scans);
     if (scans.sensor_pose_moves) add(Weight::note, who + "moves on the base according to its sensor poses");
   }
 
@@ -265,6 +277,128 @@ class Judge {
     }
   }
 
+  void judgeClocks() {
+    for (const auto& motion : facts_.motions) judgeClock(motion.odometry, motion.laser, motion.clock);
+    for (const auto& one : facts_.gyroscopes) judgeClock(one.gyroscope, one.laser, one.clock);
+  }
+
+  void judgeClock(const std::string& sensor, const std::string& other, const std::optional<ClockFacts>& clock) {
+    if (!clock) return;
+    const std::string who = quoted(sensor) + " and " + quoted(other) + ": ";
+    const bool is_late = clock->offset > 0;
+    const std::string sigma = fixed(std::max(0.001, clock->sigma), 3);
+    if (clock->isWrong()) {
+      const auto offsets = clockOffsets(facts_);
+      const auto& wrong = offsets.count(sensor) > 0 ? sensor : other;
+      const auto remedy = offsets.find(wrong);
+      add(Weight::warning, who + "their clocks differ: for the same turn the stamps of " + quoted(sensor) + " are " +
+                               fixed(std::abs(clock->offset), 3) + " +- " + sigma + " s " +
+                               (is_late ? "later" : "earlier") +
+                               (remedy == offsets.end() ? ""
+                                                        : "; set clock_offset_s = " + fixed(remedy->second, 3) +
+                                                              " for " + quoted(wrong) + " in [mapper] sensors"));
+    }
+    if (clock->drift != 0) {
+      add(Weight::warning, who + "their clocks drift apart by " + fixed(1e3 * std::abs(clock->drift), 2) +
+                               " s in 1000 s; a constant clock_offset_s does not correct this: map the log in parts "
+                               "([source] start_s, end_s), or synchronize the clocks");
+    }
+  }
+
+  // Whether turns of the log are measured wrong by so much that headings suffer.
+  bool isSweepHarmful(const SweepFacts& sweep) const {
+    constexpr double kMuch = 0.01;  // [s], which at 1 rad/s is an error of some 0.2 % of a turn
+    return std::abs(sweep.sweep - sweep.declared) > kMuch;
+  }
+
+  void judgeSweep(const std::string& who, const ScanFacts& scans) {
+    if (!scans.sweep || !scans.sweep->isWrong()) return;
+    const auto& sweep = *scans.sweep;
+    const std::string measured = fixed(sweep.sweep, 4) + " +- " + fixed(std::max(0.0001, sweep.sigma), 4) + " s";
+    const std::string declared = sweep.declared > 0 ? "the INI declares " + fixed(sweep.declared, 4) + " s"
+                                                    : std::string("the INI declares that all beams are simultaneous");
+    const bool is_instant = sweep.sweep < std::max(0.004, 3 * sweep.sigma);
+    contradict(
+        isSweepHarmful(sweep) ? Weight::problem : Weight::warning,
+        who +
+            (is_instant
+                 ? "its scans turn and match as if all beams were measured at once"
+                 : "its scans turn and match as if their beams were measured one after the other in " + measured) +
+            ", but " + declared + "; set [scan_odometry] sweep_s = " + (is_instant ? "0" : fixed(sweep.sweep, 4)));
+  }
+
+  void judgeCamera(const CameraFacts& camera) {
+    constexpr double kMuchTilt = 6, kLittleTilt = 3, kMuchYaw = 4, kLittleYaw = 1.5;  // [deg]
+    const std::string who = quoted(camera.camera) + ": ";
+    if (camera.are != CameraFacts::Images::as_declared) {
+      const bool mirrored = camera.are == CameraFacts::Images::mirrored;
+      contradict(Weight::problem,
+                 who + (mirrored ? "its images are mirror images: planes lie on walls of the laser only if left and "
+                                   "right are exchanged; set [calibration] mirrored = true"
+                                 : "its depth images hold distances from the camera instead of depths: only then its "
+                                   "planes are flat and lie on walls of the laser; set [calibration] depth_is_range = "
+                                   "true"));
+    }
+    const bool is_scaled = camera.scale && camera.scale->differs(1, kWrongScale);
+    const bool has_focal = camera.focal && camera.focal->differs(1, kWrongFocal);
+    if (is_scaled) {
+      const bool much = std::abs(std::log(camera.scale->value)) > 2 * kWrongScale;
+      contradict(much ? Weight::problem : Weight::warning,
+                 who + "the true depths are " + significant(camera.scale->value) +
+                     " times those in the log, by the walls that " + quoted(camera.laser) +
+                     " sees; set [calibration] depth_scale");
+    } else if (const auto scale = scaleByHeight(camera); scale && !camera.scale) {
+      contradict(Weight::problem, who + "the floor appears " + significant(*camera.height) +
+                                      " m below the camera, but its pose declares " + significant(camera.declared.z()) +
+                                      " m: either the depths have another unit (then set [calibration] depth_scale = " +
+                                      significant(*scale) + ") or the declared height is wrong; measure the height");
+    }
+    if (has_focal) {
+      contradict(Weight::problem, who + "the true focal length is " + fixed(camera.focal->value, 2) +
+                                      " times the declared one, by the walls that " + quoted(camera.laser) +
+                                      " sees; set depth_fx_px and depth_fy_px in [calibration], or measure them with "
+                                      "omnimapper-calibrate intrinsics");
+    }
+    const bool is_tilted = camera.height && degrees(camera.tilt) > kLittleTilt;
+    const bool is_turned = camera.yaw && camera.yaw->differs(0, kLittleYaw * base::option_text::kRadiansPerDegree);
+    if ((is_tilted || is_turned) && camera.pose) {
+      const bool much = (is_tilted && degrees(camera.tilt) > kMuchTilt) ||
+                        (is_turned && std::abs(degrees(camera.yaw->value)) > kMuchYaw);
+      std::string how;
+      if (is_turned) {
+        how = "is turned by " + fixed(degrees(camera.yaw->value), 1) + " +- " + fixed(degrees(camera.yaw->sigma), 1) +
+              " deg in yaw, by the walls that " + quoted(camera.laser) + " sees";
+      }
+      if (is_tilted) {
+        how += (how.empty() ? "" : ", and ") + std::string("is tilted by ") + fixed(degrees(camera.tilt), 1) +
+               " deg, by the floor that it sees";
+      }
+      contradict(much ? Weight::problem : Weight::warning,
+                 who + how + ", against its declared pose; set pose_yaw_deg " + fixed(degrees(camera.pose->yaw()), 1) +
+                     ", pose_pitch_deg " + fixed(degrees(camera.pose->pitch()), 1) + ", pose_roll_deg " +
+                     fixed(degrees(camera.pose->roll()), 1) + " for it in [mapper] sensors");
+    }
+    if (camera.clock)
+      judgeClock(camera.camera, camera.laser, ClockFacts{camera.clock->value, camera.clock->sigma, 0, false});
+    judgeImages(who, camera);
+  }
+
+  void judgeImages(const std::string& who, const CameraFacts& camera) {
+    constexpr double kFar = 15, kNear = 0.25;  // [m] medians that no indoor camera on a robot has
+    const bool is_explained = camera.scale || scaleByHeight(camera);
+    if (!is_explained && camera.median_depth > 0 && (camera.median_depth > kFar || camera.median_depth < kNear)) {
+      contradict(Weight::problem, who + "half of its depths are " + (camera.median_depth > kFar ? "over " : "under ") +
+                                      significant(camera.median_depth) +
+                                      " m: are they in another unit? Set [calibration] depth_scale, for example " +
+                                      (camera.median_depth > kFar ? "0.001" : "1000"));
+    }
+    constexpr unsigned kSmall = 200;  // columns
+    if (camera.columns < kSmall)
+      add(Weight::note, who + "its images are small, " + std::to_string(camera.columns) + " x " +
+                            std::to_string(camera.rows) +
+                            " px: only surfaces that fill [planes] min_pixels pixels are found");
+  }
+
   // Whether the direction of up was measured in the frame of these poses.
   bool isMeasured(const std::string& poses) const {
     return std::any_of(facts_.levels.begin(), facts_.levels.end(), [&](const LevelFacts& level) {
@@ -279,7 +413,7 @@ class Judge {
     for (const auto& level : facts_.levels) {
       const double tilt = level.tilt();
       if (!level.is_known || tilt < std::max(kTilt, kSigmas * level.sigma)) continue;
-      if (!level.of_poses && tilt > kMostTilt) continue;
+      if (!level.of_poses && (tilt > kMostTilt || (level.by_planes && facts_.cameras.front().height))) continue;
       // The rotation that takes the measured up to z: first roll, then pitch.
       const double roll = std::atan2(level.up.y(), level.up.z());
       const double pitch = -std::atan2(level.up.x(), std::hypot(level.up.y(), level.up.z()));
@@ -322,11 +456,12 @@ class Judge {
   void judgeSensorPose(const std::string& laser) {
     const auto& scans = facts_.scans.at(laser);
     if (const auto aperture = betterAperture(facts_, laser)) {
-      add(Weight::problem, quoted(laser) + ": its scans declare an aperture of " + fixed(degrees(scans.aperture), 0) +
-                               " deg, but they match and turn with the odometry better with " +
-                               fixed(degrees(*aperture), 0) +
-                               " deg; set aperture_deg of this laser in [mapper] sensors");
+      contradict(Weight::problem,
+                 quoted(laser) + ": its scans declare an aperture of " + fixed(degrees(scans.aperture), 0) +
+                     " deg, but they match and turn with the odometry better with " + fixed(degrees(*aperture), 0) +
+                     " deg; set aperture_deg of this laser in [mapper] sensors");
     }
+    judgeTurns(laser);
     const auto better = betterSensorPose(facts_, laser);
     const std::string who = quoted(laser) + ": ";
     const std::string missing = "its sensor pose is missing: in the log it is at the origin of the base";
@@ -342,10 +477,24 @@ class Judge {
                                 : backwards          ? "looks backwards, which its sensor pose does not state"
                                 : scans.isAtOrigin() ? missing
                                                      : "is mounted otherwise than its sensor pose states";
-    add(little ? Weight::warning : Weight::problem, who + verdict + "; according to its motion, set x " +
-                                                        fixed(better->x(), 2) + " m, y " + fixed(better->y(), 2) +
-                                                        " m, yaw " + fixed(degrees(better->yaw()), 0) + " deg, roll " +
-                                                        fixed(degrees(better->roll()), 0) + " deg in [mapper] sensors");
+    contradict(little ? Weight::warning : Weight::problem,
+               who + verdict + "; according to its motion, set x " + fixed(better->x(), 2) + " m, y " +
+                   fixed(better->y(), 2) + " m, yaw " + fixed(degrees(better->yaw()), 0) + " deg, roll " +
+                   fixed(degrees(better->roll()), 0) + " deg in [mapper] sensors");
+  }
+
+  void judgeTurns(const std::string& laser) {
+    for (const auto& [odometry, facts] : facts_.odometry) {
+      if (wrongTurnOf(facts_, laser, odometry) != Culprit::not_known) continue;
+      contradict(
+          Weight::problem,
+          quoted(laser) + " and " + quoted(odometry) +
+              ": where the scans turn left, the odometry turns right, and nothing else in the log tells which of the "
+              "two is wrong. Either the laser is mounted upside down or its beams run the other way round: then set "
+              "pose_roll_deg = 180 for it in [mapper] sensors, otherwise the map is a mirror image. Or the wheels take "
+              "left for right: then the map is right as it is. Compare the map with the place: is what was on the left "
+              "of the robot on its left?");
+    }
   }
 
   const LogFacts& facts_;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 #include "Conclusions.h"
 #include "Format.h"
@@ -28,10 +29,14 @@ class Proposal {
         laser_odometry_(has(plugins.pose, kLaserOdometry)) {}
 
   std::vector<Setting> settings() {
-    proposeStamps();
+    if (clockStands(facts_)) {
+      proposeStamps();
+      return std::move(settings_);  // without stamps the log shows nothing else
+    }
     proposePlugins();
     proposeEngine();
-    proposeSensorPoses();
+    proposeSensors();
+    proposeCalibration();
     proposeLasers();
     proposeOdometry();
     return std::move(settings_);
@@ -84,13 +89,16 @@ class Proposal {
 
   // The true duration of a step is not known, but only speeds depend on it.
   void proposeStamps() {
-    if (clockStands(facts_))
-      set("source", "step_s", "0.1", "the stamps stand still; this makes new ones, one each tenth of a second");
+    set("source", "step_s", "0.1",
+        "the stamps are missing or stand still; this makes new ones, a tenth of a second apart");
   }
 
   void proposeEngine() {
     double lateness = 0;
-    for (const auto& [sensor, stamps] : facts_.sensors) lateness = std::max(lateness, stamps.lateness);
+    const auto clocks = clockOffsets(facts_);
+    for (const auto& [sensor, stamps] : facts_.sensors) {
+      if (clocks.count(sensor.first) == 0) lateness = std::max(lateness, stamps.lateness);
+    }
     if (lateness > mapper::EngineOptions().window) {
       set("mapper", "window_s", fixed(std::ceil(11 * lateness) / 10, 1), "largest delay of an observation");
     }
@@ -99,33 +107,67 @@ class Proposal {
     }
   }
 
-  void proposeSensorPoses() {
-    std::vector<std::string> sections;
-    std::vector<Setting> poses;
+  void proposeSensors() {
+    std::map<std::string, std::vector<Setting>> changes;  // by label
+    const auto change = [&](const std::string& label, const std::string& key, double value, int decimals,
+                            const std::string& reason = "") {
+      if (canBeNamed(label) && std::stod(fixed(value, decimals)) != 0)
+        changes[label].push_back({"", key, fixed(value, decimals), reason});
+    };
+    const auto change_pose = [&](const std::string& label, const mrpt::poses::CPose3D& pose) {
+      change(label, "pose_x_m", pose.x(), 2);
+      change(label, "pose_y_m", pose.y(), 2);
+      change(label, "pose_z_m", pose.z(), 2);
+      change(label, "pose_yaw_deg", degrees(pose.yaw()), 1);
+      change(label, "pose_pitch_deg", degrees(pose.pitch()), 1);
+      change(label, "pose_roll_deg", degrees(pose.roll()), 1);
+    };
     for (const auto& laser : lasers_) {
-      const auto better_pose = betterSensorPose(facts_, laser);
-      const auto aperture = betterAperture(facts_, laser);
-      if ((!better_pose && !aperture) || !canBeNamed(laser)) continue;
-      std::string section = sectionName(laser);
+      if (const auto pose = betterSensorPose(facts_, laser)) change_pose(laser, *pose);
+      if (const auto aperture = betterAperture(facts_, laser)) change(laser, "aperture_deg", degrees(*aperture), 1);
+    }
+    for (const auto& camera : facts_.cameras) {
+      constexpr double kLittle = 1.5 * base::option_text::kRadiansPerDegree;
+      const bool is_turned = camera.yaw && camera.yaw->differs(0, kLittle);
+      if (camera.pose && (is_turned || (camera.height && camera.tilt > 2 * kLittle)))
+        change_pose(camera.camera, *camera.pose);
+    }
+    for (const auto& [label, offset] : clockOffsets(facts_))
+      change(label, "clock_offset_s", offset, 3, "its clock differs from those of the other sensors");
+    if (changes.empty()) return;
+    auto sections = plugins_.sensors;
+    std::vector<Setting> settings;
+    for (const auto& [label, keys] : changes) {
+      std::string section = sectionName(label);
       while (has(sections, section)) section += "_";
       sections.push_back(section);
-      poses.push_back({section, "label", laser, better_pose ? "pose on the base according to its motion" : ""});
-      const auto add = [&](const std::string& key, double value, int decimals) {
-        if (std::stod(fixed(value, decimals)) != 0) poses.push_back({section, key, fixed(value, decimals), ""});
-      };
-      if (better_pose) {
-        add("pose_x_m", better_pose->x(), 2);
-        add("pose_y_m", better_pose->y(), 2);
-        add("pose_z_m", better_pose->z(), 2);
-        add("pose_yaw_deg", degrees(better_pose->yaw()), 0);
-        add("pose_pitch_deg", degrees(better_pose->pitch()), 0);
-        add("pose_roll_deg", degrees(better_pose->roll()), 0);
-      }
-      if (aperture) add("aperture_deg", degrees(*aperture), 1);
+      settings.push_back({section, "label", label, ""});
+      for (const auto& key : keys) settings.push_back({section, key.key, key.value, key.reason});
     }
-    if (sections.empty()) return;
-    set("mapper", "sensors", joined(sections, ", "), "");
-    settings_.insert(settings_.end(), poses.begin(), poses.end());
+    set("mapper", "sensors", joined(sections, ", "), "corrections of what the observations declare");
+    settings_.insert(settings_.end(), settings.begin(), settings.end());
+  }
+
+  // One section holds the calibration of one camera.
+  void proposeCalibration() {
+    for (const auto& camera : facts_.cameras) {
+      std::vector<Setting> keys;
+      const auto add = [&](const std::string& key, const std::string& value, const std::string& reason) {
+        keys.push_back({"calibration", key, value, reason});
+      };
+      if (camera.are == CameraFacts::Images::mirrored) add("mirrored", "true", "by the walls of the laser");
+      if (camera.are == CameraFacts::Images::ranges) add("depth_is_range", "true", "by the walls of the laser");
+      if (camera.scale && camera.scale->differs(1, kWrongScale))
+        add("depth_scale", significant(camera.scale->value), "by the walls of the laser");
+      if (camera.focal && camera.focal->differs(1, kWrongFocal)) {
+        add("depth_fx_px", fixed(camera.fx * camera.focal->value, 1), "by the walls of the laser");
+        add("depth_fy_px", fixed(camera.fy * camera.focal->value, 1), "");
+      }
+      if (keys.empty() || !canBeNamed(camera.camera)) continue;
+      set("calibration", "label", camera.camera, "");
+      settings_.insert(settings_.end(), keys.begin(), keys.end());
+      return;
+    }
   }
 
   static std::string sectionName(const std::string& label) {
@@ -158,6 +200,12 @@ class Proposal {
       if (laser_odometry_) set(kLaserOdometry, "max_range_m", fixed(limit, 2), "as in [laser_points]");
       if (has(plugins_.extractors, kLaserLines))
         set(kLaserLines, "max_range_m", fixed(limit, 2), "as in [laser_points]");
+    }
+    for (const auto& laser : lasers_) {
+      const auto& sweep = facts_.scans.at(laser).sweep;
+      if (!laser_odometry_ || laser != lasers_.front() || !sweep || !sweep->isWrong()) continue;
+      set(kLaserOdometry, "sweep_s", sweep->sweep < std::max(0.004, 3 * sweep->sigma) ? "0" : fixed(sweep->sweep, 4),
+          "time from the first beam of a scan to the last, by its turns");
     }
     if (median > 0 && median < 1.2) {
       set("trigger", "distance_m", "0.3", "the ranges are short, so key frames must be close together");

@@ -44,6 +44,8 @@ class Engine {
   void finish();
   /// Collects the evidence for and against the map as it is now; finish() does this for the whole map.
   void judge();
+  /// Evidence on the observations, which counts for the verdict.
+  void setInputEvidence(std::vector<Evidence> evidence) { back_end_.setInputEvidence(std::move(evidence)); }
   /// Calls finish() of every output plugin and returns the errors of those that could not write their output.
   std::vector<base::Error> writeOutputs();
   /// Whether a window still shows the map to the user.

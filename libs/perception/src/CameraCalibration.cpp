@@ -63,7 +63,7 @@ DepthDistortion distortionOf(const std::vector<std::string>& texts) {
 }  // namespace
 
 const base::OptionTable<Options>& Options::table() {
-  const base::Range focal{1, 1e5}, centre{-1e5, 1e5}, lens{-1000, 1000}, scale{0.1, 10}, place{-10, 10};
+  const base::Range focal{1, 1e5}, centre{-1e5, 1e5}, lens{-1000, 1000}, scale{1e-4, 1e4}, place{-10, 10};
   static const auto table =
       base::OptionTable<Options>()
           .text("label", &Options::label, "Sensor label of the depth camera that is calibrated; empty for all of them.")
@@ -96,6 +96,11 @@ const base::OptionTable<Options>& Options::table() {
           .number("picture_k3", &Options::picture_k3, lens,
                   "Third radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
           .number("depth_scale", &Options::depth_scale, scale, "True depth divided by the depth in the log.")
+          .flag("depth_is_range", &Options::depth_is_range,
+                "Whether the pixels of the depth image hold distances from the camera, although the log says that they "
+                "hold depths, which are measured along the optical axis.")
+          .flag("mirrored", &Options::mirrored,
+                "Whether the images are mirror images, with left and right exchanged. They are mirrored back.")
           .list("depth_distortion_per_m", &Options::depth_distortion,
                 "Correction of depths that depends on the pixel: coefficients of products of Legendre polynomials, as "
                 "omnimapper-calibrate depth writes them. The sum of these products, each times its coefficient, is "
@@ -141,7 +146,19 @@ CameraCalibration CameraCalibration::read(const base::Config& config) {
   }
 }
 
+namespace {
+
+// The calibration stays that of the camera: the images are what it saw once they are mirrored back.
+void mirror(mrpt::obs::CObservation3DRangeScan& scan) {
+  if (scan.hasRangeImage) scan.rangeImage.asEigen() = scan.rangeImage.asEigen().rowwise().reverse().eval();
+  if (scan.hasIntensityImage) scan.intensityImage.flipHorizontal();
+}
+
+}  // namespace
+
 void CameraCalibration::applyTo(mrpt::obs::CObservation3DRangeScan& scan) const {
+  if (options_.mirrored) mirror(scan);
+  if (options_.depth_is_range) scan.range_is_depth = false;
   set(scan.cameraParams, depthNumbers(options_));
   depth_distortion_.applyTo(scan);  // before depth_scale changes the units
   set(scan.cameraParamsIntensity, pictureNumbers(options_));

@@ -29,8 +29,10 @@ void check(const void* pixels, int width, int height, const Pinhole& camera) {
     }
   }
   for (const double focal : {camera.fx, camera.fy}) {
-    if (std::abs(focal) < kShortestFocal) {
-      refuse("a focal length of " + std::to_string(focal) + " px is shorter than a pixel; calibrate the camera");
+    if (focal < kShortestFocal) {
+      refuse("a focal length of " + std::to_string(focal) +
+             " px is not positive and at least a pixel; calibrate the camera (depth_fx_px and depth_fy_px in "
+             "[calibration])");
     }
   }
 }

@@ -19,6 +19,7 @@
 #include "ObjectReader.h"
 #include "ObservationFilter.h"
 #include "SandboxedReader.h"
+#include "SensorClocks.h"
 #include "StepClock.h"
 #include "describeInput.h"
 
@@ -104,6 +105,8 @@ class RawlogSource::Stream {
       const auto observation = waiting_.front();
       waiting_.pop_front();
       observation->sensorLabel = base::sensorName(observation->sensorLabel);
+      if (!clocks_.concerns(*observation)) continue;
+      clocks_.correct(*observation);
       if (!passes(*observation)) continue;
       report_.count(observation->sensorLabel, observation->GetRuntimeClass()->className, observation->timestamp);
       return observation;
@@ -123,6 +126,10 @@ class RawlogSource::Stream {
     report.objects = reader_.objects();
     report.bytes = reader_.bytes();
     report.dropped_actions = spans_.dropped();
+    if (!clocks_.areFirst()) {  // another reader of the same log counts these
+      report.objects = report.bytes = report.dropped_actions = report.repaired_stamps = 0;
+      report.other_objects.clear();
+    }
     return report;
   }
 
@@ -134,6 +141,7 @@ class RawlogSource::Stream {
 
   void setLogStart(base::Stamp log_start) { filter_.setLogStart(log_start); }
   void setGate(std::shared_ptr<ObservationGate> gate) { gate_ = std::move(gate); }
+  void setClocks(SensorClocks clocks) { clocks_ = std::move(clocks); }
   void interrupt() { interrupted_ = true; }
 
  private:
@@ -210,6 +218,7 @@ class RawlogSource::Stream {
   ObservationFilter filter_;
   std::string images_folder_;
   std::shared_ptr<ObservationGate> gate_ = std::make_shared<ObservationGate>();
+  SensorClocks clocks_;
   std::deque<CObservation::Ptr> waiting_;
   SourceReport report_;
   std::uint64_t rawlog_objects_ = 0;
@@ -250,7 +259,10 @@ std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& p
   std::vector<std::unique_ptr<RawlogSource>> logs;
   std::optional<base::Stamp> start;
   for (const auto& path : paths) {
-    logs.push_back(std::make_unique<RawlogSource>(path, options, stop));
+    for (const double offset : SensorClocks::offsetsIn(options.clock_offsets)) {
+      logs.push_back(std::make_unique<RawlogSource>(path, options, stop));
+      logs.back()->stream_->setClocks({options.clock_offsets, offset});
+    }
     const auto first = logs.back()->firstStamp();
     if (first && (!start || *first < *start)) start = first;
   }

@@ -198,7 +198,7 @@ void BackEnd::conclude() {
 }
 
 void BackEnd::judgeMap() {
-  std::vector<Evidence> evidence;
+  auto evidence = input_evidence_;
   const auto collect = [&](const auto& plugins, const auto& evidence_of) {
     for (const auto& [section, plugin] : plugins) {
       const auto timer = state_.times.measure(Stage::plugin, section);

@@ -56,6 +56,8 @@ class BackEnd {
   void conclude();
   /// Collects the evidence of the plugins for and against the map into a verdict.
   void judgeMap();
+  /// Evidence that judgeMap() adds to that of the plugins.
+  void setInputEvidence(std::vector<Evidence> evidence) { input_evidence_ = std::move(evidence); }
   /// Collects the map sections that the plugins save for a later session.
   void collectSections();
 
@@ -64,6 +66,7 @@ class BackEnd {
   PoseChain& chain() { return chain_; }
 
  private:
+  std::vector<Evidence> input_evidence_;
   struct Gathered {
     std::vector<Perceived> perceived;
     std::vector<map::CloudPoint> cloud;

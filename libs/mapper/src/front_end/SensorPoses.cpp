@@ -1,6 +1,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
 #include <algorithm>
@@ -46,7 +47,9 @@ Track readTrack(const std::string& path) {
   return track;
 }
 
-// A section that gives an aperture but no part of a pose keeps the sensor pose of the observations.
+constexpr double kMostOffset = 1e6;  // [s] of a clock
+
+// A section that gives an aperture or a clock but no part of a pose keeps the sensor pose of the observations.
 bool givesPose(const base::ConfigSection& section) {
   const std::string keys[] = {"pose_x_m", "pose_y_m", "pose_z_m", "pose_yaw_deg", "pose_pitch_deg", "pose_roll_deg"};
   return std::any_of(std::begin(keys), std::end(keys), [&](const std::string& key) {
@@ -78,6 +81,9 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
           .number("aperture_deg", &Options::aperture, {0, 360},
                   "Angle between the first and the last beam of the sensor's 2D scans; 0 keeps the aperture that the "
                   "scans report.")
+          .number("clock_offset_s", &Options::clock_offset, {-kMostOffset, kMostOffset},
+                  "Time that is added to every stamp of the sensor; it is negative if the stamps are late. Only for "
+                  "logs: a live sensor has a key of the same name in the section of its driver.")
           .text("pose_file", &Options::file,
                 "File of the sensor's poses on the base over time, for a sensor that moves on the base. Each line has "
                 "a stamp [s], a position x y z [m] and a quaternion qx qy qz qw (TUM format).");
@@ -94,9 +100,10 @@ SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::C
           config.file() + ": [" + name + "] needs 'label = ...', the label of the sensor whose pose it gives");
     }
     if (options.aperture > 0) apertures_[options.label] = options.aperture;
+    if (options.clock_offset != 0) clock_offsets_[options.label] = options.clock_offset;
     if (!options.file.empty()) {
       tracks_[options.label] = readTrack(options.file);
-    } else if (options.aperture == 0 || givesPose(config.section(name))) {
+    } else if ((options.aperture == 0 && options.clock_offset == 0) || givesPose(config.section(name))) {
       tracks_[options.label] = {{base::Stamp(), mrpt::poses::CPose3D(options.x, options.y, options.z, options.yaw,
                                                                      options.pitch, options.roll)}};
     }
@@ -128,6 +135,12 @@ mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation:
   if (scan && aperture != apertures_.end()) scan->aperture = static_cast<float>(aperture->second);
   if (is_calibrated) calibration_.applyTo(dynamic_cast<mrpt::obs::CObservation3DRangeScan&>(*copy));
   return copy;
+}
+
+source::SourceOptions sourceOptions(const base::Config& config) {
+  auto options = config.section("source").read<source::SourceOptions>();
+  options.clock_offsets = SensorPoses(config.section("mapper").read<EngineOptions>().sensors, config).clockOffsets();
+  return options;
 }
 
 }  // namespace omnimapper::mapper

@@ -62,6 +62,10 @@ bool LogFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progr
     pace.waitFor(observation->timestamp, stop);
     if (stop()) return true;
     samples.add(observation);
+    if (watch_) {
+      const auto timer = engine.measure(Stage::source);
+      watch_->add(observation);
+    }
     engine.add(observation);
     progress.report(log_->progress(), std::to_string(engine.view().map.key_frames.size()) + " key frames");
   }

@@ -12,9 +12,8 @@ namespace omnimapper::mapper {
 /// Reads logs, merged by stamp, as fast as they can be mapped or at a given pace.
 class LogFeed : public Feed {
  public:
-  /// `speed` is relative to the log's own pace; 0: as fast as possible.
-  LogFeed(std::vector<std::string> logs, double speed, source::SourceOptions options)
-      : logs_(std::move(logs)), speed_(speed), options_(std::move(options)) {}
+  LogFeed(const RunRequest& request, source::SourceOptions options)
+      : logs_(request.logs), speed_(request.speed), watch_(request.watch), options_(std::move(options)) {}
 
   std::string title() const override;
   std::string name() const override;
@@ -25,7 +24,8 @@ class LogFeed : public Feed {
 
  private:
   std::vector<std::string> logs_;
-  double speed_;
+  double speed_;  // relative to the log's own pace; 0: as fast as possible
+  std::shared_ptr<InputWatch> watch_;
   source::SourceOptions options_;
   std::optional<source::ReadAhead> log_;
 };

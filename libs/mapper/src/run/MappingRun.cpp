@@ -55,10 +55,15 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
                                        const std::string& missing_extractors) {
   std::string labels;
   for (const auto& sentence : unknown_labels) labels += sentence + "\n";
-  const bool is_whole = result.code == base::ExitCode::ok;
+  const bool is_whole = result.code == base::ExitCode::ok || result.code == base::ExitCode::mostly_left_out;
   if (is_whole && result.source.sensors.empty() && result.source.unusable.empty()) {
     throw base::Error(base::ExitCode::nothing_to_map, feed.name() + ": nothing to map: no observation was received; " +
                                                           feed.whatStays() + ". " + feed.checkHint() + ".");
+  }
+  if (2 * result.source.zeroStamps() > result.source.observations()) {
+    labels += std::to_string(result.source.zeroStamps()) + " of " +
+              base::counted(static_cast<std::size_t>(result.source.observations()), "observation") +
+              " have no stamp and were left out; [source] step_s = 0.1 gives them stamps, a tenth of a second apart.\n";
   }
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
   throw base::Error(
@@ -242,6 +247,11 @@ void Run::feed() {
 }
 
 void Run::finish() {
+  if (request_.watch && !localizes()) {
+    auto judgement = request_.watch->judgement();
+    for (const auto& sentence : judgement.warnings) engine_->warn(sentence);
+    engine_->setInputEvidence(std::move(judgement.evidence));
+  }
   failure_at_end_ = tried(*engine_, [&] { engine_->finish(); });
 }
 
@@ -273,7 +283,8 @@ std::vector<std::string> Run::warn(const RunResult& result) {
 // What would give the plugin observations to work on; empty if nothing is known to help.
 std::string Run::missingFor(const std::string& section) const {
   for (const auto& [name, plugin] : measurement_plugins_) {
-    if (name == section && !plugin->worksOnLandmarks()) return samples_.extractorsFor(*plugin);
+    if (name != section || plugin->worksOnLandmarks() || samples_.isFedBy(extractors_, *plugin)) continue;
+    return samples_.extractorsFor(*plugin);
   }
   return "";
 }

@@ -10,6 +10,13 @@ namespace omnimapper::mapper {
 
 namespace {
 
+bool derives(const perception::Extractor& extractor, const mrpt::obs::CObservation& observation,
+             const MeasurementPlugin& plugin) {
+  if (!extractor.wants(observation)) return false;
+  const auto made = extractor.extract(observation);
+  return std::any_of(made.begin(), made.end(), [&](const auto& derived) { return plugin.wants(*derived); });
+}
+
 // Tries the extractor with its default options; one that needs other options, or throws, gives nothing.
 bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservation& observation,
                     const MeasurementPlugin& plugin) {
@@ -17,10 +24,7 @@ bool givesSomething(const ExtractorFactory& factory, const mrpt::obs::CObservati
     const auto config = base::Config::fromText("[extractor]\nclass = " + factory.name() + "\n", "defaults");
     PluginContext context;
     context.section = "extractor";
-    const auto extractor = factory.make(config.section("extractor"), context);
-    if (!extractor->wants(observation)) return false;
-    const auto made = extractor->extract(observation);
-    return std::any_of(made.begin(), made.end(), [&](const auto& derived) { return plugin.wants(*derived); });
+    return derives(*factory.make(config.section("extractor"), context), observation, plugin);
   } catch (const std::exception&) {
     return false;
   }
@@ -32,6 +36,21 @@ void SensorSamples::add(const mrpt::obs::CObservation::ConstPtr& observation) {
   constexpr std::size_t kMost = 32;  // a damaged log may give every observation its own label
   if (samples_.size() < kMost)
     samples_.try_emplace({observation->sensorLabel, observation->GetRuntimeClass()}, observation);
+}
+
+bool SensorSamples::isFedBy(const std::vector<std::pair<std::string, const perception::Extractor*>>& extractors,
+                            const MeasurementPlugin& plugin) const {
+  const auto feeds = [&](const perception::Extractor& extractor) {
+    return std::any_of(samples_.begin(), samples_.end(), [&](const auto& sample) {
+      try {
+        return derives(extractor, *sample.second, plugin);
+      } catch (const std::exception&) {
+        return false;
+      }
+    });
+  };
+  return std::any_of(extractors.begin(), extractors.end(),
+                     [&](const auto& extractor) { return feeds(*extractor.second); });
 }
 
 std::string SensorSamples::extractorsFor(const MeasurementPlugin& plugin) const {

@@ -15,6 +15,9 @@ class SensorSamples {
  public:
   void add(const mrpt::obs::CObservation::ConstPtr& observation);
 
+  /// Whether one of these extractors derives observations that `plugin` wants.
+  bool isFedBy(const std::vector<std::pair<std::string, const perception::Extractor*>>& extractors,
+               const MeasurementPlugin& plugin) const;
   /// A sentence that names the extractor classes that would, with default options, derive observations that `plugin`
   /// wants; empty if there are none.
   std::string extractorsFor(const MeasurementPlugin& plugin) const;

@@ -56,7 +56,7 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   const auto options = config.section("perception").read<PerceptionOptions>();
   const auto settings = EngineSettings::read(config);
   config.section("session").read<SessionOptions>();
-  const auto source_options = config.section("source").read<source::SourceOptions>();
+  const auto source_options = sourceOptions(config);
   if (options.extractors.empty()) {
     throw base::Error(base::ExitCode::out_of_range,
                       config.placeOf("perception", "extractors") +

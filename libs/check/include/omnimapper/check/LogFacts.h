@@ -33,6 +33,27 @@ struct StampFacts {
       last;  ///< earliest and latest stamp; isolated ones, a minute or more from all others, do not count
 };
 
+/// By how much the clocks of two sensors differ.
+struct ClockFacts {
+  double offset = 0;         ///< [s] stamp of the first sensor minus stamp of the second one, for the same moment
+  double sigma = 0;          ///< [s] standard deviation
+  double drift = 0;          ///< [1] change of the offset per second; 0 if it does not change
+  bool is_reversed = false;  ///< one of the two takes left for right
+  /// Whether the offset is too large to be noise, and large enough to matter.
+  bool isWrong() const;
+};
+
+/// Time that a laser takes from the first beam of a scan to the last one, as turns show it.
+struct SweepFacts {
+  double sweep = 0;     ///< [s]
+  double sigma = 0;     ///< [s] standard deviation
+  double declared = 0;  ///< [s]
+  /// Twice the logarithm of the likelihood ratio of `sweep` and `declared`.
+  double advantage = 0;
+  /// Whether the declared sweep is wrong beyond doubt.
+  bool isWrong() const;
+};
+
 /// The 2D scans of one label.
 struct ScanFacts {
   std::size_t scans = 0;
@@ -50,6 +71,7 @@ struct ScanFacts {
   double longest = 0;           ///< [m] largest range of a beam that counts as valid
   double longest_share = 0;     ///< share of the valid beams whose range is exactly `longest`
   bool sensor_pose_moves = false;
+  std::optional<SweepFacts> sweep;        ///< none if the log does not determine it
   mrpt::poses::CPose3D base_from_sensor;  ///< sensor pose of the first scan, or the one that the INI sets
 
   bool isAtOrigin() const;
@@ -84,9 +106,10 @@ struct PoseFacts {
 
 /// A measured direction of up, in the frame of given poses or in the base of a robot on wheels.
 struct LevelFacts {
-  std::string by;         ///< what measured the direction: "the accelerometer 'imu'"
-  bool of_poses = false;  ///< true: `up` is in the frame of `poses`; false: in the base
-  std::string poses;      ///< label of the poses
+  std::string by;          ///< what measured the direction: "the accelerometer 'imu'"
+  bool by_planes = false;  ///< the planes of depth images measured it
+  bool of_poses = false;   ///< true: `up` is in the frame of `poses`; false: in the base
+  std::string poses;       ///< label of the poses
   bool is_known = false;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit vector
   double sigma = 0;                               ///< [rad] largest standard deviation of the direction of `up`
@@ -108,6 +131,7 @@ struct MotionFacts {
   double speed = 0;                  ///< [m/s] according to the scans; one in ten matched pairs is faster
   base::Stamp first_frozen;
 
+  std::optional<ClockFacts> clock;   ///< of the odometry against the laser; none if it cannot be determined
   std::optional<double> turn_scale;  ///< turn by odometry divided by turn by scans, median; none if too few pairs turn
   /// [m] Distance of the points of one scan from the walls of the other: root mean square of a pair, median of the
   /// pairs.
@@ -133,6 +157,44 @@ struct MotionFacts {
   std::optional<double> yaw_noise_per_root_m;       ///< [rad]
 };
 
+/// A number and its standard deviation.
+struct Measured {
+  double value = 0, sigma = 0;
+  /// Whether it differs from `expected` by more than `least` and by more than four standard deviations.
+  bool differs(double expected, double least) const;
+};
+
+/// Comparison of a depth camera on a robot with the floor, with the odometry, and with the walls that a laser sees.
+struct CameraFacts {
+  /// What makes the planes of the images agree with the laser.
+  enum class Images { as_declared, mirrored, ranges };
+  std::string camera, laser;       ///< labels; `laser` is empty if the log has none that can be used
+  std::size_t images = 0;          ///< images that were looked at
+  std::size_t planes = 0;          ///< planes in them
+  unsigned columns = 0, rows = 0;  ///< of the depth images
+  double fx = 0, fy = 0;           ///< [px] declared focal lengths
+  double median_depth = 0;         ///< [m] of the pixels with a depth, as the log declares it
+  mrpt::poses::CPose3D declared;   ///< base_from_sensor
+  Images are = Images::as_declared;
+
+  std::size_t floor_images = 0;   ///< images that show one and the same level surface below the camera
+  std::optional<double> height;   ///< [m] distance of the camera from this surface, by its depths
+  double tilt = 0;                ///< [rad] between this surface and the floor that the declared pose implies
+  std::size_t walls = 0;          ///< upright planes in images for which the laser saw something
+  std::size_t matched = 0;        ///< those that lie on walls of the laser, with the values below
+  std::optional<Measured> yaw;    ///< [rad] true yaw minus declared yaw
+  std::optional<Measured> scale;  ///< [-] true depth divided by depth in the log
+  std::optional<Measured> focal;  ///< [-] true focal length divided by the declared one
+  std::optional<Measured> clock;  ///< [s] stamp of an image minus stamp of the laser for the same moment
+  std::optional<mrpt::poses::CPose3D> pose;  ///< base_from_sensor by floor and walls; none if neither was found
+};
+
+/// Comparison of a gyroscope with the turns that scan matching finds.
+struct GyroscopeFacts {
+  std::string gyroscope, laser;     ///< labels
+  std::optional<ClockFacts> clock;  ///< of the gyroscope against the laser; none if it cannot be determined
+};
+
 /// Statistics on the content of a log.
 struct LogFacts {
   /// Observations that cannot be used, by (label, reason); source::ObservationGate describes the form of a reason.
@@ -147,6 +209,8 @@ struct LogFacts {
   std::map<std::string, PoseFacts> poses;                             ///< CObservationRobotPose by label
   std::vector<LevelFacts> levels;                                     ///< in the frames of all poses, and in the base
   std::vector<MotionFacts> motions;                                   ///< one for each laser with each odometry
+  std::vector<GyroscopeFacts> gyroscopes;                             ///< one for each laser with each gyroscope
+  std::vector<CameraFacts> cameras;  ///< depth cameras of a robot with odometry or laser
   /// Share of a laser's scans within the time span of an odometry, by (laser, odometry).
   std::map<std::pair<std::string, std::string>, double> covered;
 };

@@ -10,7 +10,8 @@ namespace omnimapper::check {
 /// Plugins that an INI lists, by the names of their sections.
 struct PluginLists {
   std::vector<std::string> pose, extractors, measurement;
-  bool odometry_is_fallback = false;  ///< value of `[odometry] fallback` in the INI
+  bool odometry_is_fallback = false;      ///< value of `[odometry] fallback` in the INI
+  std::vector<std::string> sensors = {};  ///< sections of `[mapper] sensors`
 };
 
 /// One of the INIs that come with the project.

@@ -2,6 +2,7 @@
 
 #include <omnimapper/check/LogFacts.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ enum class Weight {
 struct Finding {
   Weight weight;
   std::string text;
+  /// Whether the observations contradict what the log or the INI declares of a sensor. A map that was made with it is
+  /// then likely wrong even if it is consistent.
+  bool is_contradiction = false;
 };
 
 /// The findings that the user should know before the log is mapped, problems first.
@@ -34,5 +38,9 @@ std::optional<double> betterAperture(const LogFacts& facts, const std::string& l
 /// base_from_sensor according to the motions of the log; none if the sensor pose in the log is right or nothing
 /// determines a better one.
 std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, const std::string& laser);
+
+/// Time [s] to add to the stamps of the sensors whose clocks differ from those of the others, by label. Where a laser
+/// and an odometry differ and nothing else tells which is right, the odometry's stamps are changed.
+std::map<std::string, double> clockOffsets(const LogFacts& facts);
 
 }  // namespace omnimapper::check

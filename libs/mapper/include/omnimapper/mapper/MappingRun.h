@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -41,6 +43,20 @@ struct RunResult {
   double travel = 0;                             ///< [m] distance travelled in this run
 };
 
+/// Looks at the observations of a log beside the mapper, and judges them after the last one.
+class InputWatch {
+ public:
+  virtual ~InputWatch() = default;
+  /// Takes an observation as the source hands it out. It must not be changed.
+  virtual void add(const mrpt::obs::CObservation::Ptr& observation) = 0;
+  /// Evidence against a map of these observations, for the verdict, and sentences to warn with.
+  struct Judgement {
+    std::vector<Evidence> evidence;
+    std::vector<std::string> warnings;
+  };
+  virtual Judgement judgement() = 0;
+};
+
 /// What a user requests of one run.
 struct RunRequest {
   std::vector<std::string> logs;  ///< rawlogs, merged by stamp
@@ -52,8 +68,9 @@ struct RunRequest {
   std::string localize_map;               ///< map file in which the logs are only localized; it is not changed
   /// Number of worker threads for perception and jobs; the map does not depend on it.
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  double speed = 0;     ///< relative to the log's own speed; 0: as fast as possible
-  bool strict = false;  ///< if the run's verdict on its map is suspicious, it ends with its own exit code
+  double speed = 0;                   ///< relative to the log's own speed; 0: as fast as possible
+  std::shared_ptr<InputWatch> watch;  ///< of the observations of `logs`; none if null
+  bool strict = false;                ///< if the run's verdict on its map is suspicious, it ends with its own exit code
   /// Called with the result if the run did not break off and a window still shows the map: after all outputs are
   /// written and before the run waits for the window to close. May be empty. No progress is reported after this call.
   std::function<void(const RunResult&)> before_window_closes;

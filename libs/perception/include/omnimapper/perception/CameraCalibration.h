@@ -23,6 +23,8 @@ struct CameraCalibrationOptions {
   Number picture_fx, picture_fy, picture_cx, picture_cy;              ///< [px]
   Number picture_k1, picture_k2, picture_p1, picture_p2, picture_k3;  ///< lens
   Number depth_scale;                                                 ///< [-] true depth / depth in the log
+  bool depth_is_range = false;                                        ///< the depth image holds distances
+  bool mirrored = false;                                              ///< left and right are exchanged
   std::vector<std::string> depth_distortion;  ///< coefficients of DepthDistortion [1/m], each as text
   /// The pose depth_from_picture, defined as MRPT's relativePoseIntensityWRTDepth: the picture's frame is optical (x
   /// right, y down, z forward) while the depth camera's frame is not (x forward, y left, z up). [m] and [rad],
@@ -48,8 +50,8 @@ class CameraCalibration {
   const std::string& label() const { return options_.label; }
   const DepthDistortion& depthDistortion() const { return depth_distortion_; }
   /// Replaces the intrinsics of the cameras, their relative pose and the unit of the depths. A depth distortion is
-  /// corrected first, in the log's units of depth; without a depth distortion the depth image itself stays as it is.
-  /// Thread-safe.
+  /// corrected first, in the log's units of depth; without a depth distortion the pixels of the depth image stay as
+  /// they are, unless the images are mirrored back. Thread-safe.
   void applyTo(mrpt::obs::CObservation3DRangeScan& scan) const;
 
  private:

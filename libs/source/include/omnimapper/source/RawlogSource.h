@@ -29,6 +29,9 @@ using StopOpening = std::function<bool()>;
 /// Labels are converted by base::sensorName(), so that no log can forge lines of a terminal or an INI. Observations
 /// that ObservationGate refuses are left out.
 class RawlogSource : public ObservationSource {
+  friend std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths,
+                                                        const SourceOptions& options, const StopOpening& stop);
+
  public:
   /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, and Error(interrupted) if `stop`
   /// returns true.

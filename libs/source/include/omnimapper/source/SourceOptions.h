@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct SourceOptions {
   ActionSpan action_span = ActionSpan::automatic;
   std::string action_label = "odometry";  ///< label of the motions that actions become
   std::string images_folder;              ///< empty: <rawlog without extension>_Images beside the rawlog
+
+  /// Time [s] to add to all stamps of a sensor, by label; no key of [source], because it belongs to the sensor. The
+  /// sensors are then sorted by their corrected stamps, for which the log is read once more for each different offset.
+  std::map<std::string, double> clock_offsets;
 
   static const base::OptionTable<SourceOptions>& table();
 };

@@ -1,0 +1,182 @@
+#include "SweepFit.h"
+
+#include <mrpt/math/wrap2pi.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/matching/PointToLineMatcher.h>
+#include <omnimapper/matching/ScanInBase.h>
+#include <omnimapper/perception/LaserPointsExtractor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "Quantile.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+constexpr std::size_t kMostTurning = 48, kFewestTurning = 10;
+constexpr double kTurnsBy = 0.08;  // [rad] of a pair
+constexpr double kFarError = 0.1;  // [m] of a point that is not simply on another wall, [rad] of a turn
+
+using Cloud = std::shared_ptr<const mrpt::obs::CObservationPointCloud>;
+
+Cloud pointsOf(const mrpt::obs::CObservation2DRangeScan& scan) {
+  static const perception::LaserPointsExtractor extractor{perception::LaserPointsOptions()};
+  return std::dynamic_pointer_cast<const mrpt::obs::CObservationPointCloud>(extractor.extract(scan));
+}
+
+// A scan with the velocity of the base while it was taken.
+struct MovingScan {
+  ScanPtr scan;
+  Cloud cloud;
+  mrpt::math::TPose2D velocity;  // per second
+
+  matching::ScanWithNormals with(double sweep) const {
+    if (sweep == 0) return matching::scanInBase(*cloud);
+    const mrpt::math::TPose2D motion(sweep * velocity.x, sweep * velocity.y, sweep * velocity.phi);
+    return matching::scanInBaseWithThings(*cloud, {scan->aperture, scan->rightToLeft, motion});
+  }
+};
+
+struct TurningPair {
+  MovingScan begin, end;
+  mrpt::math::TPose2D by_scans;
+  std::optional<double> turn_by_odometry;
+};
+
+class SweepComparison {
+ public:
+  explicit SweepComparison(std::vector<TurningPair> pairs) : pairs_(std::move(pairs)) {}
+
+  // Minus twice the logarithm of the likelihood of a sweep, but for a constant.
+  double cost(double sweep) const {
+    double walls = 0, turns = 0, both = 0, odometry = 0;
+    std::vector<std::pair<double, double>> pairs_of_turns;  // by scans, by odometry
+    for (const auto& pair : pairs_) {
+      const auto reference = matcher_.prepare(pair.begin.with(sweep));
+      const auto match = matcher_.match(*reference, pair.end.with(sweep), pair.by_scans);
+      const double error = std::min(match.wall_distance, kFarError);
+      walls += match.overlap * error * error + (1 - match.overlap) * kFarError * kFarError;
+      if (!pair.turn_by_odometry) continue;
+      pairs_of_turns.emplace_back(match.reference_from_scan.phi, *pair.turn_by_odometry);
+    }
+    const double n = static_cast<double>(pairs_.size());
+    double cost = n * std::log(walls / n + kLeastWall * kLeastWall);
+    if (pairs_of_turns.size() < kFewestTurning) return cost;
+    for (const auto& [by_scans, by_odometry] : pairs_of_turns) {
+      both += by_scans * by_odometry;
+      odometry += by_odometry * by_odometry;
+    }
+    const double scale = odometry > 0 ? both / odometry : 1;  // of the odometry, whatever its sign
+    for (const auto& [by_scans, by_odometry] : pairs_of_turns) {
+      const double error = std::min(kFarError, std::abs(mrpt::math::wrapToPi(by_scans - scale * by_odometry)));
+      turns += error * error;
+    }
+    const double m = static_cast<double>(pairs_of_turns.size());
+    return cost + m * std::log(turns / m + kLeastTurnError * kLeastTurnError);
+  }
+
+ private:
+  static constexpr double kLeastWall = 0.002, kLeastTurnError = 0.001;  // [m] [rad] that no sensor goes below
+
+  static matching::ScanMatcherOptions wideOptions() {
+    matching::ScanMatcherOptions options;
+    options.max_distance = 1.0;
+    return options;
+  }
+
+  std::vector<TurningPair> pairs_;
+  matching::PointToLineMatcher matcher_{wideOptions()};
+};
+
+std::optional<MovingScan> moving(const ScanPtr& scan, const ScanPtr& after) {
+  constexpr double kLongest = 0.4;  // [s] in which the velocity hardly changes
+  if (!scan || !after) return std::nullopt;
+  const double seconds = base::secondsBetween(scan->timestamp, after->timestamp);
+  if (!(seconds > 0) || seconds > kLongest) return std::nullopt;
+  const matching::PointToLineMatcher matcher({});
+  MovingScan found{scan, pointsOf(*scan), {}};
+  const auto reference = matcher.prepare(matching::scanInBase(*found.cloud));
+  const auto match = matcher.match(*reference, matching::scanInBase(*pointsOf(*after)), mrpt::math::TPose2D(0, 0, 0));
+  if (match.overlap < 0.5) return std::nullopt;
+  const auto& motion = match.reference_from_scan;
+  found.velocity = {motion.x / seconds, motion.y / seconds, motion.phi / seconds};
+  return found;
+}
+
+std::vector<TurningPair> turningPairs(const std::vector<ScanPair>& pairs, const std::vector<MatchedMotion>& motions) {
+  std::vector<std::size_t> order(motions.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(motions[a].by_scans.phi()) > std::abs(motions[b].by_scans.phi());
+  });
+  std::vector<TurningPair> turning;
+  for (const auto i : order) {
+    const auto& motion = motions[i];
+    if (turning.size() >= kMostTurning || std::abs(motion.by_scans.phi()) < kTurnsBy) break;
+    const auto pair = std::find_if(pairs.begin(), pairs.end(),
+                                   [&](const ScanPair& one) { return one.begin->timestamp == motion.begin; });
+    if (pair == pairs.end()) continue;
+    auto begin = moving(pair->begin, pair->after_begin), end = moving(pair->end, pair->after_end);
+    if (!begin || !end) continue;
+    turning.push_back({*begin, *end, motion.by_scans.asTPose(), std::nullopt});
+    if (motion.by_odometry) turning.back().turn_by_odometry = motion.by_odometry->phi();
+  }
+  return turning;
+}
+
+double periodOf(const std::vector<TurningPair>& pairs, const std::vector<ScanPair>& all) {
+  std::vector<double> periods;
+  for (const auto& pair : all) {
+    if (pair.after_begin) periods.push_back(base::secondsBetween(pair.begin->timestamp, pair.after_begin->timestamp));
+  }
+  return pairs.empty() || periods.empty() ? 0 : quantile(periods, 0.5);
+}
+
+}  // namespace
+
+bool SweepFacts::isWrong() const {
+  constexpr double kLeast = 0.004, kSigmas = 5;  // [s]
+  constexpr double kSurely = 20;                 // as for clocks
+  return advantage > kSurely && std::abs(sweep - declared) > std::max(kLeast, kSigmas * sigma);
+}
+
+std::optional<SweepFacts> fitSweep(const std::vector<ScanPair>& pairs, const std::vector<MatchedMotion>& motions,
+                                   double declared) {
+  constexpr double kSteps = 8;           // from 0 to the period of the scans
+  constexpr double kBeyond = 1.1;        // of the period
+  constexpr double kLongestSweep = 0.3;  // [s]
+  auto turning = turningPairs(pairs, motions);
+  if (turning.size() < kFewestTurning) return std::nullopt;
+  const double longest = std::min(kLongestSweep, kBeyond * periodOf(turning, pairs));
+  if (longest <= 0) return std::nullopt;
+  const SweepComparison comparison(std::move(turning));
+  // Negative sweeps, which no laser has, take part so that 0 is not at the end of what is compared.
+  double step = longest / kSteps, best = 0, least = std::numeric_limits<double>::infinity();
+  for (double sweep = -2 * step; sweep < longest + 0.5 * step; sweep += step) {
+    const double cost = comparison.cost(sweep);
+    if (cost < least) {
+      least = cost;
+      best = sweep;
+    }
+  }
+  // The parabola through three sweeps, first wide and then narrow.
+  SweepFacts fit;
+  fit.declared = declared;
+  fit.sweep = best;
+  for (const double reach : {step, 0.5 * step}) {
+    const double a = comparison.cost(fit.sweep - reach), b = comparison.cost(fit.sweep),
+                 c = comparison.cost(fit.sweep + reach);
+    const double bend = a - 2 * b + c;
+    if (!(bend > 0)) return std::nullopt;
+    fit.sweep += std::clamp(0.5 * (a - c) / bend, -1.0, 1.0) * reach;
+    fit.sigma = reach * std::sqrt(2 / bend);
+  }
+  fit.advantage = comparison.cost(declared) - comparison.cost(fit.sweep);
+  return fit;
+}
+
+}  // namespace omnimapper::check
