@@ -1,6 +1,7 @@
 #include "ClockFit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -81,19 +82,30 @@ std::optional<ClockFacts> refined(const std::vector<MeasuredTurn>& turns, const 
   return fit;
 }
 
-// The change of the offset from the first half of the turns to the second.
-double driftOf(std::vector<MeasuredTurn> turns, const Headings& headings, const ClockFacts& fit) {
-  constexpr double kSigmas = 4, kLeast = 0.05;  // [s]
+// The change of the offset from the first third of the turns to the last, if it is steady. Delays of drivers come and
+// go, but clocks that drift apart do so all the time.
+double driftOf(std::vector<MeasuredTurn> turns, const Headings& headings, const ClockFacts& clock) {
+  constexpr double kSigmas = 6, kLeast = 0.1;  // [s]
+  constexpr double kSteady = 0.25;             // of the change, that the middle may be off
   std::sort(turns.begin(), turns.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
-  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-  const std::vector<MeasuredTurn> first(turns.begin(), middle), second(middle, turns.end());
-  const double sign = fit.is_reversed ? -1 : 1;
-  const auto a = refined(first, headings, fit.offset, sign), b = refined(second, headings, fit.offset, sign);
-  if (!a || !b) return 0;
-  const double change = b->offset - a->offset;
-  if (std::abs(change) < std::max(kLeast, kSigmas * std::hypot(a->sigma, b->sigma))) return 0;
-  const double seconds = base::secondsBetween(first[first.size() / 2].begin, second[second.size() / 2].begin);
-  return seconds > 0 ? change / seconds : 0;
+  const double sign = clock.is_reversed ? -1 : 1;
+  std::array<ClockFacts, 3> parts;
+  std::array<base::Stamp, 3> middles;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto begin = turns.begin() + static_cast<std::ptrdiff_t>(i * turns.size() / 3);
+    const auto end = turns.begin() + static_cast<std::ptrdiff_t>((i + 1) * turns.size() / 3);
+    const std::vector<MeasuredTurn> some(begin, end);
+    const auto part = some.empty() ? std::nullopt : refined(some, headings, clock.offset, sign);
+    if (!part) return 0;
+    parts[i] = *part;
+    middles[i] = some[some.size() / 2].begin;
+  }
+  const double change = parts[2].offset - parts[0].offset;
+  if (std::abs(change) < std::max(kLeast, kSigmas * std::hypot(parts[0].sigma, parts[2].sigma))) return 0;
+  const double seconds = base::secondsBetween(middles[0], middles[2]);
+  const double share = base::secondsBetween(middles[0], middles[1]) / seconds;
+  const double off = parts[1].offset - parts[0].offset - share * change;
+  return seconds > 0 && std::abs(off) < kSteady * std::abs(change) ? change / seconds : 0;
 }
 
 }  // namespace

@@ -30,7 +30,14 @@ bool saturates(const ScanFacts& scans);
 /// Whether most stamps of every sensor are missing or repeat the one before, so that the clock stands still and not one
 /// sensor.
 bool clockStands(const LogFacts& facts);
-constexpr double kWrongScale = 0.04, kWrongFocal = 0.06;  ///< [-] of a camera, that are no errors of the measurement
+constexpr double kWrongScale = 0.04;  ///< [-] of a camera's depths, that is no error of the measurement
+/// What floor and walls show to be wrong with a camera, beyond the errors of the measurement.
+bool hasWrongScale(const CameraFacts& camera);
+bool hasWrongFocalLength(const CameraFacts& camera);
+bool isTilted(const CameraFacts& camera);
+bool isTurned(const CameraFacts& camera);
+/// Whether it is tilted or turned, and CameraFacts::pose is better.
+bool hasWrongPose(const CameraFacts& camera);
 /// True depth divided by depth in the log, if the declared height of the camera is right and the floor appears at
 /// another distance by a third or more; none else, or if no height is declared.
 std::optional<double> scaleByHeight(const CameraFacts& camera);

@@ -57,7 +57,9 @@ class FactGatherer::Statistics {
       images_[label].add(image);
       const bool is_calibrated = image->cameraParams.fx() > 0 && image->cameraParams.fy() > 0;
       if (image->hasRangeImage && !is_calibrated) {
-        auto& left_out = uncalibrated_[{label, "the camera is not calibrated: its focal length is not positive"}];
+        auto& left_out = uncalibrated_[{label,
+                                        "the camera is not calibrated: its focal length is not positive; set "
+                                        "depth_fx_px and depth_fy_px in [calibration]"}];
         if (left_out.observations++ == 0) left_out.first_stamp = stamp;
       }
     }
@@ -136,6 +138,7 @@ class FactGatherer::Statistics {
     for (const auto& [label, images] : images_) {
       if (images.all().empty()) continue;
       facts.cameras.push_back(fitCamera(images.all(), witness));
+      facts.cameras.back().has_negative_focal = images.haveNegativeFocal();
       if (!lasers.empty()) facts.cameras.back().laser = lasers.front();
     }
   }

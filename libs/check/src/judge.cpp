@@ -10,6 +10,7 @@
 
 #include "Conclusions.h"
 #include "Format.h"
+#include "SensorFindings.h"
 
 namespace omnimapper::check {
 
@@ -27,8 +28,8 @@ class Judge {
     judgeContent();
     judgeOdometry();
     judgePairs();
-    judgeClocks();
-    for (const auto& camera : facts_.cameras) judgeCamera(camera);
+    for (const auto& some : {clockFindings(facts_), cameraFindings(facts_)})
+      findings_.insert(findings_.end(), some.begin(), some.end());
     judgePoses();
     judgeLevels();
     for (const auto& laser : usableLasers(facts_)) judgeSensorPose(laser);
@@ -277,34 +278,6 @@ class Judge {
     }
   }
 
-  void judgeClocks() {
-    for (const auto& motion : facts_.motions) judgeClock(motion.odometry, motion.laser, motion.clock);
-    for (const auto& one : facts_.gyroscopes) judgeClock(one.gyroscope, one.laser, one.clock);
-  }
-
-  void judgeClock(const std::string& sensor, const std::string& other, const std::optional<ClockFacts>& clock) {
-    if (!clock) return;
-    const std::string who = quoted(sensor) + " and " + quoted(other) + ": ";
-    const bool is_late = clock->offset > 0;
-    const std::string sigma = fixed(std::max(0.001, clock->sigma), 3);
-    if (clock->isWrong()) {
-      const auto offsets = clockOffsets(facts_);
-      const auto& wrong = offsets.count(sensor) > 0 ? sensor : other;
-      const auto remedy = offsets.find(wrong);
-      add(Weight::warning, who + "their clocks differ: for the same turn the stamps of " + quoted(sensor) + " are " +
-                               fixed(std::abs(clock->offset), 3) + " +- " + sigma + " s " +
-                               (is_late ? "later" : "earlier") +
-                               (remedy == offsets.end() ? ""
-                                                        : "; set clock_offset_s = " + fixed(remedy->second, 3) +
-                                                              " for " + quoted(wrong) + " in [mapper] sensors"));
-    }
-    if (clock->drift != 0) {
-      add(Weight::warning, who + "their clocks drift apart by " + fixed(1e3 * std::abs(clock->drift), 2) +
-                               " s in 1000 s; a constant clock_offset_s does not correct this: map the log in parts "
-                               "([source] start_s, end_s), or synchronize the clocks");
-    }
-  }
-
   // Whether turns of the log are measured wrong by so much that headings suffer.
   bool isSweepHarmful(const SweepFacts& sweep) const {
     constexpr double kMuch = 0.01;  // [s], which at 1 rad/s is an error of some 0.2 % of a turn
@@ -325,78 +298,6 @@ class Judge {
                  ? "its scans turn and match as if all beams were measured at once"
                  : "its scans turn and match as if their beams were measured one after the other in " + measured) +
             ", but " + declared + "; set [scan_odometry] sweep_s = " + (is_instant ? "0" : fixed(sweep.sweep, 4)));
-  }
-
-  void judgeCamera(const CameraFacts& camera) {
-    constexpr double kMuchTilt = 6, kLittleTilt = 3, kMuchYaw = 4, kLittleYaw = 1.5;  // [deg]
-    const std::string who = quoted(camera.camera) + ": ";
-    if (camera.are != CameraFacts::Images::as_declared) {
-      const bool mirrored = camera.are == CameraFacts::Images::mirrored;
-      contradict(Weight::problem,
-                 who + (mirrored ? "its images are mirror images: planes lie on walls of the laser only if left and "
-                                   "right are exchanged; set [calibration] mirrored = true"
-                                 : "its depth images hold distances from the camera instead of depths: only then its "
-                                   "planes are flat and lie on walls of the laser; set [calibration] depth_is_range = "
-                                   "true"));
-    }
-    const bool is_scaled = camera.scale && camera.scale->differs(1, kWrongScale);
-    const bool has_focal = camera.focal && camera.focal->differs(1, kWrongFocal);
-    if (is_scaled) {
-      const bool much = std::abs(std::log(camera.scale->value)) > 2 * kWrongScale;
-      contradict(much ? Weight::problem : Weight::warning,
-                 who + "the true depths are " + significant(camera.scale->value) +
-                     " times those in the log, by the walls that " + quoted(camera.laser) +
-                     " sees; set [calibration] depth_scale");
-    } else if (const auto scale = scaleByHeight(camera); scale && !camera.scale) {
-      contradict(Weight::problem, who + "the floor appears " + significant(*camera.height) +
-                                      " m below the camera, but its pose declares " + significant(camera.declared.z()) +
-                                      " m: either the depths have another unit (then set [calibration] depth_scale = " +
-                                      significant(*scale) + ") or the declared height is wrong; measure the height");
-    }
-    if (has_focal) {
-      contradict(Weight::problem, who + "the true focal length is " + fixed(camera.focal->value, 2) +
-                                      " times the declared one, by the walls that " + quoted(camera.laser) +
-                                      " sees; set depth_fx_px and depth_fy_px in [calibration], or measure them with "
-                                      "omnimapper-calibrate intrinsics");
-    }
-    const bool is_tilted = camera.height && degrees(camera.tilt) > kLittleTilt;
-    const bool is_turned = camera.yaw && camera.yaw->differs(0, kLittleYaw * base::option_text::kRadiansPerDegree);
-    if ((is_tilted || is_turned) && camera.pose) {
-      const bool much = (is_tilted && degrees(camera.tilt) > kMuchTilt) ||
-                        (is_turned && std::abs(degrees(camera.yaw->value)) > kMuchYaw);
-      std::string how;
-      if (is_turned) {
-        how = "is turned by " + fixed(degrees(camera.yaw->value), 1) + " +- " + fixed(degrees(camera.yaw->sigma), 1) +
-              " deg in yaw, by the walls that " + quoted(camera.laser) + " sees";
-      }
-      if (is_tilted) {
-        how += (how.empty() ? "" : ", and ") + std::string("is tilted by ") + fixed(degrees(camera.tilt), 1) +
-               " deg, by the floor that it sees";
-      }
-      contradict(much ? Weight::problem : Weight::warning,
-                 who + how + ", against its declared pose; set pose_yaw_deg " + fixed(degrees(camera.pose->yaw()), 1) +
-                     ", pose_pitch_deg " + fixed(degrees(camera.pose->pitch()), 1) + ", pose_roll_deg " +
-                     fixed(degrees(camera.pose->roll()), 1) + " for it in [mapper] sensors");
-    }
-    if (camera.clock)
-      judgeClock(camera.camera, camera.laser, ClockFacts{camera.clock->value, camera.clock->sigma, 0, false});
-    judgeImages(who, camera);
-  }
-
-  void judgeImages(const std::string& who, const CameraFacts& camera) {
-    constexpr double kFar = 15, kNear = 0.25;  // [m] medians that no indoor camera on a robot has
-    const bool is_explained = camera.scale || scaleByHeight(camera);
-    if (!is_explained && camera.median_depth > 0 && (camera.median_depth > kFar || camera.median_depth < kNear)) {
-      contradict(Weight::problem, who + "half of its depths are " + (camera.median_depth > kFar ? "over " : "under ") +
-                                      significant(camera.median_depth) +
-                                      " m: are they in another unit? Set [calibration] depth_scale, for example " +
-                                      (camera.median_depth > kFar ? "0.001" : "1000"));
-    }
-    constexpr unsigned kSmall = 200;  // columns
-    if (camera.columns < kSmall)
-      add(Weight::note, who + "its images are small, " + std::to_string(camera.columns) + " x " +
-                            std::to_string(camera.rows) +
-                            " px: only surfaces that fill [planes] min_pixels pixels are found");
   }
 
   // Whether the direction of up was measured in the frame of these poses.

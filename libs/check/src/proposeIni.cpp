@@ -127,10 +127,7 @@ class Proposal {
       if (const auto aperture = betterAperture(facts_, laser)) change(laser, "aperture_deg", degrees(*aperture), 1);
     }
     for (const auto& camera : facts_.cameras) {
-      constexpr double kLittle = 1.5 * base::option_text::kRadiansPerDegree;
-      const bool is_turned = camera.yaw && camera.yaw->differs(0, kLittle);
-      if (camera.pose && (is_turned || (camera.height && camera.tilt > 2 * kLittle)))
-        change_pose(camera.camera, *camera.pose);
+      if (hasWrongPose(camera)) change_pose(camera.camera, *camera.pose);
     }
     for (const auto& [label, offset] : clockOffsets(facts_))
       change(label, "clock_offset_s", offset, 3, "its clock differs from those of the other sensors");
@@ -157,11 +154,12 @@ class Proposal {
       };
       if (camera.are == CameraFacts::Images::mirrored) add("mirrored", "true", "by the walls of the laser");
       if (camera.are == CameraFacts::Images::ranges) add("depth_is_range", "true", "by the walls of the laser");
-      if (camera.scale && camera.scale->differs(1, kWrongScale))
-        add("depth_scale", significant(camera.scale->value), "by the walls of the laser");
-      if (camera.focal && camera.focal->differs(1, kWrongFocal)) {
-        add("depth_fx_px", fixed(camera.fx * camera.focal->value, 1), "by the walls of the laser");
-        add("depth_fy_px", fixed(camera.fy * camera.focal->value, 1), "");
+      if (hasWrongScale(camera)) add("depth_scale", significant(camera.scale->value), "by the walls of the laser");
+      const bool is_wrong = hasWrongFocalLength(camera);
+      if (is_wrong || camera.has_negative_focal) {
+        const double factor = is_wrong ? camera.focal->value : 1;
+        add("depth_fx_px", fixed(camera.fx * factor, 1), is_wrong ? "by the walls of the laser" : "positive");
+        add("depth_fy_px", fixed(camera.fy * factor, 1), "");
       }
       if (keys.empty() || !canBeNamed(camera.camera)) continue;
       set("calibration", "label", camera.camera, "");

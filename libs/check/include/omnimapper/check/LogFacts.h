@@ -37,7 +37,7 @@ struct StampFacts {
 struct ClockFacts {
   double offset = 0;         ///< [s] stamp of the first sensor minus stamp of the second one, for the same moment
   double sigma = 0;          ///< [s] standard deviation
-  double drift = 0;          ///< [1] change of the offset per second; 0 if it does not change
+  double drift = 0;          ///< [1] change of the offset per second; 0 unless it changes beyond doubt
   bool is_reversed = false;  ///< one of the two takes left for right
   /// Whether the offset is too large to be noise, and large enough to matter.
   bool isWrong() const;
@@ -168,13 +168,14 @@ struct Measured {
 struct CameraFacts {
   /// What makes the planes of the images agree with the laser.
   enum class Images { as_declared, mirrored, ranges };
-  std::string camera, laser;       ///< labels; `laser` is empty if the log has none that can be used
-  std::size_t images = 0;          ///< images that were looked at
-  std::size_t planes = 0;          ///< planes in them
-  unsigned columns = 0, rows = 0;  ///< of the depth images
-  double fx = 0, fy = 0;           ///< [px] declared focal lengths
-  double median_depth = 0;         ///< [m] of the pixels with a depth, as the log declares it
-  mrpt::poses::CPose3D declared;   ///< base_from_sensor
+  std::string camera, laser;        ///< labels; `laser` is empty if the log has none that can be used
+  std::size_t images = 0;           ///< images that were looked at
+  std::size_t planes = 0;           ///< planes in them
+  unsigned columns = 0, rows = 0;   ///< of the depth images
+  double fx = 0, fy = 0;            ///< [px] declared focal lengths, without their signs
+  bool has_negative_focal = false;  ///< one of them is negative; all else is computed with positive ones
+  double median_depth = 0;          ///< [m] of the pixels with a depth, as the log declares it
+  mrpt::poses::CPose3D declared;    ///< base_from_sensor
   Images are = Images::as_declared;
 
   std::size_t floor_images = 0;   ///< images that show one and the same level surface below the camera

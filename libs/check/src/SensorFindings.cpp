@@ -1,0 +1,177 @@
+#include "SensorFindings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Conclusions.h"
+#include "Format.h"
+
+namespace omnimapper::check {
+
+namespace {
+
+class ClockJudge {
+ public:
+  explicit ClockJudge(const LogFacts& facts) : facts_(facts), offsets_(clockOffsets(facts)) {}
+
+  std::vector<Finding> findings() {
+    for (const auto& motion : facts_.motions) judge(motion.odometry, motion.laser, motion.clock, false);
+    for (const auto& one : facts_.gyroscopes) judge(one.gyroscope, one.laser, one.clock, false);
+    for (const auto& camera : facts_.cameras) {
+      if (camera.clock)
+        judge(camera.camera, camera.laser, ClockFacts{camera.clock->value, camera.clock->sigma, 0, false}, true);
+    }
+    return std::move(findings_);
+  }
+
+ private:
+  void judge(const std::string& sensor, const std::string& other, const std::optional<ClockFacts>& clock,
+             bool is_camera) {
+    if (!clock) return;
+    const std::string who = quoted(sensor) + " and " + quoted(other) + ": ";
+    if (clock->isWrong()) {
+      constexpr double kMuch = 0.1;  // [s] in which a robot that turns is elsewhere by centimetres and degrees
+      const auto& wrong = offsets_.count(sensor) > 0 ? sensor : other;
+      const auto remedy = offsets_.find(wrong);
+      const bool is_corrected = remedy == offsets_.end();
+      const bool spoils = is_camera && std::abs(clock->offset) > kMuch;
+      findings_.push_back({is_corrected ? Weight::note
+                           : spoils     ? Weight::problem
+                                        : Weight::warning,
+                           who + "their clocks differ: for the same turn the stamps of " + quoted(sensor) + " are " +
+                               fixed(std::abs(clock->offset), 3) + " +- " + fixed(std::max(0.001, clock->sigma), 3) +
+                               " s " + (clock->offset > 0 ? "later" : "earlier") +
+                               (is_corrected ? "; laser odometry finds and corrects so small an offset"
+                                             : "; set clock_offset_s = " + fixed(remedy->second, 3) + " for " +
+                                                   quoted(wrong) + " in [mapper] sensors"),
+                           is_camera});
+    }
+    if (clock->drift != 0) {
+      findings_.push_back({Weight::warning,
+                           who + "their clocks drift apart by " + fixed(1e3 * std::abs(clock->drift), 2) +
+                               " s in 1000 s; a constant clock_offset_s does not correct this: map the log in parts "
+                               "([source] start_s, end_s), or synchronize the clocks",
+                           false});
+    }
+  }
+
+  const LogFacts& facts_;
+  std::map<std::string, double> offsets_;
+  std::vector<Finding> findings_;
+};
+
+class CameraJudge {
+ public:
+  explicit CameraJudge(const CameraFacts& camera)
+      : camera_(camera),
+        who_(quoted(camera.camera) + ": "),
+        by_walls_(", by the walls that " + quoted(camera.laser) + " sees") {}
+
+  std::vector<Finding> findings() {
+    judgeImages();
+    judgeScale();
+    judgeFocalLength();
+    judgePose();
+    judgeUnits();
+    judgeSize();
+    return std::move(findings_);
+  }
+
+ private:
+  void add(Weight weight, const std::string& text) { findings_.push_back({weight, who_ + text, true}); }
+
+  void judgeImages() {
+    if (camera_.are == CameraFacts::Images::mirrored)
+      add(Weight::problem,
+          "its images are mirror images: planes lie on walls of the laser only if left and right are exchanged; set "
+          "[calibration] mirrored = true");
+    if (camera_.are == CameraFacts::Images::ranges)
+      add(Weight::problem,
+          "its depth images hold distances from the camera instead of depths: only then its planes are flat and lie on "
+          "walls of the laser; set [calibration] depth_is_range = true");
+  }
+
+  void judgeScale() {
+    if (hasWrongScale(camera_)) {
+      const bool much = std::abs(std::log(camera_.scale->value)) > 2 * kWrongScale;
+      add(much ? Weight::problem : Weight::warning, "the true depths are " + significant(camera_.scale->value) +
+                                                        " times those in the log" + by_walls_ +
+                                                        "; set [calibration] depth_scale");
+    } else if (const auto scale = scaleByHeight(camera_); scale && !camera_.scale) {
+      add(Weight::problem, "the floor appears " + significant(*camera_.height) +
+                               " m below the camera, but its pose declares " + significant(camera_.declared.z()) +
+                               " m: either the depths have another unit (then set [calibration] depth_scale = " +
+                               significant(*scale) + ") or the declared height is wrong; measure the height");
+    }
+  }
+
+  void judgeFocalLength() {
+    if (!hasWrongFocalLength(camera_)) return;
+    add(Weight::problem, "the true focal length is " + fixed(camera_.focal->value, 2) + " times the declared one" +
+                             by_walls_ +
+                             "; set depth_fx_px and depth_fy_px in [calibration], or measure them with "
+                             "omnimapper-calibrate intrinsics");
+  }
+
+  void judgePose() {
+    constexpr double kMuchTilt = 6, kMuchYaw = 4;  // [deg]
+    if (!hasWrongPose(camera_)) return;
+    const bool is_tilted = isTilted(camera_), is_turned = isTurned(camera_);
+    const bool much = (is_tilted && degrees(camera_.tilt) > kMuchTilt) ||
+                      (is_turned && std::abs(degrees(camera_.yaw->value)) > kMuchYaw);
+    std::string how;
+    if (is_turned) {
+      how = "is turned by " + fixed(degrees(camera_.yaw->value), 1) + " +- " + fixed(degrees(camera_.yaw->sigma), 1) +
+            " deg in yaw" + by_walls_;
+    }
+    if (is_tilted) {
+      how += (how.empty() ? "" : ", and ") + std::string("is tilted by ") + fixed(degrees(camera_.tilt), 1) +
+             " deg, by the floor that it sees";
+    }
+    add(much ? Weight::problem : Weight::warning,
+        how + ", against its declared pose; set pose_yaw_deg " + fixed(degrees(camera_.pose->yaw()), 1) +
+            ", pose_pitch_deg " + fixed(degrees(camera_.pose->pitch()), 1) + ", pose_roll_deg " +
+            fixed(degrees(camera_.pose->roll()), 1) + " for it in [mapper] sensors");
+  }
+
+  void judgeUnits() {
+    constexpr double kFar = 15, kNear = 0.25;  // [m] medians that no camera on a robot indoors has
+    if (camera_.scale || scaleByHeight(camera_) || camera_.median_depth <= 0) return;
+    const bool is_far = camera_.median_depth > kFar;
+    if (!is_far && camera_.median_depth > kNear) return;
+    add(Weight::problem,
+        "half of its depths are " + std::string(is_far ? "over " : "under ") + significant(camera_.median_depth) +
+            " m: are they in another unit? Set [calibration] depth_scale, for example " + (is_far ? "0.001" : "1000"));
+  }
+
+  void judgeSize() {
+    constexpr unsigned kSmall = 200;  // columns
+    if (camera_.columns >= kSmall) return;
+    findings_.push_back({Weight::note,
+                         who_ + "its images are small, " + std::to_string(camera_.columns) + " x " +
+                             std::to_string(camera_.rows) +
+                             " px: only surfaces that fill [planes] min_pixels pixels are found",
+                         false});
+  }
+
+  const CameraFacts& camera_;
+  std::string who_, by_walls_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> clockFindings(const LogFacts& facts) {
+  return ClockJudge(facts).findings();
+}
+
+std::vector<Finding> cameraFindings(const LogFacts& facts) {
+  std::vector<Finding> findings;
+  for (const auto& camera : facts.cameras) {
+    const auto some = CameraJudge(camera).findings();
+    findings.insert(findings.end(), some.begin(), some.end());
+  }
+  return findings;
+}
+
+}  // namespace omnimapper::check
