@@ -35,6 +35,13 @@ bool isTilted(const ScanFacts& scans) {
   return scans.tilt() > matching::kLargestTilt;
 }
 
+std::optional<double> pitchOf(const ScanFacts& scans) {
+  constexpr double kLeastHeight = 0.1;  // [m]
+  const double height = scans.base_from_sensor.z();
+  if (!scans.constant_ahead || height < kLeastHeight || height > 0.5 * *scans.constant_ahead) return std::nullopt;
+  return std::asin(height / *scans.constant_ahead);
+}
+
 bool saturates(const ScanFacts& scans) {
   return scans.longest_share > 0.02;
 }
@@ -162,7 +169,8 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   if (!odometry) return std::nullopt;
   const auto* motion = motionOf(facts, laser, *odometry);
   const auto& scans = facts.scans.at(laser);
-  if (!motion || scans.sensor_pose_moves) return std::nullopt;
+  // Beams on the floor or on the robot itself pull every match towards rest.
+  if (!motion || scans.sensor_pose_moves || scans.constant_ahead) return std::nullopt;
   const CPose3D& reported = scans.base_from_sensor;
   if (contradictionOf(*motion) == Contradiction::turning) {
     if (wrongTurnOf(facts, laser, *odometry) != Culprit::laser) return std::nullopt;

@@ -25,6 +25,8 @@ bool isReversed(const LogFacts& facts, const std::string& odometry);
 bool isOneOdometryBest(const LogFacts& facts);
 /// Whether the scanned plane is not parallel to the floor.
 bool isTilted(const ScanFacts& scans);
+/// [rad] Pitch at which the beams ahead meet the floor where they do, if the height of the laser is declared.
+std::optional<double> pitchOf(const ScanFacts& scans);
 /// Whether beams that met nothing are marked as valid, all at one range.
 bool saturates(const ScanFacts& scans);
 /// Whether most stamps of every sensor are missing or repeat the one before, so that the clock stands still and not one

@@ -1,5 +1,6 @@
 #include "ScanStatistics.h"
 
+#include <omnimapper/grid/ScanBeams.h>
 #include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 
@@ -72,6 +73,8 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& scan) {
     if (++valid % kSampledBeam == 0 && sampled_.size() < kMostSamples) sampled_.push_back(ranges[i]);
     addRange(ranges[i]);
   }
+  const grid::BeamEnds ends(scan, {}, grid::BeamEnds::Pose::of_sensor);
+  for (std::size_t i = 0; i < beams; ++i) singles_ += ends.valid(i) && !ends.clears(i);
   all_beams_ += beams;
   valid_beams_ += valid;
   if (valid == 0) {
@@ -102,6 +105,7 @@ void ScanStatistics::addRange(float range) {
 ScanFacts ScanStatistics::facts() const {
   ScanFacts facts = facts_;
   if (all_beams_ > 0) facts.valid_share = static_cast<double>(valid_beams_) / static_cast<double>(all_beams_);
+  if (all_beams_ > 0) facts.single_share = static_cast<double>(singles_) / static_cast<double>(all_beams_);
   if (valid_beams_ > 0) facts.longest_share = static_cast<double>(at_longest_) / static_cast<double>(valid_beams_);
   if (!sampled_.empty()) facts.median_range = quantile(sampled_, 0.5);
   return facts;

@@ -19,6 +19,7 @@ class ScanStatistics {
 
   ScanFacts facts_;
   std::size_t all_beams_ = 0, valid_beams_ = 0, at_longest_ = 0;
+  std::size_t singles_ = 0;      // beams without an echo amid others with one
   std::vector<float> previous_;  // [m] ranges of the scan before
   std::vector<float> sampled_;   // [m] valid ranges, of some beams
 };

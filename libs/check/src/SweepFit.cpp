@@ -1,11 +1,12 @@
 #include "SweepFit.h"
 
-#include <mrpt/math/wrap2pi.h>
+#include <mrpt/core/bits_math.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/matching/PointToLineMatcher.h>
 #include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,43 +45,57 @@ struct MovingScan {
 struct TurningPair {
   MovingScan begin, end;
   mrpt::math::TPose2D by_scans;
-  std::optional<double> turn_by_odometry;
+  std::optional<mrpt::poses::CPose2D> by_odometry;
 };
 
 class SweepComparison {
  public:
   explicit SweepComparison(std::vector<TurningPair> pairs) : pairs_(std::move(pairs)) {}
 
-  // Minus twice the logarithm of the likelihood of a sweep, but for a constant.
-  double cost(double sweep) const {
-    double walls = 0, turns = 0, both = 0, odometry = 0;
-    std::vector<std::pair<double, double>> pairs_of_turns;  // by scans, by odometry
+  // Minus twice the logarithm of the likelihood of a sweep, but for a constant, by the walls and by the odometry.
+  struct Cost {
+    double walls = 0, odometry = 0;
+    double sum() const { return walls + odometry; }
+  };
+
+  Cost cost(double sweep) const {
+    double walls = 0;
+    std::vector<std::pair<double, const TurningPair*>> turns;
     for (const auto& pair : pairs_) {
       const auto reference = matcher_.prepare(pair.begin.with(sweep));
       const auto match = matcher_.match(*reference, pair.end.with(sweep), pair.by_scans);
       const double error = std::min(match.wall_distance, kFarError);
       walls += match.overlap * error * error + (1 - match.overlap) * kFarError * kFarError;
-      if (!pair.turn_by_odometry) continue;
-      pairs_of_turns.emplace_back(match.reference_from_scan.phi, *pair.turn_by_odometry);
+      if (pair.by_odometry) turns.emplace_back(match.reference_from_scan.phi, &pair);
     }
     const double n = static_cast<double>(pairs_.size());
-    double cost = n * std::log(walls / n + kLeastWall * kLeastWall);
-    if (pairs_of_turns.size() < kFewestTurning) return cost;
-    for (const auto& [by_scans, by_odometry] : pairs_of_turns) {
-      both += by_scans * by_odometry;
-      odometry += by_odometry * by_odometry;
-    }
-    const double scale = odometry > 0 ? both / odometry : 1;  // of the odometry, whatever its sign
-    for (const auto& [by_scans, by_odometry] : pairs_of_turns) {
-      const double error = std::min(kFarError, std::abs(mrpt::math::wrapToPi(by_scans - scale * by_odometry)));
-      turns += error * error;
-    }
-    const double m = static_cast<double>(pairs_of_turns.size());
-    return cost + m * std::log(turns / m + kLeastTurnError * kLeastTurnError);
+    Cost cost{n * std::log(walls / n + kLeastWall * kLeastWall), 0};
+    if (turns.size() >= kFewestTurning) cost.odometry = costOfTurns(turns);
+    return cost;
   }
 
  private:
   static constexpr double kLeastWall = 0.002, kLeastTurnError = 0.001;  // [m] [rad] that no sensor goes below
+
+  // Wheels have errors of their own: they turn by too much or too little, and to one side as they drive on or in time.
+  // What these explain is no sweep, whose error grows with the turn and its rate.
+  static double costOfTurns(const std::vector<std::pair<double, const TurningPair*>>& turns) {
+    const auto rowOf = [](const TurningPair& pair) {
+      return Eigen::Vector3d(pair.by_odometry->phi(), pair.by_odometry->x(), 1);
+    };
+    Eigen::Matrix3d normal = Eigen::Vector3d(1e-6, 1e-3, 1e-3).asDiagonal();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const auto& [by_scans, pair] : turns) {
+      normal += rowOf(*pair) * rowOf(*pair).transpose();
+      right += rowOf(*pair) * by_scans;
+    }
+    const Eigen::Vector3d wheels = normal.ldlt().solve(right);
+    double squared = 0;
+    for (const auto& [by_scans, pair] : turns)
+      squared += mrpt::square(std::min(kFarError, std::abs(by_scans - rowOf(*pair).dot(wheels))));
+    const double n = static_cast<double>(turns.size());
+    return n * std::log(squared / n + kLeastTurnError * kLeastTurnError);
+  }
 
   static matching::ScanMatcherOptions wideOptions() {
     matching::ScanMatcherOptions options;
@@ -93,7 +108,7 @@ class SweepComparison {
 };
 
 std::optional<MovingScan> moving(const ScanPtr& scan, const ScanPtr& after) {
-  constexpr double kLongest = 0.4;  // [s] in which the velocity hardly changes
+  constexpr double kLongest = 0.21;  // [s] in which the velocity hardly changes
   if (!scan || !after) return std::nullopt;
   const double seconds = base::secondsBetween(scan->timestamp, after->timestamp);
   if (!(seconds > 0) || seconds > kLongest) return std::nullopt;
@@ -123,7 +138,7 @@ std::vector<TurningPair> turningPairs(const std::vector<ScanPair>& pairs, const 
     auto begin = moving(pair->begin, pair->after_begin), end = moving(pair->end, pair->after_end);
     if (!begin || !end) continue;
     turning.push_back({*begin, *end, motion.by_scans.asTPose(), std::nullopt});
-    if (motion.by_odometry) turning.back().turn_by_odometry = motion.by_odometry->phi();
+    turning.back().by_odometry = motion.by_odometry;
   }
   return turning;
 }
@@ -157,7 +172,7 @@ std::optional<SweepFacts> fitSweep(const std::vector<ScanPair>& pairs, const std
   // Negative sweeps, which no laser has, take part so that 0 is not at the end of what is compared.
   double step = longest / kSteps, best = 0, least = std::numeric_limits<double>::infinity();
   for (double sweep = -2 * step; sweep < longest + 0.5 * step; sweep += step) {
-    const double cost = comparison.cost(sweep);
+    const double cost = comparison.cost(sweep).sum();
     if (cost < least) {
       least = cost;
       best = sweep;
@@ -168,14 +183,16 @@ std::optional<SweepFacts> fitSweep(const std::vector<ScanPair>& pairs, const std
   fit.declared = declared;
   fit.sweep = best;
   for (const double reach : {step, 0.5 * step}) {
-    const double a = comparison.cost(fit.sweep - reach), b = comparison.cost(fit.sweep),
-                 c = comparison.cost(fit.sweep + reach);
+    const double a = comparison.cost(fit.sweep - reach).sum(), b = comparison.cost(fit.sweep).sum(),
+                 c = comparison.cost(fit.sweep + reach).sum();
     const double bend = a - 2 * b + c;
     if (!(bend > 0)) return std::nullopt;
     fit.sweep += std::clamp(0.5 * (a - c) / bend, -1.0, 1.0) * reach;
     fit.sigma = reach * std::sqrt(2 / bend);
   }
-  fit.advantage = comparison.cost(declared) - comparison.cost(fit.sweep);
+  const auto with = comparison.cost(fit.sweep), without = comparison.cost(declared);
+  constexpr double kLeastByWalls = 4;  // the wheels alone are no proof
+  fit.advantage = without.walls - with.walls > kLeastByWalls ? without.sum() - with.sum() : 0;
   return fit;
 }
 

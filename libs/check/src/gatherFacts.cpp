@@ -10,7 +10,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "BeamsAhead.h"
 #include "CameraFit.h"
+#include "Conclusions.h"
 #include "LevelStatistics.h"
 #include "OdometryStatistics.h"
 #include "PoseStatistics.h"
@@ -200,6 +202,8 @@ class FactGatherer::Statistics {
           facts.gyroscopes.push_back({gyroscope, label, fitClock(turnsOf(compared.motions), turned.headings())});
       }
     }
+    const double limit = saturates(scans) ? 0.99 * scans.longest : scans.max_range;
+    if (!scans.constant_ahead) scans.constant_ahead = constantRangeAhead(pairs, between, limit);
     // The turn of a scan is that of the middle of its sweep, and its stamp that of the beginning.
     if (auto& clock = compared.facts.clock)
       clock->offset -= 0.5 * (scans.sweep && scans.sweep->isWrong() ? scans.sweep->sweep : declared_sweep_);

@@ -172,6 +172,13 @@ class Judge {
                                " m: probably nothing came back, but they are marked as valid; limit the range "
                                "([laser_points] max_range_m)");
     }
+    constexpr double kSome = 0.0005;  // of the beams
+    if (scans.single_share > kSome) {
+      add(Weight::note, who + percent(scans.single_share) +
+                            " of the beams are single beams at the maximum range that are marked as valid, amid "
+                            "shorter ones: nothing came back from what they met, and they count as if they were not "
+                            "there");
+    }
     if (isTilted(scans)) {
       add(Weight::problem, who + "scans a plane tilted by " + fixed(degrees(scans.tilt()), 0) +
                                " deg against the floor, so it is not used for 2D maps; if its sensor pose is wrong, "
@@ -314,6 +321,13 @@ class Judge {
     for (const auto& level : facts_.levels) {
       const double tilt = level.tilt();
       if (!level.is_known || tilt < std::max(kTilt, kSigmas * level.sigma)) continue;
+      if (!level.of_poses && !level.by_planes && tilt > kMostTilt) {
+        contradict(Weight::problem, "according to " + level.by + ", up is " + fixed(degrees(tilt), 0) +
+                                        " deg from the z axis of a robot on wheels: the sensor is mounted otherwise "
+                                        "than its pose states, for example upside down; set its pose in [mapper] "
+                                        "sensors, or leave it out");
+        continue;
+      }
       if (!level.of_poses && (tilt > kMostTilt || (level.by_planes && facts_.cameras.front().height))) continue;
       // The rotation that takes the measured up to z: first roll, then pitch.
       const double roll = std::atan2(level.up.y(), level.up.z());
@@ -363,6 +377,7 @@ class Judge {
                      " deg; set aperture_deg of this laser in [mapper] sensors");
     }
     judgeTurns(laser);
+    judgeAhead(laser);
     const auto better = betterSensorPose(facts_, laser);
     const std::string who = quoted(laser) + ": ";
     const std::string missing = "its sensor pose is missing: in the log it is at the origin of the base";
@@ -382,6 +397,19 @@ class Judge {
                who + verdict + "; according to its motion, set x " + fixed(better->x(), 2) + " m, y " +
                    fixed(better->y(), 2) + " m, yaw " + fixed(degrees(better->yaw()), 0) + " deg, roll " +
                    fixed(degrees(better->roll()), 0) + " deg in [mapper] sensors");
+  }
+
+  void judgeAhead(const std::string& laser) {
+    const auto& ahead = facts_.scans.at(laser).constant_ahead;
+    if (!ahead) return;
+    const auto pitch = pitchOf(facts_.scans.at(laser));
+    contradict(Weight::problem,
+               quoted(laser) + ": while the robot drives on, what the laser sees ahead stays " + fixed(*ahead, 1) +
+                   " m away: its beams meet the floor, because it is tilted, or a part of the robot; " +
+                   (pitch ? "if it is the floor, set pose_pitch_deg " + fixed(degrees(*pitch), 1) +
+                                " for it in [mapper] sensors"
+                          : "set its height and tilt in [mapper] sensors (pose_z_m, pose_pitch_deg), "
+                            "or limit the range ([laser_points] max_range_m)"));
   }
 
   void judgeTurns(const std::string& laser) {

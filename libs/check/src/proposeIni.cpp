@@ -123,7 +123,11 @@ class Proposal {
       change(label, "pose_roll_deg", degrees(pose.roll()), 1);
     };
     for (const auto& laser : lasers_) {
-      if (const auto pose = betterSensorPose(facts_, laser)) change_pose(laser, *pose);
+      if (const auto pose = betterSensorPose(facts_, laser)) {
+        change_pose(laser, *pose);
+      } else if (const auto pitch = pitchOf(facts_.scans.at(laser))) {
+        change_pose(laser, facts_.scans.at(laser).base_from_sensor + mrpt::poses::CPose3D(0, 0, 0, 0, *pitch, 0));
+      }
       if (const auto aperture = betterAperture(facts_, laser)) change(laser, "aperture_deg", degrees(*aperture), 1);
     }
     for (const auto& camera : facts_.cameras) {

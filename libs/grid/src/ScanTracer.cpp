@@ -39,8 +39,8 @@ void ScanTracer::place(const mrpt::obs::CObservation2DRangeScan& scan, const mrp
   beams_.resize(ends.size());
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     Beam& beam = beams_[i];
-    beam.is_valid = ends.valid(i);
-    beam.hits = beam.is_valid && ends.range(i) < range;
+    beam.is_valid = ends.clears(i);
+    beam.hits = ends.hits(i) && ends.range(i) < range;
     if (!beam.is_valid) continue;
     const auto end = ends.at(i, range);
     beam.x = end.x * scale, beam.y = end.y * scale;
@@ -72,6 +72,7 @@ void ScanTracer::voteSurfaces(double resolution) {
 VoteWindow& ScanTracer::trace(const mrpt::obs::CObservation2DRangeScan& scan,
                               const mrpt::poses::CPose3D& map_from_sensor, double resolution) {
   place(scan, map_from_sensor, resolution);
+  votes_.voteCell(origin_.x, origin_.y, kPassVote);  // where the sensor is, nothing else is
   for (const Beam& beam : beams_) {
     if (beam.is_valid) votes_.voteLine(origin_.x, origin_.y, beam.x, beam.y, kPassVote);
   }

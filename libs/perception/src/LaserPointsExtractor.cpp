@@ -1,5 +1,6 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/geometry/FloorHits.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 
 #include <cmath>
@@ -25,12 +26,14 @@ std::vector<Point> validPoints(const mrpt::obs::CObservation2DRangeScan& scan, d
   const double step = beams > 1 ? scan.aperture / static_cast<double>(beams - 1) : 0.0;
   const double sign = scan.rightToLeft ? 1.0 : -1.0;
   const double first = beams > 1 ? -0.5 * scan.aperture * sign : 0.0;
+  const geometry::FloorHits floor(scan.sensorPose);
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.getScanRange(i);
     if (!scan.getScanRangeValidity(i) || !std::isfinite(range) || range < min_range || range > max_range) continue;
     if (range >= scan.maxRange) continue;  // many sensors report this if no echo came back
     const double angle = first + sign * step * static_cast<double>(i);
-    points.push_back({static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle))});
+    const double x = range * std::cos(angle), y = range * std::sin(angle);
+    if (!floor.holds(x, y)) points.push_back({static_cast<float>(x), static_cast<float>(y)});
   }
   return points;
 }

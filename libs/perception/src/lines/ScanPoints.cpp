@@ -1,6 +1,7 @@
 #include "ScanPoints.h"
 
 #include <omnimapper/geometry/Angle.h>
+#include <omnimapper/geometry/FloorHits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,11 +38,12 @@ ScanPoints pointsOf(const mrpt::obs::CObservation2DRangeScan& scan, const LaserL
   const double range_variance = options.range_sigma * options.range_sigma;
   const double rough_variance = options.roughness * options.roughness;
   const double width_variance = options.beam_width * options.beam_width / 12;  // of a uniform distribution
+  const geometry::FloorHits floor(scan.sensorPose);
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.getScanRange(i);
     // NaN fails every comparison.
     if (scan.getScanRangeValidity(i) && range >= options.min_range && range <= options.max_range &&
-        range < scan.maxRange) {
+        range < scan.maxRange && !floor.holds(range * ux, range * uy)) {
       points.ux.push_back(ux);
       points.uy.push_back(uy);
       points.x.push_back(range * ux);

@@ -68,9 +68,11 @@ struct ScanFacts {
   double max_range = 0;         ///< [m] as the scans declare it
   double valid_share = 0;       ///< share of the valid beams in all beams, [0, 1]
   double median_range = 0;      ///< [m] median range of the valid beams
+  double single_share = 0;      ///< share of the beams at the declared maximum, marked as valid, amid shorter ones
   double longest = 0;           ///< [m] largest range of a beam that counts as valid
   double longest_share = 0;     ///< share of the valid beams whose range is exactly `longest`
   bool sensor_pose_moves = false;
+  std::optional<double> constant_ahead;   ///< [m] range ahead, if it stays the same while the robot drives on
   std::optional<SweepFacts> sweep;        ///< none if the log does not determine it
   mrpt::poses::CPose3D base_from_sensor;  ///< sensor pose of the first scan, or the one that the INI sets
 

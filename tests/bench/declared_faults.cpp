@@ -1,0 +1,229 @@
+// Whether faults of recordings are found and named by omnimapper-graphslam --check: parts of the logs at hand, and logs
+// of simulated places with and without a depth camera, are checked unchanged and with each fault of DeclaredFaults.h in
+// all its grades. A fault is named if a finding on its kind is among the findings; a finding on another contradiction
+// is a wrong cause. --amounts prints what was measured for faults that have an amount. --maps OMNIMAPPER-GRAPHSLAM maps
+// each log unchanged, with the fault, and with the proposed check.ini.
+//
+// Example: bench-declared_faults --log aces.rawlog --log home.rawlog --seconds 120
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/check/gatherFacts.h>
+#include <omnimapper/check/judge.h>
+#include <omnimapper/obs/registerClasses.h>
+#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/testing/DeclaredFaults.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace {
+
+using namespace omnimapper;
+namespace fs = std::filesystem;
+namespace tests = omnimapper::testing;
+using tests::DeclaredFault;
+using tests::Fault;
+using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
+
+struct Part {
+  std::string name;
+  Observations log;
+  bool has_camera = false;
+};
+
+class MemorySource : public source::ObservationSource {
+ public:
+  explicit MemorySource(const Observations& log) : log_(log) {}
+  mrpt::obs::CObservation::Ptr next() override { return at_ < log_.size() ? log_[at_++] : nullptr; }
+  double progress() const override { return 1; }
+  source::SourceReport report() const override { return {}; }
+
+ private:
+  const Observations& log_;
+  std::size_t at_ = 0;
+};
+
+// The words by which findings name a kind of fault.
+std::vector<std::string> wordsOf(DeclaredFault kind) {
+  switch (kind) {
+    case DeclaredFault::laser_sense:
+    case DeclaredFault::laser_roll:
+    case DeclaredFault::wheels_left_right:
+      return {"turns right", "is mounted upside down", "is reversed"};
+    case DeclaredFault::laser_yaw:
+      return {"mounted otherwise", "looks backwards",
+              "its sensor pose is missing: in the log it is at the origin of the "
+              "base; according"};
+    case DeclaredFault::range_limit:
+    case DeclaredFault::maximum_readings:
+      return {"measure exactly", "single beams at the maximum range"};
+    case DeclaredFault::frozen_scans:
+      return {"exactly equal to the one before"};
+    case DeclaredFault::wheels_clock:
+    case DeclaredFault::camera_clock:
+      return {"clocks differ", "do their clocks differ"};
+    case DeclaredFault::camera_yaw:
+    case DeclaredFault::camera_roll:
+      return {"against its declared pose"};
+    case DeclaredFault::depth_scale:
+      return {"true depths are", "another unit"};
+    case DeclaredFault::focal_length:
+      return {"true focal length"};
+    case DeclaredFault::mirrored_images:
+      return {"mirror images"};
+    case DeclaredFault::ranges_as_depths:
+      return {"distances from the camera"};
+    case DeclaredFault::stamps:
+      return {"[source] step_s"};
+  }
+  return {};
+}
+
+struct Outcome {
+  bool is_named = false, has_wrong_cause = false, is_problem = false;
+  std::vector<std::string> texts;  // of contradictions
+};
+
+Outcome outcomeOf(const check::LogFacts& facts, const std::vector<std::string>& words,
+                  const std::set<std::string>& usual) {
+  Outcome outcome;
+  for (const auto& finding : check::judge(facts)) {
+    const auto said = [&](const std::string& some) { return finding.text.find(some) != std::string::npos; };
+    const bool names = std::any_of(words.begin(), words.end(), said);
+    outcome.is_named = outcome.is_named || names;
+    outcome.is_problem = outcome.is_problem || finding.weight == check::Weight::problem;
+    if (names || finding.weight == check::Weight::note || !finding.is_contradiction) continue;
+    if (usual.count(finding.text) > 0) continue;
+    outcome.has_wrong_cause = true;
+    outcome.texts.push_back(finding.text);
+  }
+  return outcome;
+}
+
+std::vector<Part> partsOf(const std::string& path, double seconds) {
+  constexpr double kLeastTravel = 8;  // [m]
+  const auto log = source::openRawlogs({path}, {});
+  std::vector<Part> parts;
+  base::Stamp begin;
+  while (const auto observation = log->next()) {
+    if (!base::isValid(observation->timestamp)) continue;
+    if (parts.empty() || base::secondsBetween(begin, observation->timestamp) > seconds) {
+      begin = observation->timestamp;
+      parts.push_back({fs::path(path).stem().string() + " " + std::to_string(parts.size()), {}, false});
+    }
+    parts.back().log.push_back(observation);
+    parts.back().has_camera =
+        parts.back().has_camera || dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(observation.get());
+  }
+  const auto stands = [&](const Part& part) {
+    MemorySource source(part.log);
+    double travel = 0;
+    for (const auto& [label, odometry] : check::gatherFacts(source).odometry)
+      travel = std::max(travel, odometry.travel);
+    return travel < kLeastTravel;
+  };
+  parts.erase(std::remove_if(parts.begin(), parts.end(), stands), parts.end());
+  for (auto& part : parts) {
+    std::stable_sort(part.log.begin(), part.log.end(),
+                     [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
+  }
+  return parts;
+}
+
+// What was measured of a fault, in its unit.
+std::string measuredOf(const check::LogFacts& facts, const Fault& fault) {
+  char text[120] = "";
+  const auto print = [&](double value, double sigma) {
+    std::snprintf(text, sizeof text, "%.4g +- %.2g", value, sigma);
+  };
+  const double degree = base::option_text::kRadiansPerDegree;
+  if (fault.kind == DeclaredFault::wheels_clock && !facts.motions.empty() && facts.motions.front().clock)
+    print(facts.motions.front().clock->offset, facts.motions.front().clock->sigma);
+  if (fault.kind == DeclaredFault::laser_yaw && !facts.motions.empty() && facts.motions.front().mounting)
+    print(-facts.motions.front().mounting->yaw / degree, facts.motions.front().mounting->yaw_sigma / degree);
+  if (facts.cameras.empty()) return text;
+  const auto& camera = facts.cameras.front();
+  if (fault.kind == DeclaredFault::camera_yaw && camera.yaw)
+    print(-camera.yaw->value / degree, camera.yaw->sigma / degree);
+  if (fault.kind == DeclaredFault::camera_clock && camera.clock) print(camera.clock->value, camera.clock->sigma);
+  if (fault.kind == DeclaredFault::depth_scale && camera.scale) print(1 / camera.scale->value, camera.scale->sigma);
+  if (fault.kind == DeclaredFault::focal_length && camera.focal) print(1 / camera.focal->value, camera.focal->sigma);
+  return text;
+}
+
+struct Row {
+  int cases = 0, named = 0, gross = 0, gross_named = 0, wrong_alone = 0, gross_wrong_alone = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> logs;
+  double seconds = 120;
+  bool print_amounts = false, is_verbose = false;
+  std::vector<std::string> only;
+  CLI::App app("Checks logs with known faults.");
+  app.add_option("--log", logs, "rawlogs")->required();
+  app.add_option("--seconds", seconds, "length of a part of a log");
+  app.add_option("--only", only, "names of kinds of faults")->delimiter(',');
+  app.add_flag("--amounts", print_amounts, "print what was measured");
+  app.add_flag("-v", is_verbose, "print each wrong cause and each missed fault");
+  CLI11_PARSE(app, argc, argv);
+  obs::registerClasses();
+
+  std::map<DeclaredFault, Row> rows;
+  int unchanged = 0, alarms = 0;
+  for (const auto& path : logs) {
+    for (const auto& part : partsOf(path, seconds)) {
+      MemorySource source(part.log);
+      const auto plain = check::gatherFacts(source);
+      std::set<std::string> usual;
+      for (const auto& finding : check::judge(plain)) usual.insert(finding.text);
+      const auto quiet = outcomeOf(plain, {}, {});
+      ++unchanged;
+      alarms += quiet.has_wrong_cause;
+      for (const auto& text : quiet.texts) std::printf("ALARM %s: %s\n", part.name.c_str(), text.c_str());
+      for (const auto kind : tests::allDeclaredFaults()) {
+        if (tests::isOfCamera(kind) && !part.has_camera) continue;
+        if (!only.empty() && std::find(only.begin(), only.end(), tests::nameOf(kind)) == only.end()) continue;
+        for (const auto& fault : tests::gradesOf(kind)) {
+          const auto log = tests::withFault(part.log, fault);
+          MemorySource faulty(log);
+          const auto facts = check::gatherFacts(faulty);
+          const auto outcome = outcomeOf(facts, wordsOf(kind), usual);
+          auto& row = rows[kind];
+          ++row.cases;
+          row.named += outcome.is_named;
+          row.gross += fault.is_gross;
+          row.gross_named += fault.is_gross && outcome.is_named;
+          const bool is_wrong_alone = outcome.has_wrong_cause && !outcome.is_named;
+          row.wrong_alone += is_wrong_alone;
+          row.gross_wrong_alone += fault.is_gross && is_wrong_alone;
+          if (print_amounts)
+            std::printf("%s, %s %g: %s %s\n", part.name.c_str(), tests::nameOf(kind).c_str(), fault.amount,
+                        measuredOf(facts, fault).c_str(), outcome.is_named ? "named" : "-");
+          if (!is_verbose) continue;
+          if (fault.is_gross && !outcome.is_named)
+            std::printf("MISSED %s, %s %g\n", part.name.c_str(), tests::nameOf(kind).c_str(), fault.amount);
+          for (const auto& text : outcome.texts)
+            std::printf("WRONG %s, %s %g: %s\n", part.name.c_str(), tests::nameOf(kind).c_str(), fault.amount,
+                        text.c_str());
+        }
+      }
+      std::fflush(stdout);
+    }
+  }
+  std::printf(
+      "\n| fault | gross: cases | named | another cause alone | little: cases | named | another cause alone |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  for (const auto& [kind, row] : rows) {
+    std::printf("| %s | %d | %d | %d | %d | %d | %d |\n", tests::nameOf(kind).c_str(), row.gross, row.gross_named,
+                row.gross_wrong_alone, row.cases - row.gross, row.named - row.gross_named,
+                row.wrong_alone - row.gross_wrong_alone);
+  }
+  std::printf("\n%d unchanged logs, %d of them with a false alarm.\n", unchanged, alarms);
+}
