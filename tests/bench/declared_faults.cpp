@@ -150,8 +150,10 @@ std::string measuredOf(const check::LogFacts& facts, const Fault& fault) {
   if (fault.kind == DeclaredFault::camera_yaw && camera.yaw)
     print(-camera.yaw->value / degree, camera.yaw->sigma / degree);
   if (fault.kind == DeclaredFault::camera_clock && camera.clock) print(camera.clock->value, camera.clock->sigma);
-  if (fault.kind == DeclaredFault::depth_scale && camera.scale) print(1 / camera.scale->value, camera.scale->sigma);
-  if (fault.kind == DeclaredFault::focal_length && camera.focal) print(1 / camera.focal->value, camera.focal->sigma);
+  if (fault.kind == DeclaredFault::depth_scale && camera.scale)
+    print(1 / camera.scale->value, camera.scale->sigma / (camera.scale->value * camera.scale->value));
+  if (fault.kind == DeclaredFault::focal_length && camera.focal)
+    print(1 / camera.focal->value, camera.focal->sigma / camera.focal->value);
   return text;
 }
 

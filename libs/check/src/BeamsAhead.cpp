@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 
 #include "Quantile.h"
@@ -43,31 +44,40 @@ std::optional<double> constantRangeAhead(const std::vector<ScanPair>& pairs, con
                                          double limit) {
   constexpr double kTravel = 0.2, kTurn = 0.06;  // [m] [rad] of a pair in which the robot drives straight on
   constexpr double kSame = 0.15;                 // of the distance driven, by which a constant range may change
-  constexpr double kMost = 0.7;                  // share of the beams, and of the pairs
-  constexpr std::size_t kFewestBeams = 3, kFewestPairs = 8;
-  std::size_t compared = 0;
-  std::vector<double> constant;
+  constexpr double kMost = 0.7;                  // share of the beams
+  constexpr double kEqual = 0.02;                // of the range, by which constant ranges of several pairs may differ
+  constexpr double kLeastShare = 0.2, kFewestBeyond = 0.1;  // of the pairs
+  constexpr std::size_t kFewestBeams = 3, kFewestPairs = 4;
+  std::vector<double> all, constant;  // [m] median ranges ahead of each pair
   for (const auto& pair : pairs) {
     const auto motion = odometry(pair.begin->timestamp, pair.end->timestamp);
     if (!motion || motion->norm() < kTravel || std::abs(motion->phi()) > kTurn) continue;
     const double direction = std::atan2(motion->y(), motion->x());
     const auto before = ahead(*pair.begin, direction, limit), after = ahead(*pair.end, direction, limit);
-    std::size_t both = 0, same = 0;
+    std::size_t same = 0;
     std::vector<double> ranges;
     for (const auto& [beam, range] : before) {
       const auto other = after.find(beam);
       if (other == after.end()) continue;
-      ++both;
       same += std::abs(range - other->second) < kSame * motion->norm();
       ranges.push_back(range);
     }
-    if (both < kFewestBeams) continue;
-    ++compared;
-    if (static_cast<double>(same) > kMost * static_cast<double>(both)) constant.push_back(quantile(ranges, 0.5));
+    if (ranges.size() < kFewestBeams) continue;
+    all.push_back(quantile(ranges, 0.5));
+    if (static_cast<double>(same) > kMost * static_cast<double>(ranges.size())) constant.push_back(all.back());
   }
-  if (compared < kFewestPairs || static_cast<double>(constant.size()) < kMost * static_cast<double>(compared))
-    return std::nullopt;
-  return quantile(constant, 0.5);
+  if (constant.size() < kFewestPairs) return std::nullopt;
+  // The floor and the robot are always at one range, and nothing is seen behind them.
+  const double range = quantile(constant, 0.5);
+  const auto equal = std::count_if(constant.begin(), constant.end(),
+                                   [&](double other) { return std::abs(other - range) < kEqual * range; });
+  const auto beyond = std::count_if(all.begin(), all.end(), [&](double other) { return other > 1.1 * range; });
+  const double pairs_compared = static_cast<double>(all.size());
+  const bool is_constant = equal >= static_cast<std::ptrdiff_t>(kFewestPairs) &&
+                           static_cast<double>(equal) > kLeastShare * pairs_compared &&
+                           static_cast<double>(equal) > kMost * static_cast<double>(constant.size()) &&
+                           static_cast<double>(beyond) < kFewestBeyond * pairs_compared;
+  return is_constant ? std::optional(range) : std::nullopt;
 }
 
 }  // namespace omnimapper::check

@@ -27,6 +27,7 @@ constexpr std::size_t kFewestWalls = 6;
 struct Hypothesis {
   CameraFacts::Images images = CameraFacts::Images::as_declared;
   double scale = 1;  // of the depths
+  double focal = 1;  // true focal length divided by the declared one
   bool changesDepths() const { return scale != 1 || images == CameraFacts::Images::ranges; }
 };
 
@@ -47,6 +48,13 @@ struct Floor {
   std::size_t images;
 };
 
+// The plane as the camera sees it with a focal length that is `focal` times as long: all points come nearer to the
+// axis.
+void stretch(geometry::Plane3& plane, double focal) {
+  const Vector3d normal(plane.normal.x(), plane.normal.y() * focal, plane.normal.z() * focal);
+  plane = {normal.normalized(), plane.distance / normal.norm()};
+}
+
 std::vector<View> viewsOf(const std::vector<SampledImage>& images, const Hypothesis& hypothesis) {
   std::vector<View> views;
   for (const auto& [image, found] : images) {
@@ -65,6 +73,7 @@ std::vector<View> viewsOf(const std::vector<SampledImage>& images, const Hypothe
         const double variance = 0.5 * plane.covariance.topLeftCorner<2, 2>().trace();
         view.planes.push_back({plane.plane_in_sensor, std::sqrt(std::max(0.0, variance))});
         if (hypothesis.images == CameraFacts::Images::mirrored) view.planes.back().plane.normal.y() *= -1;
+        stretch(view.planes.back().plane, hypothesis.focal);
       }
     }
     views.push_back(std::move(view));
@@ -321,7 +330,7 @@ void WallFit::refine(const Vote& start, double clock, CameraFacts& facts) const 
   facts.clock = Measured{clock, measured(*angles, 1).sigma};
   facts.scale = measured(*distances, 0);
   const auto slope = measured(*angles, 2);
-  facts.focal = Measured{std::exp(-slope.value), slope.sigma * std::exp(-slope.value)};
+  facts.focal = Measured{std::exp(slope.value), slope.sigma * std::exp(slope.value)};
 }
 
 double medianDepth(const std::vector<SampledImage>& images) {
@@ -377,6 +386,7 @@ CameraFacts explained(const std::vector<SampledImage>& images, const CameraWitne
   fit.refine(best, clock, facts);
   if (facts.scale) facts.scale = Measured{facts.scale->value * hypothesis.scale, facts.scale->sigma * hypothesis.scale};
   if (facts.height) *facts.height /= hypothesis.scale;  // by the depths of the log
+  if (facts.focal) facts.focal = Measured{facts.focal->value * hypothesis.focal, facts.focal->sigma};
   if (facts.yaw) {
     const Eigen::Matrix3d turned = Eigen::AngleAxisd(facts.yaw->value, Vector3d::UnitZ()).toRotationMatrix();
     facts.pose = geometry::toMrpt(geometry::Se3{Eigen::Quaterniond(turned * level * rotation), declared.translation});
@@ -396,11 +406,12 @@ bool Measured::differs(double expected, double least) const {
 }
 
 CameraFacts fitCamera(const std::vector<SampledImage>& images, const CameraWitness& witness) {
-  auto best = explained(images, witness, {});
+  Hypothesis hypothesis;
+  auto best = explained(images, witness, hypothesis);
   if (!explainsWell(best)) {
-    std::vector<Hypothesis> others{{CameraFacts::Images::mirrored, 1}, {CameraFacts::Images::ranges, 1}};
+    std::vector<Hypothesis> others{{CameraFacts::Images::mirrored, 1, 1}, {CameraFacts::Images::ranges, 1, 1}};
     for (const double scale : {0.001, 0.01, 0.1, 0.2, 0.5, 2.0, 5.0, 10.0, 100.0, 1000.0})
-      others.push_back({CameraFacts::Images::as_declared, scale});
+      others.push_back({CameraFacts::Images::as_declared, scale, 1});
     const auto quality = [](const CameraFacts& facts) {
       const double all = static_cast<double>(std::max<std::size_t>(facts.walls, kFewestWalls));
       return static_cast<double>(facts.matched) * static_cast<double>(facts.matched) / all;
@@ -412,7 +423,16 @@ CameraFacts fitCamera(const std::vector<SampledImage>& images, const CameraWitne
       if (facts.matched < kFewestWalls || quality(facts) <= least) continue;
       least = quality(facts);
       best = std::move(facts);
+      hypothesis = other;
     }
+  }
+  // A wrong focal length also bends what else is measured.
+  constexpr double kWrongFocal = 0.03;
+  for (int round = 0; round < 2 && best.focal && best.focal->differs(hypothesis.focal, kWrongFocal); ++round) {
+    hypothesis.focal = best.focal->value;
+    auto again = explained(images, witness, hypothesis);
+    if (!again.focal || 10 * again.matched < 9 * best.matched) break;
+    best = std::move(again);
   }
   const auto& first = *images.front().image;
   best.camera = first.sensorLabel;

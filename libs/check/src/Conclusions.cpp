@@ -1,6 +1,7 @@
 // Conclusions from the facts for the mapper: which laser and odometry to use, and where a laser really is.
 #include "Conclusions.h"
 
+#include <mrpt/math/wrap2pi.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/matching/ScanInBase.h>
 
@@ -74,6 +75,10 @@ Culprit wrongTurnOf(const LogFacts& facts, const std::string& laser, const std::
   const auto count = [&](bool agrees_with_laser) { ++(agrees_with_laser ? against_odometry : against_laser); };
   for (const auto& gyroscope : facts.gyroscopes) {
     if (gyroscope.laser == laser && gyroscope.clock) count(!gyroscope.clock->is_reversed);
+  }
+  for (const auto& camera : facts.cameras) {
+    constexpr std::size_t kEnough = 10;  // walls on which both agree
+    if (camera.laser == laser && camera.matched >= kEnough) count(camera.are != CameraFacts::Images::mirrored);
   }
   for (const auto& other : facts.motions) {
     if (&other == motion || other.turning < kFewestPairs) continue;
@@ -179,8 +184,11 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   if (!motion->mounting) return std::nullopt;
   const auto& found = *motion->mounting;
   const double offset = std::hypot(found.x, found.y);
-  const bool wrong_yaw =
-      found.yaw_sigma < kSureYaw && std::abs(found.yaw) > std::max(kWrongYaw, kTrust * found.yaw_sigma);
+  const bool camera_agrees = std::any_of(facts.cameras.begin(), facts.cameras.end(), [&](const CameraFacts& camera) {
+    return camera.laser == laser && isTurned(camera) && blamesLaser(facts, camera);
+  });
+  const double wrong = camera_agrees ? 0 : kWrongYaw;
+  const bool wrong_yaw = found.yaw_sigma < kSureYaw && std::abs(found.yaw) > std::max(wrong, kTrust * found.yaw_sigma);
   const bool sure_position = found.position_sigma < kSurePosition;
   const bool wrong_position = sure_position && offset > std::max(kWrongPosition, kTrust * found.position_sigma);
   if (!wrong_yaw && !wrong_position) return std::nullopt;
@@ -213,7 +221,7 @@ std::map<std::string, double> clockOffsets(const LogFacts& facts) {
     if (gyroscope.laser == laser) add(gyroscope.gyroscope, gyroscope.clock, kCorrected);
   }
   for (const auto& camera : facts.cameras) {
-    if (camera.laser == laser && camera.clock)
+    if (camera.laser == laser && camera.clock && std::abs(camera.clock->value) > kRollingShutter)
       add(camera.camera, ClockFacts{camera.clock->value, camera.clock->sigma, 0, false}, 0);
   }
   // If several others agree with each other and none with the laser, it is the laser's clock that differs.
@@ -244,6 +252,24 @@ bool isTilted(const CameraFacts& camera) {
 bool isTurned(const CameraFacts& camera) {
   constexpr double kLeast = 1.5 * base::option_text::kRadiansPerDegree;
   return camera.yaw && camera.yaw->differs(0, kLeast);
+}
+
+bool blamesLaser(const LogFacts& facts, const CameraFacts& camera) {
+  constexpr double kLeast = 1 * base::option_text::kRadiansPerDegree, kSame = 1.5 * kLeast, kSigmas = 4;
+  for (const auto& motion : facts.motions) {
+    if (motion.laser != camera.laser) continue;
+    const auto turn = wrongTurnOf(facts, motion.laser, motion.odometry);
+    if (turn == Culprit::laser || turn == Culprit::not_known) return true;
+    if (!camera.yaw || !motion.mounting) continue;
+    // The camera is turned against the laser by as much as the laser is turned against the base.
+    const auto& laser = *motion.mounting;
+    const double off = mrpt::math::wrapToPi(camera.yaw->value + laser.yaw);
+    const double sigma = std::hypot(camera.yaw->sigma, laser.yaw_sigma);
+    if (std::abs(laser.yaw) > std::max(kLeast, kSigmas * laser.yaw_sigma) &&
+        std::abs(off) < std::max(kSame, kSigmas * sigma))
+      return true;
+  }
+  return false;
 }
 
 bool hasWrongPose(const CameraFacts& camera) {

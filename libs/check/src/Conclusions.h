@@ -32,6 +32,8 @@ bool saturates(const ScanFacts& scans);
 /// Whether most stamps of every sensor are missing or repeat the one before, so that the clock stands still and not one
 /// sensor.
 bool clockStands(const LogFacts& facts);
+/// [s] Rows of an image are exposed one after the other, which alone makes its clock differ by up to this.
+constexpr double kRollingShutter = 0.03;
 constexpr double kWrongScale = 0.04;  ///< [-] of a camera's depths, that is no error of the measurement
 /// What floor and walls show to be wrong with a camera, beyond the errors of the measurement.
 bool hasWrongScale(const CameraFacts& camera);
@@ -40,6 +42,8 @@ bool isTilted(const CameraFacts& camera);
 bool isTurned(const CameraFacts& camera);
 /// Whether it is tilted or turned, and CameraFacts::pose is better.
 bool hasWrongPose(const CameraFacts& camera);
+/// Whether it differs from the laser because the laser is wrong: the motion of the robot shows this, too.
+bool blamesLaser(const LogFacts& facts, const CameraFacts& camera);
 /// True depth divided by depth in the log, if the declared height of the camera is right and the floor appears at
 /// another distance by a third or more; none else, or if no height is declared.
 std::optional<double> scaleByHeight(const CameraFacts& camera);

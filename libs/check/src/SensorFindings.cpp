@@ -18,7 +18,7 @@ class ClockJudge {
     for (const auto& motion : facts_.motions) judge(motion.odometry, motion.laser, motion.clock, false);
     for (const auto& one : facts_.gyroscopes) judge(one.gyroscope, one.laser, one.clock, false);
     for (const auto& camera : facts_.cameras) {
-      if (camera.clock)
+      if (camera.clock && std::abs(camera.clock->value) > kRollingShutter)
         judge(camera.camera, camera.laser, ClockFacts{camera.clock->value, camera.clock->sigma, 0, false}, true);
     }
     return std::move(findings_);
@@ -62,8 +62,9 @@ class ClockJudge {
 
 class CameraJudge {
  public:
-  explicit CameraJudge(const CameraFacts& camera)
+  CameraJudge(const CameraFacts& camera, bool blames_laser)
       : camera_(camera),
+        blames_laser_(blames_laser),
         who_(quoted(camera.camera) + ": "),
         by_walls_(", by the walls that " + quoted(camera.laser) + " sees") {}
 
@@ -81,6 +82,7 @@ class CameraJudge {
   void add(Weight weight, const std::string& text) { findings_.push_back({weight, who_ + text, true}); }
 
   void judgeImages() {
+    if (blames_laser_) return;
     if (camera_.are == CameraFacts::Images::mirrored)
       add(Weight::problem,
           "its images are mirror images: planes lie on walls of the laser only if left and right are exchanged; set "
@@ -115,8 +117,8 @@ class CameraJudge {
 
   void judgePose() {
     constexpr double kMuchTilt = 6, kMuchYaw = 4;  // [deg]
-    if (!hasWrongPose(camera_)) return;
-    const bool is_tilted = isTilted(camera_), is_turned = isTurned(camera_);
+    const bool is_tilted = isTilted(camera_), is_turned = isTurned(camera_) && !blames_laser_;
+    if (!camera_.pose || (!is_tilted && !is_turned)) return;
     const bool much = (is_tilted && degrees(camera_.tilt) > kMuchTilt) ||
                       (is_turned && std::abs(degrees(camera_.yaw->value)) > kMuchYaw);
     std::string how;
@@ -155,6 +157,7 @@ class CameraJudge {
   }
 
   const CameraFacts& camera_;
+  bool blames_laser_;
   std::string who_, by_walls_;
   std::vector<Finding> findings_;
 };
@@ -168,7 +171,7 @@ std::vector<Finding> clockFindings(const LogFacts& facts) {
 std::vector<Finding> cameraFindings(const LogFacts& facts) {
   std::vector<Finding> findings;
   for (const auto& camera : facts.cameras) {
-    const auto some = CameraJudge(camera).findings();
+    const auto some = CameraJudge(camera, blamesLaser(facts, camera)).findings();
     findings.insert(findings.end(), some.begin(), some.end());
   }
   return findings;

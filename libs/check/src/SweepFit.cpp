@@ -19,7 +19,7 @@ namespace omnimapper::check {
 namespace {
 
 constexpr std::size_t kMostTurning = 48, kFewestTurning = 10;
-constexpr double kTurnsBy = 0.08;  // [rad] of a pair
+constexpr double kTurnsBy = 0.05;  // [rad] of a pair
 constexpr double kFarError = 0.1;  // [m] of a point that is not simply on another wall, [rad] of a turn
 
 using Cloud = std::shared_ptr<const mrpt::obs::CObservationPointCloud>;
@@ -59,22 +59,23 @@ class SweepComparison {
   };
 
   Cost cost(double sweep) const {
-    double walls = 0;
+    Cost cost;
     std::vector<std::pair<double, const TurningPair*>> turns;
     for (const auto& pair : pairs_) {
       const auto reference = matcher_.prepare(pair.begin.with(sweep));
       const auto match = matcher_.match(*reference, pair.end.with(sweep), pair.by_scans);
       const double error = std::min(match.wall_distance, kFarError);
-      walls += match.overlap * error * error + (1 - match.overlap) * kFarError * kFarError;
+      const double squared = match.overlap * error * error + (1 - match.overlap) * kFarError * kFarError;
+      // Each pair has a variance of its own, because some places are full of things that are no walls.
+      cost.walls += kScansPerPair * std::log(squared + kLeastWall * kLeastWall);
       if (pair.by_odometry) turns.emplace_back(match.reference_from_scan.phi, &pair);
     }
-    const double n = static_cast<double>(pairs_.size());
-    Cost cost{n * std::log(walls / n + kLeastWall * kLeastWall), 0};
     if (turns.size() >= kFewestTurning) cost.odometry = costOfTurns(turns);
     return cost;
   }
 
  private:
+  static constexpr double kScansPerPair = 2;  // that contribute to the distance between their walls
   static constexpr double kLeastWall = 0.002, kLeastTurnError = 0.001;  // [m] [rad] that no sensor goes below
 
   // Wheels have errors of their own: they turn by too much or too little, and to one side as they drive on or in time.
@@ -122,16 +123,22 @@ std::optional<MovingScan> moving(const ScanPtr& scan, const ScanPtr& after) {
   return found;
 }
 
-std::vector<TurningPair> turningPairs(const std::vector<ScanPair>& pairs, const std::vector<MatchedMotion>& motions) {
+std::vector<std::size_t> byTurn(const std::vector<MatchedMotion>& motions) {
   std::vector<std::size_t> order(motions.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(motions[a].by_scans.phi()) > std::abs(motions[b].by_scans.phi());
   });
+  return order;
+}
+
+// The pairs between whose scans the turn rate changed most, and of the others those that turned most.
+std::vector<TurningPair> turningPairs(const std::vector<ScanPair>& pairs, const std::vector<MatchedMotion>& motions) {
+  constexpr std::size_t kMostCandidates = 120, kMostChanging = 36;
   std::vector<TurningPair> turning;
-  for (const auto i : order) {
+  for (const auto i : byTurn(motions)) {
     const auto& motion = motions[i];
-    if (turning.size() >= kMostTurning || std::abs(motion.by_scans.phi()) < kTurnsBy) break;
+    if (turning.size() >= kMostCandidates || std::abs(motion.by_scans.phi()) < kTurnsBy) break;
     const auto pair = std::find_if(pairs.begin(), pairs.end(),
                                    [&](const ScanPair& one) { return one.begin->timestamp == motion.begin; });
     if (pair == pairs.end()) continue;
@@ -140,7 +147,18 @@ std::vector<TurningPair> turningPairs(const std::vector<ScanPair>& pairs, const 
     turning.push_back({*begin, *end, motion.by_scans.asTPose(), std::nullopt});
     turning.back().by_odometry = motion.by_odometry;
   }
-  return turning;
+  const auto change = [](const TurningPair& pair) { return std::abs(pair.begin.velocity.phi - pair.end.velocity.phi); };
+  std::vector<std::size_t> order(turning.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return change(turning[a]) > change(turning[b]); });
+  order.resize(std::min(order.size(), kMostChanging));
+  std::vector<TurningPair> chosen;
+  for (const auto i : order) chosen.push_back(turning[i]);
+  for (std::size_t i = 0; i < turning.size() && chosen.size() < kMostTurning; ++i) {
+    if (std::find(order.begin(), order.end(), i) == order.end()) chosen.push_back(turning[i]);
+  }
+  return chosen;
 }
 
 double periodOf(const std::vector<TurningPair>& pairs, const std::vector<ScanPair>& all) {
@@ -188,7 +206,7 @@ std::optional<SweepFacts> fitSweep(const std::vector<ScanPair>& pairs, const std
     const double bend = a - 2 * b + c;
     if (!(bend > 0)) return std::nullopt;
     fit.sweep += std::clamp(0.5 * (a - c) / bend, -1.0, 1.0) * reach;
-    fit.sigma = reach * std::sqrt(2 / bend);
+    if (reach == step) fit.sigma = reach * std::sqrt(2 / bend);  // a narrow parabola follows the noise
   }
   const auto with = comparison.cost(fit.sweep), without = comparison.cost(declared);
   constexpr double kLeastByWalls = 4;  // the wheels alone are no proof

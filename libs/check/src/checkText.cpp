@@ -42,7 +42,11 @@ std::string scanLines(const LogFacts& facts) {
             " deg, " + percent(scans.valid_share) + " of them valid; median range " + fixed(scans.median_range, 1) +
             " m, largest " + fixed(scans.longest, 1) + " m (limit of the sensor " + fixed(scans.max_range, 1) +
             " m)\n  pose on the base: " + poseText(scans.base_from_sensor) +
-            (scans.isAtOrigin() ? "; it was probably never set" : "") + "\n";
+            (scans.isAtOrigin() ? "; it was probably never set" : "") +
+            (scans.sweep
+                 ? "; sweep by its turns " + fixed(scans.sweep->sweep, 4) + " +- " + fixed(scans.sweep->sigma, 4) + " s"
+                 : "") +
+            "\n";
   }
   return text;
 }

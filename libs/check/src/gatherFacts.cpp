@@ -204,6 +204,12 @@ class FactGatherer::Statistics {
     }
     const double limit = saturates(scans) ? 0.99 * scans.longest : scans.max_range;
     if (!scans.constant_ahead) scans.constant_ahead = constantRangeAhead(pairs, between, limit);
+    // A laser that is turned against its declared pose looks at walls beside the robot instead of ahead.
+    if (const auto& mounting = compared.facts.mounting) {
+      constexpr double kTurned = 10 * base::option_text::kRadiansPerDegree, kSure = 0.3 * kTurned, kSame = 0.1;
+      if (std::abs(mounting->yaw) > kTurned && mounting->yaw_sigma < kSure && std::abs(mounting->scale - 1) < kSame)
+        scans.constant_ahead.reset();
+    }
     // The turn of a scan is that of the middle of its sweep, and its stamp that of the beginning.
     if (auto& clock = compared.facts.clock)
       clock->offset -= 0.5 * (scans.sweep && scans.sweep->isWrong() ? scans.sweep->sweep : declared_sweep_);

@@ -131,7 +131,7 @@ class Proposal {
       if (const auto aperture = betterAperture(facts_, laser)) change(laser, "aperture_deg", degrees(*aperture), 1);
     }
     for (const auto& camera : facts_.cameras) {
-      if (hasWrongPose(camera)) change_pose(camera.camera, *camera.pose);
+      if (hasWrongPose(camera) && !blamesLaser(facts_, camera)) change_pose(camera.camera, *camera.pose);
     }
     for (const auto& [label, offset] : clockOffsets(facts_))
       change(label, "clock_offset_s", offset, 3, "its clock differs from those of the other sensors");
@@ -156,7 +156,8 @@ class Proposal {
       const auto add = [&](const std::string& key, const std::string& value, const std::string& reason) {
         keys.push_back({"calibration", key, value, reason});
       };
-      if (camera.are == CameraFacts::Images::mirrored) add("mirrored", "true", "by the walls of the laser");
+      if (camera.are == CameraFacts::Images::mirrored && !blamesLaser(facts_, camera))
+        add("mirrored", "true", "by the walls of the laser");
       if (camera.are == CameraFacts::Images::ranges) add("depth_is_range", "true", "by the walls of the laser");
       if (hasWrongScale(camera)) add("depth_scale", significant(camera.scale->value), "by the walls of the laser");
       const bool is_wrong = hasWrongFocalLength(camera);
