@@ -1,23 +1,32 @@
 // Whether faults of recordings are found and named by omnimapper-graphslam --check: parts of the logs at hand, and logs
 // of simulated places with and without a depth camera, are checked unchanged and with each fault of DeclaredFaults.h in
 // all its grades. A fault is named if a finding on its kind is among the findings; a finding on another contradiction
-// is a wrong cause. --amounts prints what was measured for faults that have an amount. --maps OMNIMAPPER-GRAPHSLAM maps
+// is a wrong cause. --maps maps each log that has truth.tum beside it unchanged, with the fault, and with the proposed
+// check.ini. --amounts prints what was measured for faults that have an amount. --maps OMNIMAPPER-GRAPHSLAM maps
 // each log unchanged, with the fault, and with the proposed check.ini.
 //
 // Example: bench-declared_faults --log aces.rawlog --log home.rawlog --seconds 120
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/check/CheckRun.h>
 #include <omnimapper/check/gatherFacts.h>
 #include <omnimapper/check/judge.h>
+#include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/eval/TumFile.h>
+#include <omnimapper/export/registerOutputs.h>
+#include <omnimapper/mapper/Features.h>
+#include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/DeclaredFaults.h>
+#include <omnimapper/testing/Fixtures.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace {
@@ -33,6 +42,7 @@ struct Part {
   std::string name;
   Observations log;
   bool has_camera = false;
+  std::string truth;  // file; empty if there is none
 };
 
 class MemorySource : public source::ObservationSource {
@@ -113,7 +123,7 @@ std::vector<Part> partsOf(const std::string& path, double seconds) {
     if (!base::isValid(observation->timestamp)) continue;
     if (parts.empty() || base::secondsBetween(begin, observation->timestamp) > seconds) {
       begin = observation->timestamp;
-      parts.push_back({fs::path(path).stem().string() + " " + std::to_string(parts.size()), {}, false});
+      parts.push_back({fs::path(path).stem().string() + " " + std::to_string(parts.size()), {}, false, ""});
     }
     parts.back().log.push_back(observation);
     parts.back().has_camera =
@@ -127,7 +137,9 @@ std::vector<Part> partsOf(const std::string& path, double seconds) {
     return travel < kLeastTravel;
   };
   parts.erase(std::remove_if(parts.begin(), parts.end(), stands), parts.end());
+  const std::string truth = fs::path(path).parent_path() / "truth.tum";
   for (auto& part : parts) {
+    if (fs::exists(truth)) part.truth = truth;
     std::stable_sort(part.log.begin(), part.log.end(),
                      [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
   }
@@ -157,6 +169,68 @@ std::string measuredOf(const check::LogFacts& facts, const Fault& fault) {
   return text;
 }
 
+// The errors of three maps of a log with truth.tum beside it: unchanged, with a fault, and with the fault and the
+// proposed check.ini.
+class Maps {
+ public:
+  Maps(std::string folder, const Part& part)
+      : folder_(std::move(folder)),
+        truth_(eval::readTum(part.truth)),
+        ini_(tests::sourceFile(part.has_camera ? "ini/home_planes.ini" : "ini/laser2d.ini")) {
+    fs::create_directories(folder_);
+    unchanged_ = errorOf(part.log, "");
+  }
+
+  void compare(const Part& part, const Fault& fault) {
+    const auto log = tests::withFault(part.log, fault);
+    const double with_fault = errorOf(log, "");
+    base::Progress quiet;
+    const auto checked =
+        check::runCheck({rawlog()}, base::Config::fromFile(ini_), folder_, quiet, [] { return false; });
+    const double mended = errorOf(log, folder_ + "/check.ini");
+    const bool is_bad = !(with_fault < unchanged_ + 0.3), is_good = with_fault < unchanged_ + 0.05;
+    const bool says_15 = checked.code == base::ExitCode::doubtful_input;
+    std::printf("MAP %s, %s %g: %.3f %.3f %.3f %d%s%s%s\n", part.name.c_str(), tests::nameOf(fault.kind).c_str(),
+                fault.amount, unchanged_, with_fault, mended, static_cast<int>(checked.code),
+                is_bad && !says_15 ? " UNSAID" : "", is_good && says_15 ? " NEEDLESS" : "",
+                mended > 1.3 * unchanged_ + 0.01 ? " NOT MENDED" : "");
+    std::fflush(stdout);
+  }
+
+ private:
+  std::string rawlog() const { return folder_ + "/log.rawlog"; }
+
+  // [m] NaN if there is no map.
+  double errorOf(const Observations& log, const std::string& more) const {
+    source::writeRawlog(rawlog(), [&](source::RawlogWriter& writer) {
+      for (const auto& observation : log) writer.add(*observation);
+    });
+    fs::remove_all(folder_ + "/map");
+    try {
+      auto config =
+          base::Config::fromFiles(more.empty() ? std::vector<std::string>{ini_} : std::vector<std::string>{ini_, more});
+      config.set("mapper.output_plugins=map,trajectory,summary");
+      mapper::RunRequest request;
+      request.logs = {rawlog()};
+      request.output_folder = folder_ + "/map";
+      base::Progress quiet;
+      mapper::runMapping(request, config, quiet, [] { return false; });
+      eval::PairingOptions pairing;
+      pairing.alignment = eval::Alignment::yaw;
+      return eval::absoluteTrajectoryError(eval::readTum(folder_ + "/map/trajectory.tum"), truth_, pairing)
+          .translation.rmse;
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      return NAN;
+    }
+  }
+
+  std::string folder_;
+  eval::Trajectory truth_;
+  std::string ini_;
+  double unchanged_ = NAN;
+};
+
 struct Row {
   int cases = 0, named = 0, gross = 0, gross_named = 0, wrong_alone = 0, gross_wrong_alone = 0;
 };
@@ -168,19 +242,26 @@ int main(int argc, char** argv) {
   double seconds = 120;
   bool print_amounts = false, is_verbose = false;
   std::vector<std::string> only;
+  std::string maps;
   CLI::App app("Checks logs with known faults.");
   app.add_option("--log", logs, "rawlogs")->required();
   app.add_option("--seconds", seconds, "length of a part of a log");
   app.add_option("--only", only, "names of kinds of faults")->delimiter(',');
+  app.add_option("--maps", maps, "folder in which logs with truth.tum beside them are mapped, instead of the table");
   app.add_flag("--amounts", print_amounts, "print what was measured");
   app.add_flag("-v", is_verbose, "print each wrong cause and each missed fault");
   CLI11_PARSE(app, argc, argv);
   obs::registerClasses();
+  mapper::loadFeatures();
+  exports::registerOutputs();
 
   std::map<DeclaredFault, Row> rows;
   int unchanged = 0, alarms = 0;
   for (const auto& path : logs) {
     for (const auto& part : partsOf(path, seconds)) {
+      std::optional<Maps> mapped;
+      if (!maps.empty() && part.truth.empty()) continue;
+      if (!maps.empty()) mapped.emplace(maps, part);
       MemorySource source(part.log);
       const auto plain = check::gatherFacts(source);
       std::set<std::string> usual;
@@ -193,6 +274,10 @@ int main(int argc, char** argv) {
         if (tests::isOfCamera(kind) && !part.has_camera) continue;
         if (!only.empty() && std::find(only.begin(), only.end(), tests::nameOf(kind)) == only.end()) continue;
         for (const auto& fault : tests::gradesOf(kind)) {
+          if (mapped) {
+            mapped->compare(part, fault);
+            continue;
+          }
           const auto log = tests::withFault(part.log, fault);
           MemorySource faulty(log);
           const auto facts = check::gatherFacts(faulty);

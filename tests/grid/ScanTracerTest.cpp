@@ -2,6 +2,7 @@
 #include <omnimapper/grid/OccupancyGrid.h>
 #include <omnimapper/grid/ScanTracer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -117,13 +118,38 @@ TEST(ScanTracer, beamsAtTheLimitClearAndInvalidOnesSayNothing) {
   for (const auto& [place, vote] : votesOf(scanOf({10}, 0), kMiddleOfCell)) EXPECT_EQ(vote, kPassVote);
   EXPECT_EQ(votesOf(scanOf({10}, 0), kMiddleOfCell).size(), 11u);
   EXPECT_EQ(votesOf(scanOf({8}, 0), kMiddleOfCell, 1, 2).size(), 3u) << "cut at the option's range";
+  const std::map<Place, int> own_cell{{{0, 0}, kPassVote}};  // nothing stands where the sensor is
   for (const float odd : {0.0f, -1.0f, std::nanf(""), INFINITY}) {
-    EXPECT_TRUE(votesOf(scanOf({odd}, 0), kMiddleOfCell).empty()) << odd;
+    EXPECT_EQ(votesOf(scanOf({odd}, 0), kMiddleOfCell), own_cell) << odd;
   }
   auto invalid = scanOf({3}, 0);
   invalid.setScanRangeValidity(0, false);
-  EXPECT_TRUE(votesOf(invalid, kMiddleOfCell).empty());
-  EXPECT_TRUE(votesOf(scanOf({}, 0), kMiddleOfCell).empty());
+  EXPECT_EQ(votesOf(invalid, kMiddleOfCell), own_cell);
+  EXPECT_EQ(votesOf(scanOf({}, 0), kMiddleOfCell), own_cell);
+}
+
+TEST(ScanTracer, aBeamWithoutAnEchoClearsOnlyBesideOthersWithoutOne) {
+  const auto quarter = static_cast<float>(M_PI / 2);
+  const auto farthest = [&](const std::vector<float>& ranges) {
+    int cells = 0;
+    for (const auto& [place, vote] : votesOf(scanOf(ranges, quarter), kMiddleOfCell))
+      cells = std::max({cells, std::abs(place.first), std::abs(place.second)});
+    return cells;
+  };
+  EXPECT_LT(farthest({3, 3, 3, 10, 3, 3, 3}), 5) << "one met something dark or a mirror";
+  EXPECT_LT(farthest({3, 3, 10, 10, 3, 3, 3}), 5);
+  EXPECT_GT(farthest({3, 3, 10, 10, 10, 3, 3}), 8) << "an open door";
+  EXPECT_GT(farthest({10, 10, 10, 3, 3, 3, 3}), 6);
+}
+
+TEST(ScanTracer, beamsOfATiltedLaserOnTheFloorClearAndHitNothing) {
+  auto scan = scanOf({1, 3}, 0.02F);
+  scan.sensorPose = mrpt::poses::CPose3D(0, 0, 0.3, 0, std::asin(0.1), 0);  // meets the floor at 3 m
+  const auto votes = votesOf(scan, kMiddleOfCell);
+  const auto hits = std::count_if(votes.begin(), votes.end(), [](const auto& one) { return one.second == kHitVote; });
+  EXPECT_EQ(hits, 1);
+  EXPECT_EQ(votes.at({1, 0}), kHitVote);
+  EXPECT_EQ(votes.at({3, 0}), kPassVote);
 }
 
 TEST(ScanTracer, oneScanVotesOnceForACellHoweverManyBeamsMeetIt) {

@@ -66,6 +66,16 @@ TEST(SensorPoses, AnApertureIsGivenOrLeftAsTheScanHasIt) {
   EXPECT_EQ(scan->aperture, 1.5F);
 }
 
+TEST(SensorPoses, AClockIsOfTheSourceAndLeavesThePoseAsTheObservationHasIt) {
+  const auto poses = fromIni("[sensor]\nlabel = laser\nclock_offset_s = -0.25\n");
+  EXPECT_EQ(poses.clockOffsets(), (std::map<std::string, double>{{"laser", -0.25}}));
+  EXPECT_FALSE(poses.find("laser", base::stampFromUnix(1e9)));
+  const auto config = base::Config::fromText(
+      "[mapper]\nsensors = a\n[a]\nlabel = wheels\nclock_offset_s = 4\n[source]\nend_s = 7\n", "test.ini");
+  EXPECT_EQ(sourceOptions(config).clock_offsets, (std::map<std::string, double>{{"wheels", 4}}));
+  EXPECT_EQ(sourceOptions(config).end, 7);
+}
+
 TEST(SensorPoses, GivesACopyAndLeavesTheObservationOfTheLogAlone) {
   const auto poses = fromIni("[sensor]\nlabel = laser\npose_x_m = 0.2\n");
   auto scan = mrpt::obs::CObservation2DRangeScan::Create();

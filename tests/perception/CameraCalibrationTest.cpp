@@ -41,6 +41,27 @@ TEST(CameraCalibration, AParameterThatIsNotGivenStaysAsTheLogHasIt) {
   EXPECT_EQ(scan.rangeUnits, 0.001F);
 }
 
+TEST(CameraCalibration, MirrorImagesAreMirroredBackAndRangesAreNoDepths) {
+  auto scan = camera();
+  scan.hasRangeImage = true;
+  scan.range_is_depth = true;
+  scan.rangeImage_setSize(2, 3);
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 3; ++column)
+      scan.rangeImage(row, column) = static_cast<std::uint16_t>(10 * row + column);
+  }
+  auto same = scan;
+  fromIni("[calibration]\ndepth_is_range = true\n").applyTo(same);
+  EXPECT_FALSE(same.range_is_depth);
+  EXPECT_EQ(same.rangeImage(1, 0), 10);
+  fromIni("[calibration]\nmirrored = true\n").applyTo(scan);
+  EXPECT_TRUE(scan.range_is_depth);
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 3; ++column) EXPECT_EQ(scan.rangeImage(row, column), 10 * row + 2 - column);
+  }
+  EXPECT_EQ(scan.cameraParams, camera().cameraParams);
+}
+
 TEST(CameraCalibration, EveryKeyHasItsPlace) {
   const auto scan = changed(
       "depth_fx_px = 1\ndepth_fy_px = 2\ndepth_cx_px = 3\ndepth_cy_px = 4\n"

@@ -164,5 +164,25 @@ TEST_F(RawlogSourceTest, openRawlogsMergesByStampAndCountsTimeFromTheEarliestLog
   EXPECT_THROW(openRawlogs({}, {}), base::Error);
 }
 
+TEST_F(RawlogSourceTest, sensorsWhoseClocksAreCorrectedAreSortedByTheirTrueStamps) {
+  writeGzip(path_, (Bytes() << odometry(10) << scan(10.5) << odometry(11) << scan(11.5) << odometry(12)).string());
+  const auto log = openRawlogs({path_}, {});
+  EXPECT_EQ(listing(readAll(*log)), (Strings{"wheels 10", "laser 10.5", "wheels 11", "laser 11.5", "wheels 12"}));
+  SourceOptions options;
+  options.clock_offsets["laser"] = -1.25;
+  const auto corrected = openRawlogs({path_}, options);
+  EXPECT_EQ(listing(readAll(*corrected)),
+            (Strings{"laser 9.25", "wheels 10", "laser 10.25", "wheels 11", "wheels 12"}));
+  EXPECT_EQ(corrected->report().objects, log->report().objects) << "objects that are read twice count once";
+  EXPECT_EQ(corrected->report().bytes, log->report().bytes);
+  EXPECT_EQ(corrected->report().ending, Ending::complete);
+  options.clock_offsets["wheels"] = -1.25;
+  EXPECT_EQ(listing(readAll(*openRawlogs({path_}, options))),
+            (Strings{"wheels 8.75", "laser 9.25", "wheels 9.75", "laser 10.25", "wheels 10.75"}));
+  options.clock_offsets = {{"laser", 100}, {"other", 3}};
+  EXPECT_EQ(listing(readAll(*openRawlogs({path_}, options))),
+            (Strings{"wheels 10", "wheels 11", "wheels 12", "laser 110.5", "laser 111.5"}));
+}
+
 }  // namespace
 }  // namespace omnimapper::source::rawlog_source_test

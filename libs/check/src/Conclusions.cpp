@@ -44,7 +44,8 @@ std::optional<double> pitchOf(const ScanFacts& scans) {
 }
 
 bool saturates(const ScanFacts& scans) {
-  return scans.longest_share > 0.02;
+  constexpr double kLeast = 0.001;  // of the valid beams
+  return scans.longest_share > kLeast && scans.longest_stands_out;
 }
 
 bool isFrozen(const MotionFacts& motion) {

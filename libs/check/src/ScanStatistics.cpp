@@ -107,6 +107,13 @@ ScanFacts ScanStatistics::facts() const {
   if (all_beams_ > 0) facts.valid_share = static_cast<double>(valid_beams_) / static_cast<double>(all_beams_);
   if (all_beams_ > 0) facts.single_share = static_cast<double>(singles_) / static_cast<double>(all_beams_);
   if (valid_beams_ > 0) facts.longest_share = static_cast<double>(at_longest_) / static_cast<double>(valid_beams_);
+  constexpr double kBelow = 0.95, kFarMore = 3;
+  constexpr std::ptrdiff_t kFewest = 20;
+  const auto longest = static_cast<float>(facts.longest);
+  const auto at = std::count(sampled_.begin(), sampled_.end(), longest);
+  const auto below = std::count_if(sampled_.begin(), sampled_.end(),
+                                   [&](float range) { return range < longest && range > kBelow * longest; });
+  facts.longest_stands_out = at >= kFewest && static_cast<double>(at) > kFarMore * static_cast<double>(below);
   if (!sampled_.empty()) facts.median_range = quantile(sampled_, 0.5);
   return facts;
 }

@@ -1,5 +1,7 @@
 #include "SensorFindings.h"
 
+#include <omnimapper/geometry/Conversions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -121,14 +123,16 @@ class CameraJudge {
     if (!camera_.pose || (!is_tilted && !is_turned)) return;
     const bool much = (is_tilted && degrees(camera_.tilt) > kMuchTilt) ||
                       (is_turned && std::abs(degrees(camera_.yaw->value)) > kMuchYaw);
+    const double turned = geometry::fromMrpt(camera_.declared)
+                              .rotation.angularDistance(geometry::fromMrpt(*camera_.pose).rotation);
     std::string how;
-    if (is_turned) {
+    if (is_turned && is_tilted) {
+      how = "is rotated by " + fixed(degrees(turned), 1) + " deg, by the floor that it sees and" + by_walls_.substr(1);
+    } else if (is_turned) {
       how = "is turned by " + fixed(degrees(camera_.yaw->value), 1) + " +- " + fixed(degrees(camera_.yaw->sigma), 1) +
             " deg in yaw" + by_walls_;
-    }
-    if (is_tilted) {
-      how += (how.empty() ? "" : ", and ") + std::string("is tilted by ") + fixed(degrees(camera_.tilt), 1) +
-             " deg, by the floor that it sees";
+    } else {
+      how = "is tilted by " + fixed(degrees(camera_.tilt), 1) + " deg, by the floor that it sees";
     }
     add(much ? Weight::problem : Weight::warning,
         how + ", against its declared pose; set pose_yaw_deg " + fixed(degrees(camera_.pose->yaw()), 1) +

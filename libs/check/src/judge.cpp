@@ -167,10 +167,10 @@ class Judge {
     if (scans.other_beams > 0)
       add(Weight::note, who + part(scans.other_beams) + " have another number of beams than the first one");
     if (saturates(scans)) {
-      add(Weight::warning, who + percent(scans.longest_share) + " of the valid beams measure exactly " +
-                               fixed(scans.longest, 2) +
-                               " m: probably nothing came back, but they are marked as valid; limit the range "
-                               "([laser_points] max_range_m)");
+      contradict(Weight::problem, who + percent(scans.longest_share) + " of the valid beams measure exactly " +
+                                      fixed(scans.longest, 2) +
+                                      " m: probably nothing came back, but they are marked as valid; limit the range "
+                                      "([laser_points] max_range_m)");
     }
     constexpr double kSome = 0.0005;  // of the beams
     if (scans.single_share > kSome) {
@@ -214,7 +214,8 @@ class Judge {
 
   void judgeCover(const std::string& odometry, const MotionFacts& motion) {
     const double covered = facts_.covered.at({motion.laser, odometry});
-    if (covered >= 0.95) return;
+    const bool is_by_clock = motion.clock && motion.clock->isWrong();  // which is said and corrected
+    if (covered >= 0.95 || is_by_clock) return;
     const std::string who = quoted(odometry) + " and " + quoted(motion.laser) + ": ";
     const std::string rest = percent(1 - covered) + " of the scans lie outside of the time span of the odometry";
     if (covered >= 0.5) return add(Weight::warning, who + rest);
@@ -385,10 +386,11 @@ class Judge {
       if (scans.isAtOrigin()) add(Weight::warning, who + missing + "; if it is elsewhere, set it in [mapper] sensors");
       return;
     }
+    constexpr double kMuch = 22;  // [deg] at which maps of a laser and wheels suffer
     const auto change = *better - scans.base_from_sensor;
     const bool upside_down = change.getRotationMatrix()(2, 2) < 0;
     const bool backwards = !upside_down && std::abs(degrees(change.yaw())) > 150;
-    const bool little = !upside_down && !backwards && std::abs(degrees(change.yaw())) < 10;
+    const bool little = !upside_down && !backwards && std::abs(degrees(change.yaw())) < kMuch;
     const std::string verdict = upside_down          ? "is mounted upside down, which its sensor pose does not state"
                                 : backwards          ? "looks backwards, which its sensor pose does not state"
                                 : scans.isAtOrigin() ? missing

@@ -5,6 +5,8 @@
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
+#include <cmath>
+
 namespace omnimapper::plugins::laser_points_extractor_test {
 namespace {
 
@@ -53,6 +55,22 @@ TEST(LaserPointsExtractorOfAnIni, ReadsItsOptionsFromTheIni) {
   EXPECT_EQ(count("max_range_m = 5\n"), 2U);
   EXPECT_EQ(count("min_range_m = 3\n"), 3U);
   EXPECT_THROW(made("min_range_m = -1\n"), base::Error);
+}
+
+TEST(LaserPointsExtractorOfAnIni, LeavesOutTheFloorIfTheDeclaredPoseMeetsIt) {
+  const auto set = made("isolated_distance_m = 0\n");
+  const auto pointsAt = [&](const mrpt::poses::CPose3D& pose) {
+    auto scan = scanOf({1, 2.9F, 3.1F});  // straight ahead, but for a degree
+    scan.aperture = 0.02F;
+    scan.sensorPose = pose;
+    const auto derived = set.extractors.front().plugin->extract(scan);
+    return std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(derived.front())->pointcloud->size();
+  };
+  const double pitch = std::asin(0.1);  // meets the floor at 3 m from a height of 0.3 m
+  EXPECT_EQ(pointsAt({0, 0, 0.3, 0, pitch, 0}), 1U);
+  EXPECT_EQ(pointsAt({0, 0, 0.3, 0, 0, 0}), 3U);
+  EXPECT_EQ(pointsAt({0, 0, 0, 0, pitch, 0}), 3U) << "a height of 0 is not known rather than 0";
+  EXPECT_EQ(pointsAt({0, 0, 0.3, 0, -pitch, 0}), 3U);
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ struct ScanFacts {
   double single_share = 0;      ///< share of the beams at the declared maximum, marked as valid, amid shorter ones
   double longest = 0;           ///< [m] largest range of a beam that counts as valid
   double longest_share = 0;     ///< share of the valid beams whose range is exactly `longest`
+  bool longest_stands_out = false;  ///< far more beams have exactly this range than have the ranges just below it
   bool sensor_pose_moves = false;
   std::optional<double> constant_ahead;   ///< [m] range ahead, if it stays the same while the robot drives on
   std::optional<SweepFacts> sweep;        ///< none if the log does not determine it
