@@ -123,8 +123,8 @@ class CameraJudge {
     if (!camera_.pose || (!is_tilted && !is_turned)) return;
     const bool much = (is_tilted && degrees(camera_.tilt) > kMuchTilt) ||
                       (is_turned && std::abs(degrees(camera_.yaw->value)) > kMuchYaw);
-    const double turned = geometry::fromMrpt(camera_.declared)
-                              .rotation.angularDistance(geometry::fromMrpt(*camera_.pose).rotation);
+    const double turned =
+        geometry::fromMrpt(camera_.declared).rotation.angularDistance(geometry::fromMrpt(*camera_.pose).rotation);
     std::string how;
     if (is_turned && is_tilted) {
       how = "is rotated by " + fixed(degrees(turned), 1) + " deg, by the floor that it sees and" + by_walls_.substr(1);
