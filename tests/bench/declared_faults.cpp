@@ -2,8 +2,8 @@
 // of simulated places with and without a depth camera, are checked unchanged and with each fault of DeclaredFaults.h in
 // all its grades. A fault is named if a finding on its kind is among the findings; a finding on another contradiction
 // is a wrong cause. --maps maps each log that has truth.tum beside it unchanged, with the fault, and with the proposed
-// check.ini. --amounts prints what was measured for faults that have an amount. --maps OMNIMAPPER-GRAPHSLAM maps
-// each log unchanged, with the fault, and with the proposed check.ini.
+// check.ini. --write writes the logs with faults. --amounts prints what was measured for faults that have an amount.
+// --maps OMNIMAPPER-GRAPHSLAM maps each log unchanged, with the fault, and with the proposed check.ini.
 //
 // Example: bench-declared_faults --log aces.rawlog --log home.rawlog --seconds 120
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -169,6 +169,21 @@ std::string measuredOf(const check::LogFacts& facts, const Fault& fault) {
   return text;
 }
 
+std::string fileNameOf(const Part& part, const Fault& fault) {
+  char amount[40];
+  std::snprintf(amount, sizeof amount, "%g", fault.amount);
+  std::string name = part.name + "_" + tests::nameOf(fault.kind) + "_" + amount + ".rawlog";
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '\''; }, '_');
+  return name;
+}
+
+void write(const Observations& log, const std::string& path) {
+  source::writeRawlog(path, [&](source::RawlogWriter& writer) {
+    for (const auto& observation : log) writer.add(*observation);
+  });
+}
+
 // The errors of three maps of a log with truth.tum beside it: unchanged, with a fault, and with the fault and the
 // proposed check.ini.
 class Maps {
@@ -202,9 +217,7 @@ class Maps {
 
   // [m] NaN if there is no map.
   double errorOf(const Observations& log, const std::string& more) const {
-    source::writeRawlog(rawlog(), [&](source::RawlogWriter& writer) {
-      for (const auto& observation : log) writer.add(*observation);
-    });
+    write(log, rawlog());
     fs::remove_all(folder_ + "/map");
     try {
       auto config =
@@ -242,12 +255,13 @@ int main(int argc, char** argv) {
   double seconds = 120;
   bool print_amounts = false, is_verbose = false;
   std::vector<std::string> only;
-  std::string maps;
+  std::string maps, written;
   CLI::App app("Checks logs with known faults.");
   app.add_option("--log", logs, "rawlogs")->required();
   app.add_option("--seconds", seconds, "length of a part of a log");
   app.add_option("--only", only, "names of kinds of faults")->delimiter(',');
   app.add_option("--maps", maps, "folder in which logs with truth.tum beside them are mapped, instead of the table");
+  app.add_option("--write", written, "folder into which the logs with faults are written");
   app.add_flag("--amounts", print_amounts, "print what was measured");
   app.add_flag("-v", is_verbose, "print each wrong cause and each missed fault");
   CLI11_PARSE(app, argc, argv);
@@ -279,6 +293,7 @@ int main(int argc, char** argv) {
             continue;
           }
           const auto log = tests::withFault(part.log, fault);
+          if (!written.empty()) write(log, written + "/" + fileNameOf(part, fault));
           MemorySource faulty(log);
           const auto facts = check::gatherFacts(faulty);
           const auto outcome = outcomeOf(facts, wordsOf(kind), usual);
