@@ -80,7 +80,7 @@ int run(Arguments& arguments) {
     if (!arguments.quiet) std::cout << "The window shows the map; close it to end.\n" << std::flush;
     is_printed = true;
   };
-  if (is_of_logs) arguments.run.watch = std::make_shared<check::LogWatch>(config);
+  if (is_of_logs && arguments.run.localize_map.empty()) arguments.run.watch = std::make_shared<check::LogWatch>(config);
   const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
   progress.reset();
   if (!is_printed) printResult(result, arguments);

@@ -158,7 +158,8 @@ TEST(SensorPose, UpsideDownUnsaidAndWheelsThatTakeLeftForRightAreBothNamed) {
     const Checked checked(log);
     EXPECT_TRUE(checked.says("problem: 'laser' and 'odometry': where the scans turn left, the odometry turns right"))
         << checked.text();
-    EXPECT_TRUE(checked.says("pose_roll_deg = 180")) << checked.text();
+    EXPECT_TRUE(checked.says("pose_z_m 0.30, pose_yaw_deg 0.0, pose_pitch_deg 0.0, pose_roll_deg 180.0"))
+        << checked.text();
     EXPECT_EQ(checked.proposed("mapper", "sensors"), "") << "neither is switched on by a guess";
     EXPECT_EQ(checked.proposed("mapper", "pose_plugins"), "");
   }

@@ -47,7 +47,7 @@ std::vector<View> viewsOf(const std::vector<SampledImage>& images, const Hypothe
     if (hypothesis.changesDepths()) {
       auto changed = std::make_shared<mrpt::obs::CObservation3DRangeScan>(*image);
       changed->rangeUnits = static_cast<float>(changed->rangeUnits * hypothesis.scale);
-      if (hypothesis.images == CameraFacts::Images::ranges) changed->range_is_depth = !changed->range_is_depth;
+      if (hypothesis.images == CameraFacts::Images::ranges) changed->range_is_depth = false;
       planes = planesOf(*changed);
     }
     View view{image->timestamp, {}};
@@ -146,7 +146,7 @@ CameraFacts explained(const std::vector<SampledImage>& images, const CameraWitne
   fit.measure(facts);
   if (facts.scale) facts.scale = Measured{facts.scale->value * hypothesis.scale, facts.scale->sigma * hypothesis.scale};
   if (facts.height) *facts.height /= hypothesis.scale;  // by the depths of the log
-  if (facts.focal) facts.focal = Measured{facts.focal->value * hypothesis.focal, facts.focal->sigma};
+  if (facts.focal) facts.focal = Measured{facts.focal->value * hypothesis.focal, facts.focal->sigma * hypothesis.focal};
   if (facts.yaw) {
     const Eigen::Matrix3d turned = Eigen::AngleAxisd(facts.yaw->value, Vector3d::UnitZ()).toRotationMatrix();
     facts.pose = geometry::toMrpt(geometry::Se3{Eigen::Quaterniond(turned * level * rotation), declared.translation});
@@ -186,12 +186,13 @@ bool Measured::differs(double expected, double least) const {
 CameraFacts fitCamera(const std::vector<SampledImage>& images, const CameraWitness& witness) {
   Hypothesis hypothesis;
   auto best = explained(images, witness, hypothesis);
-  if (!isAsDeclared(best)) {
+  if (witness.sees_walls && !isAsDeclared(best)) {
     constexpr double kMuchBetter = 1.4, kAlmost = 0.9;
     const bool is_explained = explainsWell(best);
     const double first = quality(best);
     double most = 0;
-    std::vector<Hypothesis> others{{CameraFacts::Images::mirrored, 1, 1}, {CameraFacts::Images::ranges, 1, 1}};
+    std::vector<Hypothesis> others{{CameraFacts::Images::mirrored, 1, 1}};
+    if (images.front().image->range_is_depth) others.push_back({CameraFacts::Images::ranges, 1, 1});
     for (const double scale : {0.001, 0.01, 0.1, 0.2, 0.5, 2.0, 5.0, 10.0, 100.0, 1000.0}) {
       if (!is_explained) others.push_back({CameraFacts::Images::as_declared, scale, 1});
     }

@@ -10,6 +10,7 @@ namespace omnimapper::check {
 
 /// What is known of the surroundings and the motion of a camera's base at a time.
 struct CameraWitness {
+  bool sees_walls = false;                                    ///< there is a laser
   std::function<std::vector<BaseWall>(base::Stamp)> walls;    ///< that the laser sees
   std::function<std::optional<double>(base::Stamp)> turning;  ///< [rad/s] of the base
 };

@@ -58,9 +58,11 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   base::makeWritableFolder(output_folder);
   base::writeFile(output_folder + "/check.txt", [&](std::ostream& out) { out << result.text; });
   std::error_code error;
-  std::filesystem::remove(output_folder + "/check.ini", error);
+  // It may be one of the INIs that are checked.
+  const std::string proposed = output_folder + "/check.ini";
+  if (std::filesystem::exists(proposed, error)) std::filesystem::rename(proposed, proposed + "~", error);
   if (!inis.empty())
-    base::writeFile(output_folder + "/check.ini", [&](std::ostream& out) {
+    base::writeFile(proposed, [&](std::ostream& out) {
       out << (settings.empty() ? base::kWrittenFromALog + ": no settings are proposed.\n" : toIni(settings));
     });
   return result;

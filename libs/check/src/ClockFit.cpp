@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "Quantile.h"
+
 namespace omnimapper::check {
 
 namespace {
@@ -126,14 +128,16 @@ void Headings::add(base::Stamp stamp, double turn) {
   if (seconds <= 0) return;
   const double begin = base::secondsBetween(first_, last_);
   const bool is_known = seconds <= kLongest && std::isfinite(turn);
-  constexpr std::size_t kMost = 20'000'000;  // steps, four days
+  constexpr std::size_t kMost = 5'000'000;  // steps, a day
   const double end = begin + seconds;
   if (end / kStep > static_cast<double>(kMost)) return;
   while (static_cast<double>(headings_.size()) * kStep <= end) {
     const double share = (static_cast<double>(headings_.size()) * kStep - begin) / seconds;
     headings_.push_back(is_known ? heading_ + share * turn : std::nan(""));
   }
-  if (is_known) heading_ += turn;
+  // A turn across a pause is not known, however far its ends are from the pause.
+  heading_ = is_known ? heading_ + turn : 0;
+  if (!is_known) parts_.push_back(headings_.size());
   last_ = stamp;
 }
 
@@ -147,13 +151,24 @@ double Headings::at(double seconds) const {
 
 double Headings::turn(base::Stamp begin, base::Stamp end) const {
   if (headings_.empty()) return std::nan("");
-  const double from = base::secondsBetween(first_, begin);
-  return at(from + base::secondsBetween(begin, end)) - at(from);
+  const double from = base::secondsBetween(first_, begin), to = from + base::secondsBetween(begin, end);
+  const auto partOf = [this](double seconds) {
+    const auto step = static_cast<std::size_t>(std::max(0.0, seconds / kStep));
+    return std::upper_bound(parts_.begin(), parts_.end(), step) - parts_.begin();
+  };
+  return !parts_.empty() && partOf(from) != partOf(to) ? std::nan("") : at(to) - at(from);
 }
 
 Headings headingsOf(std::vector<base::Stamp> stamps, const std::function<double(base::Stamp, base::Stamp)>& turn) {
-  std::sort(stamps.begin(), stamps.end());
+  // One wrong stamp must not make the log a year long.
+  constexpr double kMargin = 3600;  // [s]
   Headings headings;
+  if (stamps.empty()) return headings;
+  const auto margin = base::durationFromSeconds(kMargin);
+  const auto low = quantile(stamps, 0.01) - margin, high = quantile(stamps, 0.99) + margin;
+  stamps.erase(std::remove_if(stamps.begin(), stamps.end(), [&](base::Stamp one) { return one < low || one > high; }),
+               stamps.end());
+  std::sort(stamps.begin(), stamps.end());
   for (std::size_t i = 0; i < stamps.size(); ++i) headings.add(stamps[i], i > 0 ? turn(stamps[i - 1], stamps[i]) : 0);
   return headings;
 }

@@ -14,8 +14,8 @@ class Headings {
  public:
   static constexpr double kStep = 0.02;  ///< [s]
 
-  /// Adds the turn [rad] from the last stamp that was added to this one. After a pause of more than a second, and after
-  /// a stamp that is not later than the last, the heading is not known in between.
+  /// Adds the turn [rad] from the last stamp that was added to this one. Across a pause of more than a second the turn
+  /// is not known. A stamp that is not later than the last one is ignored.
   void add(base::Stamp stamp, double turn);
   bool isEmpty() const { return headings_.empty(); }
   /// Turn [rad] between two times, linearly interpolated; NaN where the heading is not known.
@@ -25,8 +25,9 @@ class Headings {
   double at(double seconds) const;
 
   base::Stamp first_, last_;
-  std::vector<double> headings_;  // [rad] every kStep from first_ on; NaN in a pause
-  double heading_ = 0;            // at last_
+  std::vector<double> headings_;    // [rad] every kStep from first_ on; NaN in a pause
+  std::vector<std::size_t> parts_;  // indices in headings_ at which a pause ends
+  double heading_ = 0;              // at last_
 };
 
 /// Headings from a function that gives the turn [rad] between two successive stamps, NaN where it is not known.

@@ -36,11 +36,21 @@ bool isTilted(const ScanFacts& scans) {
   return scans.tilt() > matching::kLargestTilt;
 }
 
-std::optional<double> pitchOf(const ScanFacts& scans) {
+std::optional<mrpt::poses::CPose3D> poseByFloor(const ScanFacts& scans) {
+  using mrpt::poses::CPose3D;
   constexpr double kLeastHeight = 0.1;  // [m]
-  const double height = scans.base_from_sensor.z();
+  const auto& declared = scans.base_from_sensor;
+  const double height = declared.z();
   if (!scans.constant_ahead || height < kLeastHeight || height > 0.5 * *scans.constant_ahead) return std::nullopt;
-  return std::asin(height / *scans.constant_ahead);
+  // How far the scanned plane goes down ahead according to the declared pose [rad].
+  const auto rotation = declared.getRotationMatrix();
+  const double side = rotation(2, 2) < 0 ? -1 : 1;
+  const double down = std::atan2(side * rotation(0, 2), side * rotation(2, 2));
+  const double wanted = std::asin(height / *scans.constant_ahead);
+  if (wanted > matching::kLargestTilt) return std::nullopt;
+  const CPose3D place(declared.x(), declared.y(), declared.z(), 0, 0, 0);
+  return place + CPose3D(0, 0, 0, 0, wanted - down, 0) +
+         CPose3D(0, 0, 0, declared.yaw(), declared.pitch(), declared.roll());
 }
 
 bool saturates(const ScanFacts& scans) {
@@ -212,14 +222,12 @@ std::map<std::string, double> clockOffsets(const LogFacts& facts) {
     offsets[label] = -clock->offset;
     wrong.push_back(clock->offset);
   };
-  // Laser odometry finds smaller offsets of the motion by itself. On six real logs with offsets of 0.04 to 0.13 s the
-  // maps were as good without a correction of the stamps.
-  constexpr double kCorrected = 0.3;  // [s]
+  // On six real logs with offsets of 0.04 to 0.13 s the maps were as good without a correction of the stamps.
   for (const auto& motion : facts.motions) {
-    if (motion.laser == laser) add(motion.odometry, motion.clock, kCorrected);
+    if (motion.laser == laser) add(motion.odometry, motion.clock, kCorrectedOffset);
   }
   for (const auto& gyroscope : facts.gyroscopes) {
-    if (gyroscope.laser == laser) add(gyroscope.gyroscope, gyroscope.clock, kCorrected);
+    if (gyroscope.laser == laser) add(gyroscope.gyroscope, gyroscope.clock, kCorrectedOffset);
   }
   for (const auto& camera : facts.cameras) {
     if (camera.laser == laser && camera.clock && std::abs(camera.clock->value) > kRollingShutter)

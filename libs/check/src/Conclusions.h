@@ -14,6 +14,8 @@ enum class Contradiction { none, forward, turning, both };
 Contradiction contradictionOf(const MotionFacts& motion);
 /// Whether the odometry is at rest in most pairs of scans that show motion.
 bool isFrozen(const MotionFacts& motion);
+/// [s] Laser odometry finds smaller offsets between the clocks of the motion and of the laser by itself.
+constexpr double kCorrectedOffset = 0.3;
 /// Which of the two is wrong where scans and odometry turn against each other: none if they do not, not_known if
 /// nothing else in the log measures the turns.
 enum class Culprit { none, laser, odometry, not_known };
@@ -25,8 +27,9 @@ bool isReversed(const LogFacts& facts, const std::string& odometry);
 bool isOneOdometryBest(const LogFacts& facts);
 /// Whether the scanned plane is not parallel to the floor.
 bool isTilted(const ScanFacts& scans);
-/// [rad] Pitch at which the beams ahead meet the floor where they do, if the height of the laser is declared.
-std::optional<double> pitchOf(const ScanFacts& scans);
+/// base_from_sensor with the tilt at which the beams ahead meet the floor where they do. None if they meet none, if the
+/// height of the laser is not declared, or if a laser that is tilted so much is of no use.
+std::optional<mrpt::poses::CPose3D> poseByFloor(const ScanFacts& scans);
 /// Whether beams that met nothing are marked as valid, all at one range.
 bool saturates(const ScanFacts& scans);
 /// Whether most stamps of every sensor are missing or repeat the one before, so that the clock stands still and not one

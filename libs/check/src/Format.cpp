@@ -21,6 +21,18 @@ std::string fixed(double value, int decimals) {
   return is_zero && written[0] == '-' ? written.substr(1) : written;
 }
 
+std::string angleText(double radians) {
+  constexpr double kHalfTurn = 179.95;  // -180 and 180 are the same angle
+  const double value = degrees(radians);
+  return fixed(value < -kHalfTurn ? value + 360 : value, 1);
+}
+
+std::string poseKeys(const mrpt::poses::CPose3D& pose) {
+  return "pose_x_m " + fixed(pose.x(), 2) + ", pose_y_m " + fixed(pose.y(), 2) + ", pose_z_m " + fixed(pose.z(), 2) +
+         ", pose_yaw_deg " + angleText(pose.yaw()) + ", pose_pitch_deg " + angleText(pose.pitch()) +
+         ", pose_roll_deg " + angleText(pose.roll());
+}
+
 std::string percent(double share) {
   const double value = 100 * share;
   return fixed(value, (value > 0 && value < 1) || (value > 99 && value < 100) ? 1 : 0) + " %";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/base/OptionTable.h>
 
@@ -16,6 +17,10 @@ std::string significant(double value);
 /// Text such as "37 %", or "0.4 %" where whole numbers would hide the share.
 std::string percent(double share);
 using base::counted;
+/// Degrees with one decimal in (-180, 180].
+std::string angleText(double radians);
+/// The keys of a pose in a section of [mapper] sensors, all of them: "pose_x_m 0.20, ...".
+std::string poseKeys(const mrpt::poses::CPose3D& pose);
 /// The label in quotes, 'laser', or "(no label)".
 std::string quoted(const std::string& label);
 std::string joined(const std::vector<std::string>& words, const std::string& between);

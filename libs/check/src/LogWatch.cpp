@@ -19,13 +19,15 @@ mapper::InputWatch::Judgement LogWatch::judgement() {
   std::string reason;
   std::size_t count = 0;
   for (const auto& finding : judge(gatherer_.facts())) {
-    if (!finding.is_contradiction || finding.weight != Weight::problem) continue;
+    if (!finding.is_contradiction || finding.weight == Weight::note) continue;
     judgement.warnings.push_back(finding.text);
+    if (finding.weight != Weight::problem) continue;
     reason += (count++ == 0 ? "the log contradicts what it declares: " : "; ") + whatOf(finding.text);
   }
-  judgement.evidence.push_back({"contradicted_declarations", static_cast<double>(count),
-                                count == 0 ? mapper::Evidence::Says::good : mapper::Evidence::Says::against_it,
-                                reason});
+  // A log that declares nothing wrong says nothing about the map.
+  if (count > 0)
+    judgement.evidence.push_back(
+        {"contradicted_declarations", static_cast<double>(count), mapper::Evidence::Says::against_it, reason});
   return judgement;
 }
 

@@ -69,7 +69,7 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& scan) {
   std::size_t valid = 0;
   for (std::size_t i = 0; i < beams; ++i) {
     ranges[i] = scan.getScanRange(i);
-    if (!isValid(scan, i)) continue;
+    if (!isValid(scan, i) || ranges[i] > max_range_) continue;
     if (++valid % kSampledBeam == 0 && sampled_.size() < kMostSamples) sampled_.push_back(ranges[i]);
     addRange(ranges[i]);
   }

@@ -27,6 +27,11 @@ class ClockJudge {
   }
 
  private:
+  double addedTo(const std::string& label) const {
+    const auto found = facts_.ini.clock_offsets.find(label);
+    return found == facts_.ini.clock_offsets.end() ? 0 : found->second;
+  }
+
   void judge(const std::string& sensor, const std::string& other, const std::optional<ClockFacts>& clock,
              bool is_camera) {
     if (!clock) return;
@@ -35,7 +40,11 @@ class ClockJudge {
       constexpr double kMuch = 0.1;  // [s] in which a robot that turns is elsewhere by centimetres and degrees
       const auto& wrong = offsets_.count(sensor) > 0 ? sensor : other;
       const auto remedy = offsets_.find(wrong);
-      const bool is_corrected = remedy == offsets_.end();
+      const bool is_corrected = !is_camera && std::abs(clock->offset) < kCorrectedOffset;
+      const std::string what = remedy == offsets_.end()
+                                   ? "; set clock_offset_s for one of them in [mapper] sensors"
+                                   : "; set clock_offset_s = " + fixed(remedy->second + addedTo(wrong), 3) + " for " +
+                                         quoted(wrong) + " in [mapper] sensors";
       const bool spoils = is_camera && std::abs(clock->offset) > kMuch;
       findings_.push_back({is_corrected ? Weight::note
                            : spoils     ? Weight::problem
@@ -43,10 +52,8 @@ class ClockJudge {
                            who + "their clocks differ: for the same turn the stamps of " + quoted(sensor) + " are " +
                                fixed(std::abs(clock->offset), 3) + " +- " + fixed(std::max(0.001, clock->sigma), 3) +
                                " s " + (clock->offset > 0 ? "later" : "earlier") +
-                               (is_corrected ? "; laser odometry finds and corrects so small an offset"
-                                             : "; set clock_offset_s = " + fixed(remedy->second, 3) + " for " +
-                                                   quoted(wrong) + " in [mapper] sensors"),
-                           is_camera});
+                               (is_corrected ? "; laser odometry finds and corrects so small an offset" : what),
+                           !is_corrected});
     }
     if (clock->drift != 0) {
       findings_.push_back({Weight::warning,
@@ -112,9 +119,9 @@ class CameraJudge {
   void judgeFocalLength() {
     if (!hasWrongFocalLength(camera_)) return;
     add(Weight::problem, "the true focal length is " + fixed(camera_.focal->value, 2) + " times the declared one" +
-                             by_walls_ +
-                             "; set depth_fx_px and depth_fy_px in [calibration], or measure them with "
-                             "omnimapper-calibrate intrinsics");
+                             by_walls_ + "; set depth_fx_px = " + fixed(camera_.fx * camera_.focal->value, 1) +
+                             " and depth_fy_px = " + fixed(camera_.fy * camera_.focal->value, 1) +
+                             " in [calibration]; omnimapper-calibrate measures them more exactly");
   }
 
   void judgePose() {
@@ -135,9 +142,7 @@ class CameraJudge {
       how = "is tilted by " + fixed(degrees(camera_.tilt), 1) + " deg, by the floor that it sees";
     }
     add(much ? Weight::problem : Weight::warning,
-        how + ", against its declared pose; set pose_yaw_deg " + fixed(degrees(camera_.pose->yaw()), 1) +
-            ", pose_pitch_deg " + fixed(degrees(camera_.pose->pitch()), 1) + ", pose_roll_deg " +
-            fixed(degrees(camera_.pose->roll()), 1) + " for it in [mapper] sensors");
+        how + ", against its declared pose; set " + poseKeys(*camera_.pose) + " for it in [mapper] sensors");
   }
 
   void judgeUnits() {

@@ -161,12 +161,12 @@ std::vector<TurningPair> turningPairs(const std::vector<ScanPair>& pairs, const 
   return chosen;
 }
 
-double periodOf(const std::vector<TurningPair>& pairs, const std::vector<ScanPair>& all) {
+double periodOf(const std::vector<ScanPair>& all) {
   std::vector<double> periods;
   for (const auto& pair : all) {
     if (pair.after_begin) periods.push_back(base::secondsBetween(pair.begin->timestamp, pair.after_begin->timestamp));
   }
-  return pairs.empty() || periods.empty() ? 0 : quantile(periods, 0.5);
+  return periods.empty() ? 0 : quantile(periods, 0.5);
 }
 
 }  // namespace
@@ -174,7 +174,13 @@ double periodOf(const std::vector<TurningPair>& pairs, const std::vector<ScanPai
 bool SweepFacts::isWrong() const {
   constexpr double kLeast = 0.004, kSigmas = 5;  // [s]
   constexpr double kSurely = 20;                 // as for clocks
-  return advantage > kSurely && std::abs(sweep - declared) > std::max(kLeast, kSigmas * sigma);
+  // No laser has a negative sweep.
+  return advantage > kSurely && std::abs(std::max(0.0, sweep) - declared) > std::max(kLeast, kSigmas * sigma);
+}
+
+bool SweepFacts::isInstant() const {
+  constexpr double kLeast = 0.004, kSigmas = 3;  // [s]
+  return sweep < std::max(kLeast, kSigmas * sigma);
 }
 
 std::optional<SweepFacts> fitSweep(const std::vector<ScanPair>& pairs, const std::vector<MatchedMotion>& motions,
@@ -184,7 +190,7 @@ std::optional<SweepFacts> fitSweep(const std::vector<ScanPair>& pairs, const std
   constexpr double kLongestSweep = 0.3;  // [s]
   auto turning = turningPairs(pairs, motions);
   if (turning.size() < kFewestTurning) return std::nullopt;
-  const double longest = std::min(kLongestSweep, kBeyond * periodOf(turning, pairs));
+  const double longest = std::min(kLongestSweep, kBeyond * periodOf(pairs));
   if (longest <= 0) return std::nullopt;
   const SweepComparison comparison(std::move(turning));
   // Negative sweeps, which no laser has, take part so that 0 is not at the end of what is compared.

@@ -77,6 +77,7 @@ WallFit::WallFit(const std::vector<View>& views, const CameraWitness& witness, c
     : views_(views), witness_(witness), position_(position) {
   const Vector3d axis = level_from_sensor * Vector3d::UnitX();
   for (std::size_t i = 0; i < views.size(); ++i) {
+    if (witness.walls(views[i].stamp).empty()) continue;
     for (const auto& [plane, sigma] : views[i].planes) {
       const Vector3d normal = level_from_sensor * plane.normal;
       if (std::abs(normal.z()) > std::sin(kUpright)) continue;

@@ -28,7 +28,11 @@ std::vector<BaseWall> linesOf(const mrpt::obs::CObservation2DRangeScan& scan) {
 void WallTrack::add(const ScanPtr& scan) {
   constexpr std::size_t kMost = 3000;
   if (!base::isValid(scan->timestamp)) return;
+  // A stamp that lies ahead of those that follow is wrong.
+  constexpr double kBack = 1;  // [s]
+  while (!scans_.empty() && base::secondsBetween(scan->timestamp, scans_.back()->timestamp) > kBack) scans_.pop_back();
   if (!scans_.empty() && base::secondsBetween(scans_.back()->timestamp, scan->timestamp) < spacing_) return;
+  seen_.clear();
   scans_.push_back(scan);
   if (scans_.size() < kMost) return;
   for (std::size_t i = 0; 2 * i < scans_.size(); ++i) scans_[i] = scans_[2 * i];

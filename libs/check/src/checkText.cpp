@@ -83,6 +83,12 @@ std::string odometryLines(const LogFacts& facts) {
   return text;
 }
 
+// The names of several INIs, which are joined by a plus sign, as options of the command line.
+std::string asOptions(std::string inis) {
+  for (auto at = inis.find(" + "); at != std::string::npos; at = inis.find(" + ")) inis.replace(at, 3, " -i ");
+  return inis;
+}
+
 std::string valueText(const std::string& name, const std::optional<Measured>& value, double unit, int decimals,
                       const std::string& unit_name) {
   if (!value) return "";
@@ -158,13 +164,13 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
   if (settings.empty()) {
     const bool is_broken = !findings.empty() && findings.front().weight == Weight::problem;
     return text +
-           (is_broken ? "No setting of " + ini + " solves the problems above"
+           (is_broken ? "No setting of " + ini + " is proposed: what solves the problems above is to be set by hand"
                       : "No setting of " + ini + " needs to be changed for this log" +
                             (findings.empty() ? "" : ", in spite of the findings above")) +
            ".\n";
   }
   return text + "\nSettings that improve " + ini +
-         " for this log. With -o FOLDER they are written to a file; use them as -i " + ini +
+         " for this log. With -o FOLDER they are written to a file; use them as -i " + asOptions(ini) +
          " -i FOLDER/check.ini:\n\n" + toIni(settings);
 }
 

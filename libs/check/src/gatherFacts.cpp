@@ -39,7 +39,7 @@ typename Map::const_iterator beginningOf(const Map& map, std::size_t count) {
 // Collects all statistics while the log is read.
 class FactGatherer::Statistics {
  public:
-  explicit Statistics(double declared_sweep) : declared_sweep_(declared_sweep) {}
+  explicit Statistics(IniFacts ini) : ini_(std::move(ini)) {}
 
   void add(const mrpt::obs::CObservation::Ptr& observation) {
     const auto stamp = observation->timestamp;
@@ -48,15 +48,15 @@ class FactGatherer::Statistics {
     stamps_[{label, observation->GetRuntimeClass()->className}].add(stamp, clock_);
     if (OdometryStatistics::isOdometry(*observation)) odometry_[label].add(*observation);
     if (dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get())) {
-      auto& gyroscope = gyroscopes_[label];
-      if (gyroscope.sensor.add(*observation)) gyroscope.stamps.push_back(stamp);
+      const bool is_known = gyroscopes_.size() < kMostLabels || gyroscopes_.count(label) > 0;
+      if (is_known && gyroscopes_[label].sensor.add(*observation)) gyroscopes_[label].stamps.push_back(stamp);
     }
     level_.add(*observation);
     if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
       poses_[label].add(*pose);
     }
     if (const auto image = std::dynamic_pointer_cast<const mrpt::obs::CObservation3DRangeScan>(observation)) {
-      images_[label].add(image);
+      if (images_.size() < kMostLabels || images_.count(label) > 0) images_[label].add(image);
       const bool is_calibrated = image->cameraParams.fx() > 0 && image->cameraParams.fy() > 0;
       if (image->hasRangeImage && !is_calibrated) {
         auto& left_out = uncalibrated_[{label,
@@ -66,16 +66,17 @@ class FactGatherer::Statistics {
       }
     }
     if (const auto scan = std::dynamic_pointer_cast<const CObservation2DRangeScan>(observation)) {
-      auto& laser = lasers_[label];
+      auto& laser = lasers_.try_emplace(label, Laser{ScanStatistics(ini_.max_range), {}, {}, {}}).first->second;
       laser.statistics.add(*scan);
       laser.pairs.add(scan);
-      laser.walls.add(scan);
+      if (lasers_.size() <= kMostLabels) laser.walls.add(scan);
       if (base::isValid(stamp)) laser.stamps.push_back(stamp);
     }
   }
 
   LogFacts facts() const {
     LogFacts facts;
+    facts.ini = ini_;
     facts.unusable = uncalibrated_;
     for (const auto& [sensor, statistics] : stamps_) facts.sensors[sensor] = stampFacts(statistics);
     for (const auto& [label, statistics] : odometry_) facts.odometry[label] = statistics.facts();
@@ -84,9 +85,7 @@ class FactGatherer::Statistics {
     for (const auto& [label, sampled] : images_)
       images.insert(images.end(), sampled.all().begin(), sampled.all().end());
     facts.levels = level_.facts(!odometry_.empty(), images);
-    // No robot has more lasers or odometries; comparing a log with more labels would take minutes.
-    constexpr std::size_t kMost = 10;
-    const auto compared = beginningOf(odometry_, kMost);
+    const auto compared = beginningOf(odometry_, kMostLabels);
     for (auto a = odometry_.begin(); a != compared; ++a) {
       for (auto b = std::next(a); b != compared; ++b) {
         facts.odometry_pairs.push_back(compareOdometries(a->first, a->second, b->first, b->second));
@@ -94,7 +93,7 @@ class FactGatherer::Statistics {
     }
     for (const auto& [label, laser] : lasers_) {
       facts.scans[label] = laser.statistics.facts();
-      if (facts.scans.size() > kMost) continue;
+      if (facts.scans.size() > kMostLabels) continue;
       for (auto odometry = odometry_.begin(); odometry != compared; ++odometry) {
         compare(label, laser, odometry->first, &odometry->second, facts);
         facts.covered[{label, odometry->first}] = coveredShare(laser, odometry->second);
@@ -106,6 +105,9 @@ class FactGatherer::Statistics {
   }
 
  private:
+  // No robot has more lasers, odometries, gyroscopes or cameras; comparing a log with more labels would take minutes.
+  static constexpr std::size_t kMostLabels = 10;
+
   struct Laser {
     ScanStatistics statistics;
     ScanPairs pairs;
@@ -129,6 +131,7 @@ class FactGatherer::Statistics {
       return wheels.between(begin + shift, end + shift);
     };
     CameraWitness witness;
+    witness.sees_walls = !lasers.empty();
     witness.walls = [&](base::Stamp stamp) {
       return lasers.empty() ? std::vector<BaseWall>() : lasers_.at(lasers.front()).walls.wallsAt(stamp, between);
     };
@@ -140,6 +143,8 @@ class FactGatherer::Statistics {
     for (const auto& [label, images] : images_) {
       if (images.all().empty()) continue;
       facts.cameras.push_back(fitCamera(images.all(), witness));
+      auto& clock = facts.cameras.back().clock;
+      if (clock && !lasers.empty()) clock->value -= 0.5 * sweepOf(facts.scans.at(lasers.front()));
       facts.cameras.back().has_negative_focal = images.haveNegativeFocal();
       if (!lasers.empty()) facts.cameras.back().laser = lasers.front();
     }
@@ -193,27 +198,36 @@ class FactGatherer::Statistics {
     compared.facts.odometry = odometry;
     compared.facts.tried = pairs.size();
     if (!compared.facts.aperture) {
-      const auto sweep = fitSweep(pairs, compared.motions, declared_sweep_);
+      const auto sweep = fitSweep(pairs, compared.motions, ini_.sweep);
       if (sweep && (!scans.sweep || sweep->sigma < scans.sweep->sigma)) scans.sweep = sweep;
     }
+    // The turn of a scan is that of the middle of its sweep, and its stamp that of the beginning.
+    const double middle = 0.5 * sweepOf(scans);
     if (facts.motions.empty() || facts.motions.back().laser != label) {
       for (const auto& [gyroscope, turned] : gyroscopes_) {
-        if (!turned.stamps.empty())
-          facts.gyroscopes.push_back({gyroscope, label, fitClock(turnsOf(compared.motions), turned.headings())});
+        auto clock = turned.stamps.empty() ? std::nullopt : fitClock(turnsOf(compared.motions), turned.headings());
+        if (clock) clock->offset -= middle;
+        facts.gyroscopes.push_back({gyroscope, label, clock});
       }
     }
-    const double limit = saturates(scans) ? 0.99 * scans.longest : scans.max_range;
-    if (!scans.constant_ahead) scans.constant_ahead = constantRangeAhead(pairs, between, limit);
+    const auto& clock = compared.facts.clock;
+    const auto late = base::durationFromSeconds(clock && clock->isWrong() ? clock->offset : 0);
+    const auto at_scans = [&](base::Stamp begin, base::Stamp end) { return between(begin + late, end + late); };
+    const double limit = saturates(scans) ? 0.99 * scans.longest : std::min(scans.max_range, ini_.max_range);
+    if (!scans.constant_ahead) scans.constant_ahead = constantRangeAhead(pairs, at_scans, limit);
     // A laser that is turned against its declared pose looks at walls beside the robot instead of ahead.
     if (const auto& mounting = compared.facts.mounting) {
       constexpr double kTurned = 10 * base::option_text::kRadiansPerDegree, kSure = 0.3 * kTurned, kSame = 0.1;
       if (std::abs(mounting->yaw) > kTurned && mounting->yaw_sigma < kSure && std::abs(mounting->scale - 1) < kSame)
         scans.constant_ahead.reset();
     }
-    // The turn of a scan is that of the middle of its sweep, and its stamp that of the beginning.
-    if (auto& clock = compared.facts.clock)
-      clock->offset -= 0.5 * (scans.sweep && scans.sweep->isWrong() ? scans.sweep->sweep : declared_sweep_);
+    if (compared.facts.clock) compared.facts.clock->offset -= middle;
     facts.motions.push_back(std::move(compared.facts));
+  }
+
+  // [s] as measured if it is declared wrong.
+  double sweepOf(const ScanFacts& scans) const {
+    return scans.sweep && scans.sweep->isWrong() ? std::max(0.0, scans.sweep->sweep) : ini_.sweep;
   }
 
   static double coveredShare(const Laser& laser, const OdometryStatistics& odometry) {
@@ -223,7 +237,7 @@ class FactGatherer::Statistics {
     return static_cast<double>(covered) / static_cast<double>(laser.stamps.size());
   }
 
-  double declared_sweep_;  // [s]
+  IniFacts ini_;
   std::map<std::pair<std::string, std::string>, StampStatistics> stamps_;
   std::map<std::string, OdometryStatistics> odometry_;
   std::map<std::string, Gyroscope> gyroscopes_;
@@ -236,15 +250,30 @@ class FactGatherer::Statistics {
 };
 
 Declared Declared::read(const base::Config& config) {
-  Declared declared{mapper::SensorPoses(config.section("mapper").read<mapper::EngineOptions>().sensors, config), 0};
-  std::string text;
-  if (config.has("scan_odometry") && config.section("scan_odometry").find("sweep_s", text))
-    base::option_text::parse(text, base::Range::notNegative(), declared.sweep);
+  Declared declared;
+  declared.sensor_poses = mapper::SensorPoses(config.section("mapper").read<mapper::EngineOptions>().sensors, config);
+  auto& ini = declared.ini;
+  ini.clock_offsets = declared.sensor_poses.clockOffsets();
+  const auto read = [&](const std::string& section, const std::string& key, double& value) {
+    std::string text;
+    if (config.has(section) && config.section(section).find(key, text))
+      base::option_text::parse(text, base::Range::notNegative(), value);
+  };
+  read("scan_odometry", "sweep_s", ini.sweep);
+  read("laser_points", "max_range_m", ini.max_range);
+  if (!config.has("calibration")) return declared;
+  const auto calibration = config.section("calibration").read<perception::CameraCalibrationOptions>();
+  ini.has_calibration = true;
+  ini.calibrated = calibration.label;
+  ini.depth_scale = calibration.depth_scale.value_or(1);
+  ini.mirrored = calibration.mirrored;
+  ini.depth_is_range = calibration.depth_is_range;
   return declared;
 }
 
 FactGatherer::FactGatherer(Declared declared)
-    : statistics_(std::make_unique<Statistics>(declared.sweep)), sensor_poses_(std::move(declared.sensor_poses)) {}
+    : statistics_(std::make_unique<Statistics>(std::move(declared.ini))),
+      sensor_poses_(std::move(declared.sensor_poses)) {}
 FactGatherer::~FactGatherer() = default;
 
 void FactGatherer::add(const mrpt::obs::CObservation::Ptr& observation) {
@@ -264,6 +293,7 @@ LogFacts gatherFacts(source::ObservationSource& log, const Declared& declared, c
     gatherer.add(observation);
     if (progress) progress->report(log.progress(), "reading the log");
   }
+  if (stop()) return {};
   auto facts = gatherer.facts();
   auto report = log.report();
   facts.unusable.merge(report.unusable);

@@ -74,13 +74,16 @@ class Judge {
       add(weigh(stamps.no_stamp),
           who + std::to_string(stamps.no_stamp) + " of " + counted(stamps.count, "observation") +
               " are without a stamp and are left out of the map; " +
-              (clockStands(facts_) ? "set [source] step_s to make stamps" : "record this sensor with stamps"));
+              (clockStands(facts_)
+                   ? "set [source] step_s to the period of the sensor that is read most often, to make stamps"
+                   : "record this sensor with stamps"));
     }
     if (stamps.repeated > 0) {
       add(weigh(stamps.repeated),
           who + "a stamp is repeated by the next observation " + counted(stamps.repeated, "time") +
               "; only the first one of each stamp is used" +
-              (clockStands(facts_) ? ". The stamps of all sensors stand still: set [source] step_s to get new ones"
+              (clockStands(facts_) ? ". The stamps of all sensors stand still: set [source] step_s to the period of "
+                                     "the sensor that is read most often, to get new ones"
                                    : ""));
     }
     if (stamps.jumps > 0) {
@@ -185,7 +188,8 @@ class Judge {
                                "correct it in [mapper] sensors");
     }
     if (scans.isUpsideDown()) add(Weight::note, who + "is mounted upside down according to its sensor pose");
-    judgeSweep(who, scans);
+    const auto lasers = usableLasers(facts_);
+    if (!lasers.empty() && lasers.front() == label) judgeSweep(who, scans);  // laser odometry uses one laser
     if (scans.sensor_pose_moves) add(Weight::note, who + "moves on the base according to its sensor poses");
   }
 
@@ -213,6 +217,7 @@ class Judge {
   }
 
   void judgeCover(const std::string& odometry, const MotionFacts& motion) {
+    if (clockStands(facts_)) return;
     const double covered = facts_.covered.at({motion.laser, odometry});
     const bool is_by_clock = motion.clock && motion.clock->isWrong();  // which is said and corrected
     if (covered >= 0.95 || is_by_clock) return;
@@ -242,7 +247,8 @@ class Judge {
     if (reversed)
       add(Weight::problem, who + "is reversed compared with the scans" + reversedText(motion) +
                                "; correct its signs, or map without it");
-    if (reversed || isFrozen(motion)) return;
+    const bool is_known = wrongTurnOf(facts_, motion.laser, motion.odometry) == Culprit::none;
+    if (reversed || isFrozen(motion) || !is_known) return;  // the rest follows from that
     if (motion.turn_scale && std::abs(*motion.turn_scale - 1) > 0.1) {
       add(Weight::warning,
           who + "measures a turn of " + fixed(*motion.turn_scale, 2) + " rad where the scans measure 1 rad");
@@ -289,7 +295,7 @@ class Judge {
   // Whether turns of the log are measured wrong by so much that headings suffer.
   bool isSweepHarmful(const SweepFacts& sweep) const {
     constexpr double kMuch = 0.01;  // [s], which at 1 rad/s is an error of some 0.2 % of a turn
-    return std::abs(sweep.sweep - sweep.declared) > kMuch;
+    return std::abs(std::max(0.0, sweep.sweep) - sweep.declared) > kMuch;
   }
 
   void judgeSweep(const std::string& who, const ScanFacts& scans) {
@@ -298,7 +304,7 @@ class Judge {
     const std::string measured = fixed(sweep.sweep, 4) + " +- " + fixed(std::max(0.0001, sweep.sigma), 4) + " s";
     const std::string declared = sweep.declared > 0 ? "the INI declares " + fixed(sweep.declared, 4) + " s"
                                                     : std::string("the INI declares that all beams are simultaneous");
-    const bool is_instant = sweep.sweep < std::max(0.004, 3 * sweep.sigma);
+    const bool is_instant = sweep.isInstant();
     contradict(
         isSweepHarmful(sweep) ? Weight::problem : Weight::warning,
         who +
@@ -315,6 +321,11 @@ class Judge {
     });
   }
 
+  bool isFloorKnown() const {
+    return std::any_of(facts_.cameras.begin(), facts_.cameras.end(),
+                       [](const CameraFacts& camera) { return camera.height.has_value(); });
+  }
+
   void judgeLevels() {
     constexpr double kTilt = 3 * base::option_text::kRadiansPerDegree, kSigmas = 3;
     constexpr double kMuch = 10 * base::option_text::kRadiansPerDegree;      // walls are no longer upright
@@ -329,7 +340,7 @@ class Judge {
                                         "sensors, or leave it out");
         continue;
       }
-      if (!level.of_poses && (tilt > kMostTilt || (level.by_planes && facts_.cameras.front().height))) continue;
+      if (!level.of_poses && (tilt > kMostTilt || (level.by_planes && isFloorKnown()))) continue;
       // The rotation that takes the measured up to z: first roll, then pitch.
       const double roll = std::atan2(level.up.y(), level.up.z());
       const double pitch = -std::atan2(level.up.x(), std::hypot(level.up.y(), level.up.z()));
@@ -396,22 +407,19 @@ class Judge {
                                 : scans.isAtOrigin() ? missing
                                                      : "is mounted otherwise than its sensor pose states";
     contradict(little ? Weight::warning : Weight::problem,
-               who + verdict + "; according to its motion, set x " + fixed(better->x(), 2) + " m, y " +
-                   fixed(better->y(), 2) + " m, yaw " + fixed(degrees(better->yaw()), 0) + " deg, roll " +
-                   fixed(degrees(better->roll()), 0) + " deg in [mapper] sensors");
+               who + verdict + "; according to its motion, set " + poseKeys(*better) + " for it in [mapper] sensors");
   }
 
   void judgeAhead(const std::string& laser) {
     const auto& ahead = facts_.scans.at(laser).constant_ahead;
     if (!ahead) return;
-    const auto pitch = pitchOf(facts_.scans.at(laser));
+    const auto pose = poseByFloor(facts_.scans.at(laser));
     contradict(Weight::problem,
                quoted(laser) + ": while the robot drives on, what the laser sees ahead stays " + fixed(*ahead, 1) +
                    " m away: its beams meet the floor, because it is tilted, or a part of the robot; " +
-                   (pitch ? "if it is the floor, set pose_pitch_deg " + fixed(degrees(*pitch), 1) +
-                                " for it in [mapper] sensors"
-                          : "set its height and tilt in [mapper] sensors (pose_z_m, pose_pitch_deg), "
-                            "or limit the range ([laser_points] max_range_m)"));
+                   (pose ? "if it is the floor, set " + poseKeys(*pose) + " for it in [mapper] sensors"
+                         : "set its pose in [mapper] sensors, with its height, or limit the range ([laser_points] "
+                           "max_range_m)"));
   }
 
   void judgeTurns(const std::string& laser) {
@@ -421,10 +429,12 @@ class Judge {
           Weight::problem,
           quoted(laser) + " and " + quoted(odometry) +
               ": where the scans turn left, the odometry turns right, and nothing else in the log tells which of the "
-              "two is wrong. Either the laser is mounted upside down or its beams run the other way round: then set "
-              "pose_roll_deg = 180 for it in [mapper] sensors, otherwise the map is a mirror image. Or the wheels take "
-              "left for right: then the map is right as it is. Compare the map with the place: is what was on the left "
-              "of the robot on its left?");
+              "two is wrong. Either the laser is mounted upside down or its beams run the other way round: then set " +
+              poseKeys(facts_.scans.at(laser).base_from_sensor + mrpt::poses::CPose3D(0, 0, 0, 0, 0, M_PI)) +
+              " for it in [mapper] sensors, otherwise the map is a mirror image. Or the wheels take left for right: "
+              "then "
+              "the map is right as it is. Compare the map with the place: is what was on the left of the robot on its "
+              "left?");
     }
   }
 

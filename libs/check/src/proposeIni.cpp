@@ -90,7 +90,7 @@ class Proposal {
   // The true duration of a step is not known, but only speeds depend on it.
   void proposeStamps() {
     set("source", "step_s", "0.1",
-        "the stamps are missing or stand still; this makes new ones, a tenth of a second apart");
+        "the stamps are missing or stand still; set it to the period of the sensor that is read most often");
   }
 
   void proposeEngine() {
@@ -111,22 +111,23 @@ class Proposal {
     std::map<std::string, std::vector<Setting>> changes;  // by label
     const auto change = [&](const std::string& label, const std::string& key, double value, int decimals,
                             const std::string& reason = "") {
-      if (canBeNamed(label) && std::stod(fixed(value, decimals)) != 0)
-        changes[label].push_back({"", key, fixed(value, decimals), reason});
+      if (canBeNamed(label)) changes[label].push_back({"", key, fixed(value, decimals), reason});
     };
+    // A section that has a key of a pose sets the whole pose.
     const auto change_pose = [&](const std::string& label, const mrpt::poses::CPose3D& pose) {
+      if (!canBeNamed(label)) return;
       change(label, "pose_x_m", pose.x(), 2);
       change(label, "pose_y_m", pose.y(), 2);
       change(label, "pose_z_m", pose.z(), 2);
-      change(label, "pose_yaw_deg", degrees(pose.yaw()), 1);
-      change(label, "pose_pitch_deg", degrees(pose.pitch()), 1);
-      change(label, "pose_roll_deg", degrees(pose.roll()), 1);
+      changes[label].push_back({"", "pose_yaw_deg", angleText(pose.yaw()), ""});
+      changes[label].push_back({"", "pose_pitch_deg", angleText(pose.pitch()), ""});
+      changes[label].push_back({"", "pose_roll_deg", angleText(pose.roll()), ""});
     };
     for (const auto& laser : lasers_) {
       if (const auto pose = betterSensorPose(facts_, laser)) {
         change_pose(laser, *pose);
-      } else if (const auto pitch = pitchOf(facts_.scans.at(laser))) {
-        change_pose(laser, facts_.scans.at(laser).base_from_sensor + mrpt::poses::CPose3D(0, 0, 0, 0, *pitch, 0));
+      } else if (const auto pose = poseByFloor(facts_.scans.at(laser))) {
+        change_pose(laser, *pose);
       }
       if (const auto aperture = betterAperture(facts_, laser)) change(laser, "aperture_deg", degrees(*aperture), 1);
     }
@@ -134,7 +135,7 @@ class Proposal {
       if (hasWrongPose(camera) && !blamesLaser(facts_, camera)) change_pose(camera.camera, *camera.pose);
     }
     for (const auto& [label, offset] : clockOffsets(facts_))
-      change(label, "clock_offset_s", offset, 3, "its clock differs from those of the other sensors");
+      change(label, "clock_offset_s", offset + addedTo(label), 3, "its clock differs from those of the other sensors");
     if (changes.empty()) return;
     auto sections = plugins_.sensors;
     std::vector<Setting> settings;
@@ -149,24 +150,36 @@ class Proposal {
     settings_.insert(settings_.end(), settings.begin(), settings.end());
   }
 
-  // One section holds the calibration of one camera.
+  // [s] that the INI already adds to the stamps of a sensor.
+  double addedTo(const std::string& label) const {
+    const auto found = facts_.ini.clock_offsets.find(label);
+    return found == facts_.ini.clock_offsets.end() ? 0 : found->second;
+  }
+
+  // One section holds the calibration of one camera. That of another camera in the INI is left alone.
   void proposeCalibration() {
+    const auto& ini = facts_.ini;
     for (const auto& camera : facts_.cameras) {
+      if (!canBeNamed(camera.camera) || (ini.has_calibration && ini.calibrated != camera.camera)) continue;
       std::vector<Setting> keys;
       const auto add = [&](const std::string& key, const std::string& value, const std::string& reason) {
         keys.push_back({"calibration", key, value, reason});
       };
-      if (camera.are == CameraFacts::Images::mirrored && !blamesLaser(facts_, camera))
-        add("mirrored", "true", "by the walls of the laser");
-      if (camera.are == CameraFacts::Images::ranges) add("depth_is_range", "true", "by the walls of the laser");
-      if (hasWrongScale(camera)) add("depth_scale", significant(camera.scale->value), "by the walls of the laser");
+      const bool is_of_camera = !blamesLaser(facts_, camera);
+      const auto flag = [](bool is_set) { return is_set ? "true" : "false"; };
+      if (camera.are == CameraFacts::Images::mirrored && is_of_camera)
+        add("mirrored", flag(!ini.mirrored), "by the walls of the laser");
+      if (camera.are == CameraFacts::Images::ranges && is_of_camera)
+        add("depth_is_range", "true", "by the walls of the laser");
+      if (hasWrongScale(camera))
+        add("depth_scale", significant(camera.scale->value * ini.depth_scale), "by the walls of the laser");
       const bool is_wrong = hasWrongFocalLength(camera);
       if (is_wrong || camera.has_negative_focal) {
         const double factor = is_wrong ? camera.focal->value : 1;
         add("depth_fx_px", fixed(camera.fx * factor, 1), is_wrong ? "by the walls of the laser" : "positive");
         add("depth_fy_px", fixed(camera.fy * factor, 1), "");
       }
-      if (keys.empty() || !canBeNamed(camera.camera)) continue;
+      if (keys.empty()) continue;
       set("calibration", "label", camera.camera, "");
       settings_.insert(settings_.end(), keys.begin(), keys.end());
       return;
@@ -207,7 +220,7 @@ class Proposal {
     for (const auto& laser : lasers_) {
       const auto& sweep = facts_.scans.at(laser).sweep;
       if (!laser_odometry_ || laser != lasers_.front() || !sweep || !sweep->isWrong()) continue;
-      set(kLaserOdometry, "sweep_s", sweep->sweep < std::max(0.004, 3 * sweep->sigma) ? "0" : fixed(sweep->sweep, 4),
+      set(kLaserOdometry, "sweep_s", sweep->isInstant() ? "0" : fixed(sweep->sweep, 4),
           "time from the first beam of a scan to the last, by its turns");
     }
     if (median > 0 && median < 1.2) {

@@ -151,7 +151,9 @@ namespace {
 // The calibration stays that of the camera: the images are what it saw once they are mirrored back.
 void mirror(mrpt::obs::CObservation3DRangeScan& scan) {
   if (scan.hasRangeImage) scan.rangeImage.asEigen() = scan.rangeImage.asEigen().rowwise().reverse().eval();
-  if (scan.hasIntensityImage) scan.intensityImage.flipHorizontal();
+  if (!scan.hasIntensityImage) return;
+  scan.intensityImage = scan.intensityImage.makeDeepCopy();  // copies of observations share the pixels of their images
+  scan.intensityImage.flipHorizontal();
 }
 
 }  // namespace

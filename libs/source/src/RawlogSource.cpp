@@ -135,7 +135,7 @@ class RawlogSource::Stream {
 
   std::optional<base::Stamp> firstStamp() const {
     for (const auto& observation : waiting_)
-      if (base::isValid(observation->timestamp)) return observation->timestamp;
+      if (base::isValid(observation->timestamp)) return clocks_.corrected(*observation);
     return std::nullopt;
   }
 

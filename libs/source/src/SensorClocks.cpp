@@ -1,6 +1,5 @@
 #include "SensorClocks.h"
 
-#include <omnimapper/base/Stamp.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 
 #include <algorithm>
@@ -15,9 +14,17 @@ std::vector<double> SensorClocks::offsetsIn(const std::map<std::string, double>&
   return offsets;
 }
 
-bool SensorClocks::concerns(const mrpt::obs::CObservation& observation) const {
+double SensorClocks::offsetOf(const mrpt::obs::CObservation& observation) const {
   const auto found = clock_offsets_.find(observation.sensorLabel);
-  return (found == clock_offsets_.end() ? 0 : found->second) == offset_;
+  return found == clock_offsets_.end() ? 0 : found->second;
+}
+
+bool SensorClocks::concerns(const mrpt::obs::CObservation& observation) const {
+  return offsetOf(observation) == offset_;
+}
+
+base::Stamp SensorClocks::corrected(const mrpt::obs::CObservation& observation) const {
+  return observation.timestamp + base::durationFromSeconds(offsetOf(observation));
 }
 
 void SensorClocks::correct(mrpt::obs::CObservation& observation) const {

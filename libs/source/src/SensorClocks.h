@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <omnimapper/base/Stamp.h>
 
 #include <map>
 #include <string>
@@ -23,10 +24,14 @@ class SensorClocks {
   bool concerns(const mrpt::obs::CObservation& observation) const;
   /// Whether these are the sensors for which everything else in the log is counted, too.
   bool areFirst() const { return offset_ == 0; }
+  /// The corrected stamp of an observation of any sensor.
+  base::Stamp corrected(const mrpt::obs::CObservation& observation) const;
   /// Corrects the stamps of an observation that has some.
   void correct(mrpt::obs::CObservation& observation) const;
 
  private:
+  double offsetOf(const mrpt::obs::CObservation& observation) const;
+
   std::map<std::string, double> clock_offsets_;
   double offset_ = 0;  // [s]
 };

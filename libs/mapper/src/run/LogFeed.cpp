@@ -64,7 +64,12 @@ bool LogFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progr
     samples.add(observation);
     if (watch_) {
       const auto timer = engine.measure(Stage::source);
-      watch_->add(observation);
+      try {
+        watch_->add(observation);
+      } catch (const std::exception& error) {
+        engine.warn(std::string("the log is not checked any further: ") + error.what());
+        watch_.reset();
+      }
     }
     engine.add(observation);
     progress.report(log_->progress(), std::to_string(engine.view().map.key_frames.size()) + " key frames");

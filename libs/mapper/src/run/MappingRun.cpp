@@ -155,6 +155,7 @@ class Run {
 
  private:
   void makeEngine();
+  void judgeInput();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
   void refuseToReplaceRun() const;
@@ -246,12 +247,19 @@ void Run::feed() {
   failure_ = tried(*engine_, [&] { stopped_ = feed_->feed(*engine_, samples_, progress_, stop_); });
 }
 
-void Run::finish() {
-  if (request_.watch && !localizes()) {
+// A map is not lost because its log cannot be judged.
+void Run::judgeInput() {
+  try {
     auto judgement = request_.watch->judgement();
     for (const auto& sentence : judgement.warnings) engine_->warn(sentence);
     engine_->setInputEvidence(std::move(judgement.evidence));
+  } catch (const std::exception& error) {
+    engine_->warn(std::string("the log was not checked: ") + error.what());
   }
+}
+
+void Run::finish() {
+  if (request_.watch && !localizes() && !stopped_) judgeInput();
   failure_at_end_ = tried(*engine_, [&] { engine_->finish(); });
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,6 +53,8 @@ struct SweepFacts {
   double advantage = 0;
   /// Whether the declared sweep is wrong beyond doubt.
   bool isWrong() const;
+  /// Whether all beams may be simultaneous.
+  bool isInstant() const;
 };
 
 /// The 2D scans of one label.
@@ -199,8 +202,20 @@ struct GyroscopeFacts {
   std::optional<ClockFacts> clock;  ///< of the gyroscope against the laser; none if it cannot be determined
 };
 
+/// What the INI already states or corrects; all facts are those of the corrected observations.
+struct IniFacts {
+  double sweep = 0;                                            ///< [s] `[scan_odometry] sweep_s`
+  double max_range = std::numeric_limits<double>::infinity();  ///< [m] `[laser_points] max_range_m`
+  std::map<std::string, double> clock_offsets;                 ///< [s] added to the stamps, by label
+  bool has_calibration = false;                                ///< the members below are of a section [calibration]
+  std::string calibrated;                                      ///< label; empty for every depth camera
+  double depth_scale = 1;
+  bool mirrored = false, depth_is_range = false;
+};
+
 /// Statistics on the content of a log.
 struct LogFacts {
+  IniFacts ini;
   /// Observations that cannot be used, by (label, reason); source::ObservationGate describes the form of a reason.
   /// Observations that the source left out are not counted in the other members.
   std::map<std::pair<std::string, std::string>, source::LeftOut> unusable;

@@ -13,9 +13,9 @@ namespace omnimapper::check {
 /// What an INI states about the sensors of a log.
 struct Declared {
   mapper::SensorPoses sensor_poses;
-  double sweep = 0;  ///< [s] `[scan_odometry] sweep_s`
+  IniFacts ini;
 
-  /// Reads `[mapper] sensors` and the sections that it names.
+  /// Reads `[mapper] sensors`, the sections that it names, and the keys of IniFacts.
   static Declared read(const base::Config& config);
 };
 
