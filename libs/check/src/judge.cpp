@@ -173,7 +173,7 @@ class Judge {
       contradict(Weight::problem, who + percent(scans.longest_share) + " of the valid beams measure exactly " +
                                       fixed(scans.longest, 2) +
                                       " m: probably nothing came back, but they are marked as valid; limit the range "
-                                      "([laser_points] max_range_m)");
+                                      "(max_range_m in [laser_points], [scan_odometry] and [laser_lines])");
     }
     constexpr double kSome = 0.0005;  // of the beams
     if (scans.single_share > kSome) {
