@@ -154,8 +154,15 @@ CameraFacts explained(const std::vector<SampledImage>& images, const CameraWitne
   return facts;
 }
 
+// A camera that looks backwards, or has another focal length by half, is less likely than one that has one fault.
+bool isOdd(const CameraFacts& facts) {
+  constexpr double kBackwards = 100 * kDegree, kFocal = 1.6;
+  return facts.yaw &&
+         (std::abs(facts.yaw->value) > kBackwards || facts.focal->value > kFocal || facts.focal->value < 1 / kFocal);
+}
+
 bool explainsWell(const CameraFacts& facts) {
-  return facts.matched >= kFewestWalls && 2 * facts.matched >= facts.walls;
+  return facts.matched >= kFewestWalls && 2 * facts.matched >= facts.walls && !isOdd(facts);
 }
 
 // Whether nothing is wrong with the camera, or little.
@@ -165,15 +172,12 @@ bool isAsDeclared(const CameraFacts& facts) {
          std::abs(facts.scale->value - 1) < kShare && std::abs(facts.focal->value - 1) < kShare;
 }
 
-// How well images are explained: the walls that are found, and the share of the planes that lie on them. A camera that
-// looks backwards or has another focal length by half is less likely than one that has one fault.
+// How well images are explained: the walls that are found, and the share of the planes that lie on them.
 double quality(const CameraFacts& facts) {
-  constexpr double kBackwards = 60 * kDegree, kFocal = 1.6, kUnlikely = 0.6;
+  constexpr double kUnlikely = 0.6;
   const double all = static_cast<double>(std::max(facts.walls, kFewestWalls)),
                matched = static_cast<double>(facts.matched);
-  const bool is_odd = facts.yaw && (std::abs(facts.yaw->value) > kBackwards || facts.focal->value > kFocal ||
-                                    facts.focal->value < 1 / kFocal);
-  return matched * matched / all * (is_odd ? kUnlikely : 1);
+  return matched * matched / all * (isOdd(facts) ? kUnlikely : 1);
 }
 
 }  // namespace
@@ -199,6 +203,7 @@ CameraFacts fitCamera(const std::vector<SampledImage>& images, const CameraWitne
     for (const auto& other : others) {
       auto facts = explained(images, witness, other);
       // Another kind of image with nothing else wrong is a better explanation than several wrong values.
+      if (is_explained && !isAsDeclared(facts)) continue;
       const double needed = (isAsDeclared(facts) ? kAlmost : kMuchBetter) * first;
       if (facts.matched < kFewestWalls || quality(facts) <= std::max(needed, most)) continue;
       most = quality(facts);
