@@ -2,11 +2,13 @@
 
 #include <omnimapper/base/Names.h>
 #include <omnimapper/check/CheckRun.h>
+#include <omnimapper/check/LogWatch.h>
 #include <omnimapper/live/record.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
 using namespace omnimapper;
 
@@ -58,6 +60,14 @@ int checkLogs(const Arguments& arguments, const base::Config& config, std::optio
   std::cout << base::printableLines(heading + checked.text) << std::flush;
   const bool is_doubtful = checked.code == base::ExitCode::ok && !troubles.empty();
   return static_cast<int>(is_doubtful ? base::ExitCode::doubtful_input : checked.code);
+}
+
+mapper::RunResult mapObservations(Arguments& arguments, const base::Config& config, base::Progress& progress,
+                                  const std::function<bool()>& stop) {
+  auto& run = arguments.run;
+  const bool is_of_logs = !run.live && run.replay.empty();
+  if (is_of_logs && run.localize_map.empty()) run.watch = std::make_shared<check::LogWatch>(config);
+  return mapper::runMapping(run, config, progress, stop);
 }
 
 int recordSensors(const Arguments& arguments, const base::Config& config,

@@ -2,13 +2,18 @@
 
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/mapper/MappingRun.h>
 
 #include <functional>
 #include <optional>
 
 #include "MappingArguments.h"
 
-/// The tasks of omnimapper-graphslam other than mapping. Each removes the progress line before it prints its summary,
+/// Maps observations of logs, which are checked beside, or of sensors.
+omnimapper::mapper::RunResult mapObservations(Arguments& arguments, const omnimapper::base::Config& config,
+                                              omnimapper::base::Progress& progress, const std::function<bool()>& stop);
+
+/// The other tasks of omnimapper-graphslam. Each removes the progress line before it prints its summary,
 /// and returns the exit code.
 
 /// --check: checks logs, or with --live what the sensors send during `[live] check_s`.

@@ -1,6 +1,5 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/check/LogWatch.h>
 #include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/mapper/EngineOptions.h>
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
-#include <memory>
 #include <optional>
 
 #include "MappingArguments.h"
@@ -80,8 +78,7 @@ int run(Arguments& arguments) {
     if (!arguments.quiet) std::cout << "The window shows the map; close it to end.\n" << std::flush;
     is_printed = true;
   };
-  if (is_of_logs && arguments.run.localize_map.empty()) arguments.run.watch = std::make_shared<check::LogWatch>(config);
-  const auto result = mapper::runMapping(arguments.run, config, *progress, stop);
+  const auto result = mapObservations(arguments, config, *progress, stop);
   progress.reset();
   if (!is_printed) printResult(result, arguments);
   return static_cast<int>(result.code);
