@@ -78,7 +78,8 @@ std::optional<Floor> floorOf(const std::vector<View>& views, const Eigen::Matrix
   std::optional<Floor> best;
   double best_score = 0;
   for (const auto& view : views) {
-    for (const auto& [plane, sigma] : view.planes) {
+    for (const auto& candidate : view.planes) {
+      const auto& plane = candidate.plane;
       Floor floor{Vector3d::Zero(), 0, 0};
       for (const auto& other : views) {
         const auto found = std::find_if(other.planes.begin(), other.planes.end(),

@@ -50,10 +50,13 @@ constexpr double kCoarse = 0.1;  // [s]
 
 std::vector<Trial> trials(const std::vector<MeasuredTurn>& turns, const Headings& headings) {
   std::vector<Trial> all;
-  for (const double sign : {1.0, -1.0}) {
-    const int most = static_cast<int>(kMostOffset / kCoarse);
-    for (int i = -most; i <= most; ++i) {
-      const double offset = i * kCoarse;
+  const int most = static_cast<int>(kMostOffset / kCoarse);
+  for (int i = -most; i <= most; ++i) {
+    const double offset = i * kCoarse;
+    // Clocks that are off by minutes are rare, and outside of the headings nothing is compared.
+    const auto shift = base::durationFromSeconds(offset);
+    if (turns.back().end + shift < headings.begin() || turns.front().begin + shift > headings.end()) continue;
+    for (const double sign : {1.0, -1.0}) {
       const auto cost = costAt(turns, headings, offset, sign);
       if (cost.turns >= kFewestTurns) all.push_back({offset, sign, cost});
     }
@@ -177,6 +180,7 @@ Headings headingsOf(std::vector<base::Stamp> stamps, const std::function<double(
 // that one of them must be better by more.
 std::optional<ClockFacts> fitClock(const std::vector<MeasuredTurn>& turns, const Headings& headings) {
   constexpr double kOther = 1;  // [s]
+  if (turns.empty() || headings.isEmpty()) return std::nullopt;
   const auto all = trials(turns, headings);
   std::size_t most = 0;
   for (const auto& one : all) most = std::max(most, one.cost.turns);

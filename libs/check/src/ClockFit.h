@@ -18,6 +18,8 @@ class Headings {
   /// is not known. A stamp that is not later than the last one is ignored.
   void add(base::Stamp stamp, double turn);
   bool isEmpty() const { return headings_.empty(); }
+  base::Stamp begin() const { return first_; }
+  base::Stamp end() const { return last_; }
   /// Turn [rad] between two times, linearly interpolated; NaN where the heading is not known.
   double turn(base::Stamp begin, base::Stamp end) const;
 

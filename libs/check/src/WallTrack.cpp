@@ -13,7 +13,8 @@ std::vector<BaseWall> linesOf(const mrpt::obs::CObservation2DRangeScan& scan) {
   static const perception::LaserLineExtractor extractor{perception::LaserLineOptions()};
   std::vector<BaseWall> walls;
   const auto rotation = scan.sensorPose.getRotationMatrix();
-  for (const auto& line : extractor.extract(scan)->lines) {
+  const auto seen = extractor.extract(scan);
+  for (const auto& line : seen->lines) {
     const double c = std::cos(line.angle), s = std::sin(line.angle);
     const double x = rotation(0, 0) * c + rotation(0, 1) * s, y = rotation(1, 0) * c + rotation(1, 1) * s;
     const double azimuth = std::atan2(y, x);
