@@ -50,9 +50,7 @@ double GridMapper::reachOf(const mrpt::obs::CObservation2DRangeScan& scan) const
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (ends.range(i) > reach && ends.clears(i)) reach = ends.range(i);
   }
-  // A scan without a valid beam still shows where the sensor was.
-  return std::clamp(static_cast<double>(reach), options_.resolution,
-                    std::max(options_.resolution, std::min(options_.max_range, static_cast<double>(scan.maxRange))));
+  return std::min({static_cast<double>(reach), options_.max_range, static_cast<double>(scan.maxRange)});
 }
 
 std::vector<GridMapper::Placement> GridMapper::placementsOf(const map::KeyFrame& frame,
@@ -64,6 +62,7 @@ std::vector<GridMapper::Placement> GridMapper::placementsOf(const map::KeyFrame&
     if (!(std::abs(map_from_sensor.getRotationMatrix()(2, 2)) >= least_upright)) return;
     const auto known = std::find_if(before.begin(), before.end(), [&](const auto& p) { return p.scan == scan; });
     Placement placement{scan, known != before.end() ? known->reach : reachOf(*scan), {}};
+    if (placement.reach <= 0) return;
     const double turn = step_ / placement.reach;
     const std::array<double, 5> steps{map_from_sensor.x() / step_, map_from_sensor.y() / step_,
                                       map_from_sensor.yaw() / turn, map_from_sensor.pitch() / turn,

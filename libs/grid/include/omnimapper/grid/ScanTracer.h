@@ -18,7 +18,7 @@ constexpr int kOccupiedAbove = 3, kFreeBelow = -3;
 ///
 /// A beam passes the cells between the sensor and its end, and hits the cell where it ends. A beam that reaches the
 /// range limit of the sensor or `max_range` only passes cells, and only where BeamEnds::clears(); an invalid beam does
-/// not vote. The cell of the sensor is passed in any case, even if no beam is valid. A scan votes once for a
+/// not vote. The cell of the sensor is passed in any case. A scan votes once for a
 /// cell, however many beams meet the cell, and a hit takes precedence. If two neighbouring beams meet the same surface,
 /// no beam clears a cell on the line between their ends, because beams that graze a wall would clear it between their
 /// hits. If both also face the surface and their ends are near each other, the cells between the ends count as wall,
