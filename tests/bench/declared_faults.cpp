@@ -3,7 +3,6 @@
 // all its grades. A fault is named if a finding on its kind is among the findings; a finding on another contradiction
 // is a wrong cause. --maps maps each log that has truth.tum beside it unchanged, with the fault, and with the proposed
 // check.ini. --write writes the logs with faults. --amounts prints what was measured for faults that have an amount.
-// --maps OMNIMAPPER-GRAPHSLAM maps each log unchanged, with the fault, and with the proposed check.ini.
 //
 // Example: bench-declared_faults --log aces.rawlog --log home.rawlog --seconds 120
 #include <mrpt/obs/CObservation3DRangeScan.h>
@@ -20,6 +19,7 @@
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/DeclaredFaults.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/MemorySource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -36,6 +36,7 @@ namespace fs = std::filesystem;
 namespace tests = omnimapper::testing;
 using tests::DeclaredFault;
 using tests::Fault;
+using tests::MemorySource;
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
 struct Part {
@@ -43,18 +44,6 @@ struct Part {
   Observations log;
   bool has_camera = false;
   std::string truth;  // file; empty if there is none
-};
-
-class MemorySource : public source::ObservationSource {
- public:
-  explicit MemorySource(const Observations& log) : log_(log) {}
-  mrpt::obs::CObservation::Ptr next() override { return at_ < log_.size() ? log_[at_++] : nullptr; }
-  double progress() const override { return 1; }
-  source::SourceReport report() const override { return {}; }
-
- private:
-  const Observations& log_;
-  std::size_t at_ = 0;
 };
 
 // The words by which findings name a kind of fault.

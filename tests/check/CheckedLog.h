@@ -6,6 +6,7 @@
 #include <omnimapper/check/gatherFacts.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
+#include <omnimapper/testing/MemorySource.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <functional>
@@ -20,19 +21,6 @@ using mrpt::obs::CObservationOdometry;
 using Observations = std::vector<mrpt::obs::CObservation::Ptr>;
 
 inline constexpr double kPi = 3.14159265358979323846;
-
-/// Hands out observations from memory.
-class MemorySource : public source::ObservationSource {
- public:
-  explicit MemorySource(const Observations& observations) : observations_(observations) {}
-  mrpt::obs::CObservation::Ptr next() override { return at_ < observations_.size() ? observations_[at_++] : nullptr; }
-  double progress() const override { return 1; }
-  source::SourceReport report() const override { return {}; }
-
- private:
-  const Observations& observations_;
-  std::size_t at_ = 0;
-};
 
 inline Observations halfALap(std::vector<testing::SimulatedLaser> lasers = {testing::SimulatedLaser()},
                              const std::function<void(testing::SimulatedLogOptions&)>& change = {}) {
@@ -57,7 +45,7 @@ struct Checked {
   std::vector<Setting> settings;
 
   explicit Checked(const Observations& observations) {
-    MemorySource source(observations);
+    testing::MemorySource source(observations);
     facts = gatherFacts(source);
     findings = judge(facts);
     settings = proposeIni(facts, {{"scan_odometry", "odometry", "no_motion"}, {"laser_points"}, {"loop_closure"}});

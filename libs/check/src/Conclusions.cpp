@@ -78,7 +78,7 @@ std::vector<const MotionFacts*> motionsWith(const LogFacts& facts, const std::st
   return motions;
 }
 
-// Gyroscopes, other lasers and other odometries are asked which of the two they agree with.
+// Gyroscopes, cameras, other lasers and other odometries are asked which of the two they agree with.
 Culprit wrongTurnOf(const LogFacts& facts, const std::string& laser, const std::string& odometry) {
   const auto* motion = motionOf(facts, laser, odometry);
   if (!motion || contradictionOf(*motion) != Contradiction::turning) return Culprit::none;
@@ -206,6 +206,11 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
   // A small angle may be an error of the odometry as well as of the sensor pose.
   return CPose3D(sure_position ? found.x : 0, sure_position ? found.y : 0, 0, wrong_yaw ? found.yaw : 0, 0, 0) +
          reported;
+}
+
+double clockInIni(const LogFacts& facts, const std::string& label) {
+  const auto found = facts.ini.clock_offsets.find(label);
+  return found == facts.ini.clock_offsets.end() ? 0 : found->second;
 }
 
 std::map<std::string, double> clockOffsets(const LogFacts& facts) {

@@ -14,6 +14,8 @@ enum class Contradiction { none, forward, turning, both };
 Contradiction contradictionOf(const MotionFacts& motion);
 /// Whether the odometry is at rest in most pairs of scans that show motion.
 bool isFrozen(const MotionFacts& motion);
+/// [s] that the INI already adds to the stamps of a sensor.
+double clockInIni(const LogFacts& facts, const std::string& label);
 /// [s] Laser odometry finds smaller offsets between the clocks of the motion and of the laser by itself.
 constexpr double kCorrectedOffset = 0.3;
 /// Which of the two is wrong where scans and odometry turn against each other: none if they do not, not_known if

@@ -27,11 +27,6 @@ class ClockJudge {
   }
 
  private:
-  double addedTo(const std::string& label) const {
-    const auto found = facts_.ini.clock_offsets.find(label);
-    return found == facts_.ini.clock_offsets.end() ? 0 : found->second;
-  }
-
   void judge(const std::string& sensor, const std::string& other, const std::optional<ClockFacts>& clock,
              bool is_camera) {
     if (!clock) return;
@@ -43,8 +38,8 @@ class ClockJudge {
       const bool is_corrected = !is_camera && std::abs(clock->offset) < kCorrectedOffset;
       const std::string what = remedy == offsets_.end()
                                    ? "; set clock_offset_s for one of them in [mapper] sensors"
-                                   : "; set clock_offset_s = " + fixed(remedy->second + addedTo(wrong), 3) + " for " +
-                                         quoted(wrong) + " in [mapper] sensors";
+                                   : "; set clock_offset_s = " + fixed(remedy->second + clockInIni(facts_, wrong), 3) +
+                                         " for " + quoted(wrong) + " in [mapper] sensors";
       const bool spoils = is_camera && std::abs(clock->offset) > kMuch;
       findings_.push_back({is_corrected ? Weight::note
                            : spoils     ? Weight::problem
@@ -71,9 +66,10 @@ class ClockJudge {
 
 class CameraJudge {
  public:
-  CameraJudge(const CameraFacts& camera, bool blames_laser)
-      : camera_(camera),
-        blames_laser_(blames_laser),
+  CameraJudge(const LogFacts& facts, const CameraFacts& camera)
+      : ini_(facts.ini),
+        camera_(camera),
+        blames_laser_(blamesLaser(facts, camera)),
         who_(quoted(camera.camera) + ": "),
         by_walls_(", by the walls that " + quoted(camera.laser) + " sees") {}
 
@@ -95,7 +91,8 @@ class CameraJudge {
     if (camera_.are == CameraFacts::Images::mirrored)
       add(Weight::problem,
           "its images are mirror images: planes lie on walls of the laser only if left and right are exchanged; set "
-          "[calibration] mirrored = true");
+          "[calibration] mirrored = " +
+              std::string(ini_.mirrored ? "false" : "true"));
     if (camera_.are == CameraFacts::Images::ranges)
       add(Weight::problem,
           "its depth images hold distances from the camera instead of depths: only then its planes are flat and lie on "
@@ -105,14 +102,15 @@ class CameraJudge {
   void judgeScale() {
     if (hasWrongScale(camera_)) {
       const bool much = std::abs(std::log(camera_.scale->value)) > 2 * kWrongScale;
-      add(much ? Weight::problem : Weight::warning, "the true depths are " + significant(camera_.scale->value) +
-                                                        " times those in the log" + by_walls_ +
-                                                        "; set [calibration] depth_scale");
+      add(much ? Weight::problem : Weight::warning,
+          "the true depths are " + significant(camera_.scale->value) + " times those in the log" + by_walls_ +
+              "; set [calibration] depth_scale = " + significant(camera_.scale->value * ini_.depth_scale));
     } else if (const auto scale = scaleByHeight(camera_); scale && !camera_.scale) {
       add(Weight::problem, "the floor appears " + significant(*camera_.height) +
                                " m below the camera, but its pose declares " + significant(camera_.declared.z()) +
                                " m: either the depths have another unit (then set [calibration] depth_scale = " +
-                               significant(*scale) + ") or the declared height is wrong; measure the height");
+                               significant(*scale * ini_.depth_scale) +
+                               ") or the declared height is wrong; measure the height");
     }
   }
 
@@ -165,6 +163,7 @@ class CameraJudge {
                          false});
   }
 
+  const IniFacts& ini_;
   const CameraFacts& camera_;
   bool blames_laser_;
   std::string who_, by_walls_;
@@ -180,7 +179,7 @@ std::vector<Finding> clockFindings(const LogFacts& facts) {
 std::vector<Finding> cameraFindings(const LogFacts& facts) {
   std::vector<Finding> findings;
   for (const auto& camera : facts.cameras) {
-    const auto some = CameraJudge(camera, blamesLaser(facts, camera)).findings();
+    const auto some = CameraJudge(facts, camera).findings();
     findings.insert(findings.end(), some.begin(), some.end());
   }
   return findings;

@@ -432,9 +432,8 @@ class Judge {
               "two is wrong. Either the laser is mounted upside down or its beams run the other way round: then set " +
               poseKeys(facts_.scans.at(laser).base_from_sensor + mrpt::poses::CPose3D(0, 0, 0, 0, 0, M_PI)) +
               " for it in [mapper] sensors, otherwise the map is a mirror image. Or the wheels take left for right: "
-              "then "
-              "the map is right as it is. Compare the map with the place: is what was on the left of the robot on its "
-              "left?");
+              "then the map is right as it is. Compare the map with the place: is what was on the left of the robot on "
+              "its left?");
     }
   }
 

@@ -135,7 +135,8 @@ class Proposal {
       if (hasWrongPose(camera) && !blamesLaser(facts_, camera)) change_pose(camera.camera, *camera.pose);
     }
     for (const auto& [label, offset] : clockOffsets(facts_))
-      change(label, "clock_offset_s", offset + addedTo(label), 3, "its clock differs from those of the other sensors");
+      change(label, "clock_offset_s", offset + clockInIni(facts_, label), 3,
+             "its clock differs from those of the other sensors");
     if (changes.empty()) return;
     auto sections = plugins_.sensors;
     std::vector<Setting> settings;
@@ -148,12 +149,6 @@ class Proposal {
     }
     set("mapper", "sensors", joined(sections, ", "), "corrections of what the observations declare");
     settings_.insert(settings_.end(), settings.begin(), settings.end());
-  }
-
-  // [s] that the INI already adds to the stamps of a sensor.
-  double addedTo(const std::string& label) const {
-    const auto found = facts_.ini.clock_offsets.find(label);
-    return found == facts_.ini.clock_offsets.end() ? 0 : found->second;
   }
 
   // One section holds the calibration of one camera. That of another camera in the INI is left alone.

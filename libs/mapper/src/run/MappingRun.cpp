@@ -61,9 +61,10 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
                                                           feed.whatStays() + ". " + feed.checkHint() + ".");
   }
   if (2 * result.source.zeroStamps() > result.source.observations()) {
-    labels += std::to_string(result.source.zeroStamps()) + " of " +
-              base::counted(static_cast<std::size_t>(result.source.observations()), "observation") +
-              " have no stamp and were left out; [source] step_s = 0.1 gives them stamps, a tenth of a second apart.\n";
+    labels +=
+        std::to_string(result.source.zeroStamps()) + " of " +
+        base::counted(static_cast<std::size_t>(result.source.observations()), "observation") +
+        " have no stamp and were left out; set [source] step_s to the period of the sensor that is read most often.\n";
   }
   const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
   throw base::Error(
