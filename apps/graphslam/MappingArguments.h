@@ -65,7 +65,7 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
       ->check(omnimapper::program::notNegative())
       ->excludes(live)
       ->excludes(replay);
-  app.add_flag("--strict", arguments.run.strict, "end with exit code 17 if the map contradicts itself");
+  app.add_flag("--strict", arguments.run.strict, "end with exit code 17 if the map is suspicious");
   auto* gui = app.add_flag("--gui", arguments.gui, "show the map while it grows");
   for (auto* other : {rawlogs, live, replay, go_on, localize, gui}) record->excludes(other);
   app.add_flag("--list-plugins", arguments.list_plugins,
