@@ -133,7 +133,7 @@ TEST(ScanTracer, aBeamWithoutAnEchoClearsOnlyBesideOthersWithoutOne) {
   const auto farthest = [&](const std::vector<float>& ranges) {
     int cells = 0;
     for (const auto& [place, vote] : votesOf(scanOf(ranges, quarter), kMiddleOfCell))
-      cells = std::max({cells, std::abs(place.first), std::abs(place.second)});
+      cells = std::max<int>({cells, std::abs(static_cast<int>(place.first)), std::abs(static_cast<int>(place.second))});
     return cells;
   };
   EXPECT_LT(farthest({3, 3, 3, 10, 3, 3, 3}), 5) << "one met something dark or a mirror";
