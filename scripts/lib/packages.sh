@@ -8,7 +8,7 @@ is_installed() { [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 
 
 # install_packages LIST...: what the lists name and the machine lacks.
 install_packages() {
-  command -v dpkg-query >/dev/null || die "this is not Debian; install what these files name, then run CMake: $*"
+  command -v dpkg-query >/dev/null || die "this is not Debian; install what these files name by other means: $*"
   local package missing=()
   for package in $(list_packages "$@"); do
     is_installed "$package" || missing+=("$package")
@@ -21,7 +21,7 @@ install_packages() {
     as_root env DEBIAN_FRONTEND=noninteractive \
       apt-get -q -y -o DPkg::Lock::Timeout=120 install --no-install-recommends "${missing[@]}"
   fi
-  check_blas
+  case " $* " in *" scripts/packages.txt "*) check_blas ;; esac
 }
 
 # CHOLMOD is linked against "some BLAS"; Debian's alternatives decide which, and OpenBLAS wins unless somebody chose.

