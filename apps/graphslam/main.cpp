@@ -1,6 +1,5 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/Features.h>
@@ -51,7 +50,6 @@ void printResult(const mapper::RunResult& result, const Arguments& arguments) {
 
 int run(Arguments& arguments) {
   program::listenForInterrupts();
-  exports::registerOutputs();
   mapper::loadFeatures();
   if (!arguments.run.replay.empty()) findReplay(arguments);
   auto config = base::Config::fromFiles(program::findInis(arguments.inis));

@@ -1,13 +1,12 @@
 // omnimapper-perceive: derives a rawlog from a rawlog with the extractors of an INI.
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/export/DetectionCounts.h>
-#include <omnimapper/export/PerceptionPictures.h>
-#include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/pictures/DetectionCounts.h>
+#include <omnimapper/pictures/PerceptionPictures.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -57,7 +56,6 @@ void addOptions(CLI::App& app, Arguments& arguments) {
 }
 
 int run(Arguments& arguments) {
-  exports::registerOutputs();
   mapper::loadFeatures();
   auto config = base::Config::fromFiles(program::findInis(arguments.inis));
   for (const auto& setting : arguments.settings) config.set(setting);
@@ -71,8 +69,8 @@ int run(Arguments& arguments) {
     base::refuseToReplaceInput(arguments.run.output, inputs);
   }
   program::listenForInterrupts();
-  std::optional<exports::PerceptionPictures> pictures;
-  exports::DetectionCounts counts;
+  std::optional<pictures::PerceptionPictures> pictures;
+  pictures::DetectionCounts counts;
   if (!arguments.pictures.empty()) pictures.emplace(arguments.pictures, arguments.picture_every);
   arguments.run.show = [&](const auto& raw, const auto& derived) {
     counts.add(derived);

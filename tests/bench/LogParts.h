@@ -1,10 +1,10 @@
 #pragma once
 
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/eval/Trajectory.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/map/DenseTrajectory.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 
@@ -44,7 +44,7 @@ inline eval::Trajectory trajectoryOf(const map::Map& map) {
 }
 
 inline map::Map mapIn(const std::string& folder) {
-  return mapper::readMap(folder, mapper::registeredKinds()).map;
+  return derived::readMap(folder, mapper::registeredKinds()).map;
 }
 
 }  // namespace omnimapper::log_parts

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
 
 #include <filesystem>
 #include <fstream>
@@ -24,7 +24,7 @@ struct SimulatedPlace {
 };
 
 struct SimulatedRun {
-  mapper::SavedMap saved;
+  derived::SavedMap saved;
   eval::Statistics error;  ///< [m] of the trajectory after the best alignment by yaw and offset
   nlohmann::json summary;
 };
@@ -42,7 +42,7 @@ inline SimulatedRun mapSimulated(const SimulatedPlace& place, const std::string&
   std::filesystem::create_directories(out);
   base::Progress quiet;
   mapper::runMapping(request, config, quiet, [] { return false; });
-  SimulatedRun run{mapper::readMap(out + "/map.omnimap", mapper::registeredKinds()), {}, {}};
+  SimulatedRun run{derived::readMap(out + "/map.omnimap", mapper::registeredKinds()), {}, {}};
   eval::PairingOptions pairing;
   pairing.alignment = eval::Alignment::yaw;
   run.error = eval::absoluteTrajectoryError(eval::readTum(out + "/trajectory.tum"),

@@ -6,8 +6,8 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -116,7 +116,7 @@ const obs::LaserLine* lineOf(const map::KeyFrame& frame, const Eigen::Vector3d& 
   return nullptr;
 }
 
-Outcome judge(const Setup& setup, const mapper::SavedMap& saved, const Truth& truth) {
+Outcome judge(const Setup& setup, const derived::SavedMap& saved, const Truth& truth) {
   std::map<base::VariableId, const map::KeyFrame*> frames;
   for (const auto& frame : saved.map.key_frames) frames[frame.pose] = &frame;
   std::map<base::LandmarkId, std::map<int, int>> surfaces;  // number of lines on each surface, by landmark
@@ -168,7 +168,7 @@ int main(int argc, char** argv) {
   app.add_flag("--list", setup.list, "before the table, list each landmark that has lines of two surfaces");
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  testing::registerPlugins();
+  omnimapper::mapper::loadFeatures();
   const Truth truth(setup.place.folder);
   std::printf(
       "| association | key frames | landmarks | matches | wrong per 1,000 | ATE | per key frame |\n"

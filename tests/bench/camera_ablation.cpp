@@ -10,10 +10,10 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/registerPlugins.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

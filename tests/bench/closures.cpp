@@ -7,13 +7,13 @@
 //
 // Example: omnimapper-graphslam -i ini/laser2d.ini -r aces.rawlog -o out/aces
 //          bench-closures --map out/aces --reference aces.reference.tum --list
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/Between.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -75,8 +75,8 @@ int main(int argc, char** argv) {
   app.add_flag("--list", list, "list every wrong closure that was accepted and every right one that was refused");
   CLI11_PARSE(app, argc, argv);
 
-  testing::registerPlugins();
-  const auto saved = mapper::readMap(folder, mapper::registeredKinds());
+  omnimapper::mapper::loadFeatures();
+  const auto saved = derived::readMap(folder, mapper::registeredKinds());
   const auto mapped = eval::readTum(folder + "/trajectory.tum");
   const Reference reference(reference_path, mapped);
   std::map<base::VariableId, const map::KeyFrame*> frames;

@@ -11,7 +11,6 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
-#include <omnimapper/export/registerOutputs.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/obs/registerClasses.h>
@@ -256,7 +255,6 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   obs::registerClasses();
   mapper::loadFeatures();
-  exports::registerOutputs();
 
   std::map<DeclaredFault, Row> rows;
   int unchanged = 0, alarms = 0;

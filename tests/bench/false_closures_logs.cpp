@@ -15,11 +15,11 @@
 #include <omnimapper/graph/Between.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/testing/SimulatedLog.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -223,7 +223,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", request.seeds, "runs per row");
   app.add_option("--set", request.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  omnimapper::testing::registerPlugins();
+  omnimapper::mapper::loadFeatures();
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FalseClosuresFactory, bench));
   return bench::main(request);
 }

@@ -5,10 +5,12 @@
 // Example: bench-grid -m out/aces/map.omnimap -m out/intel/map.omnimap
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <omnimapper/derived/GridMapper.h>
+#include <omnimapper/derived/SavedMap.h>
+#include <omnimapper/derived/forEachScan.h>
 #include <omnimapper/grid/ScanBeams.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
-#include <omnimapper/testing/registerPlugins.h>
 #include <time.h>
 
 #include <CLI/CLI.hpp>
@@ -20,9 +22,6 @@
 #include <iostream>
 #include <string>
 #include <vector>
-
-#include "grid/GridMapper.h"
-#include "grid/forEachScan.h"
 
 namespace {
 
@@ -61,7 +60,7 @@ map::Map closed(const map::Map& before) {
 }
 
 /// Builds MRPT's grid over the area of the scans and inserts every scan.
-std::size_t buildWithMrpt(const map::Map& map, const exports::ScanGrid& area, double max_range) {
+std::size_t buildWithMrpt(const map::Map& map, const derived::ScanGrid& area, double max_range) {
   mrpt::maps::COccupancyGridMap2D grid(static_cast<float>(area.min_x), static_cast<float>(area.maxX()),
                                        static_cast<float>(area.min_y), static_cast<float>(area.maxY()),
                                        static_cast<float>(area.resolution));
@@ -69,7 +68,7 @@ std::size_t buildWithMrpt(const map::Map& map, const exports::ScanGrid& area, do
   grid.insertionOptions.maxFreenessUpdateCertainty = 0.62f;
   grid.insertionOptions.considerInvalidRangesAsFreeSpace = false;
   for (const map::KeyFrame& frame : map.key_frames) {
-    exports::forEachScan(frame, [&](const auto& scan) {
+    derived::forEachScan(frame, [&](const auto& scan) {
       grid.insertionOptions.maxDistanceInsertion = std::min(static_cast<float>(max_range), 0.9999f * scan->maxRange);
       grid.insertObservation(*scan, frame.map_from_base);
     });
@@ -102,11 +101,11 @@ struct Row {
   std::size_t key_frames = 0;
 };
 
-Row measure(const map::Map& map, const exports::ScanGridOptions& options) {
+Row measure(const map::Map& map, const derived::ScanGridOptions& options) {
   const map::Map after = closed(map);
   Row row;
   row.key_frames = map.key_frames.size();
-  const auto area = exports::buildScanGrid(map, options);
+  const auto area = derived::buildScanGrid(map, options);
   row.mrpt = fastest([&] {
     const ThreadWatch watch;
     buildWithMrpt(map, *area, options.max_range);
@@ -114,11 +113,11 @@ Row measure(const map::Map& map, const exports::ScanGridOptions& options) {
   });
   row.scratch = fastest([&] {
     const ThreadWatch watch;
-    exports::GridMapper grid(options);
+    derived::GridMapper grid(options);
     grid.update(map);
     return watch.seconds();
   });
-  exports::GridMapper grid(options);
+  derived::GridMapper grid(options);
   grid.update(map);
   row.picture = fastest([&] {
     const ThreadWatch watch;
@@ -140,19 +139,19 @@ Row measure(const map::Map& map, const exports::ScanGridOptions& options) {
 int main(int argc, char** argv) {
   CLI::App app("Times the occupancy grid of saved maps against MRPT's.");
   std::vector<std::string> maps;
-  exports::ScanGridOptions options;
+  derived::ScanGridOptions options;
   app.add_option("-m,--map", maps, "map.omnimap of a run")->required()->check(CLI::ExistingFile);
   app.add_option("--resolution_m", options.resolution, "Side of a cell");
   app.add_option("--max_range_m", options.max_range, "Beams are inserted up to this length");
   CLI11_PARSE(app, argc, argv);
   options.max_cells = 1e9;
   try {
-    testing::registerPlugins();
+    omnimapper::mapper::loadFeatures();
     std::printf(
         "| map | times | key frames | MRPT rebuild [ms] | ours, from scratch [ms] | ratio | ours, a fifth moved "
         "[ms] | ratio | cells out [ms] |\n|---|---|---|---|---|---|---|---|---|\n");
     for (const auto& path : maps) {
-      const auto once = mapper::readMap(path, mapper::registeredKinds()).map;
+      const auto once = derived::readMap(path, mapper::registeredKinds()).map;
       for (const int times : {1, 2, 4}) {
         const Row row = measure(repeated(once, times), options);
         std::printf("| %s | %d | %zu | %.1f | %.1f | %.3f | %.1f | %.3f | %.1f |\n",

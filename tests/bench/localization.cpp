@@ -7,8 +7,8 @@
 //          bench-localization -i ini/laser2d.ini -r mit-csail.rawlog --in intel.rawlog -o out/elsewhere
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -229,7 +229,7 @@ int main(int argc, char** argv) {
   app.add_option("-o,--output", setup.out)->required();
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  testing::registerPlugins();
+  omnimapper::mapper::loadFeatures();
   std::filesystem::create_directories(setup.out);
   std::printf(
       "| log | key frames | located | of those within 3 m of the map | over 0.5 m or 10 deg off | error: median, worst "

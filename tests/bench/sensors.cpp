@@ -5,10 +5,10 @@
 //
 //   bench-sensors --simulated out/home out/office out/laboratory -o out/sensors --svg doc/results/sensors.svg
 #include <omnimapper/draw/Svg.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -70,7 +70,7 @@ Counts countBySensor(const map::Map& map) {
 
 // Mean number of matches in each block of ten key frames that have an observation of that class.
 template <class Observation>
-std::vector<Eigen::Vector2d> matchedByFrame(const mapper::SavedMap& saved, const std::string& kind) {
+std::vector<Eigen::Vector2d> matchedByFrame(const derived::SavedMap& saved, const std::string& kind) {
   constexpr int kBlock = 10;
   std::vector<Eigen::Vector2d> means;
   Eigen::Vector2d sum(0, 0);
@@ -171,7 +171,7 @@ int main(int argc, char** argv) {
   app.add_option("--scans", setup.scans_ini, "INI of scan matching alone")->capture_default_str();
   app.add_option("--threads", setup.threads);
   CLI11_PARSE(app, argc, argv);
-  omnimapper::testing::registerPlugins();
+  omnimapper::mapper::loadFeatures();
   std::printf(
       "| place | scan matching alone | laser lines | camera planes | both | landmarks: laser, camera, both |\n"
       "|---|---|---|---|---|---|\n");

@@ -5,8 +5,8 @@
 // Example: bench-session_alignment -i ini/laser2d.ini -r aces.rawlog -o out/alignment
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", setup.threads);
   app.add_option("--set", setup.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  testing::registerPlugins();
+  omnimapper::mapper::loadFeatures();
   std::filesystem::create_directories(setup.out);
   run(setup, setup.log, setup.out + "/whole", "");
   const auto whole = trajectoryOf(mapIn(setup.out + "/whole"));

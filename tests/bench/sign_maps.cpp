@@ -12,9 +12,9 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/sim/SimulationRun.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -370,7 +370,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     if (request.simulated_ini.empty()) request.simulated_ini = bench::iniIn(request.folder);
-    omnimapper::testing::registerPlugins();
+    omnimapper::mapper::loadFeatures();
     mrpt::rtti::registerClass(CLASS_ID(SignWatchOutputFactory));
     bench::run(request);
   } catch (const std::exception& error) {

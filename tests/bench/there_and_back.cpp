@@ -5,10 +5,10 @@
 // Example: bench-there_and_back -i ini/laser2d.ini -r aces.rawlog -o out/length
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <omnimapper/testing/registerPlugins.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", threads);
   app.add_option("--set", settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
-  testing::registerPlugins();
+  omnimapper::mapper::loadFeatures();
   std::filesystem::create_directories(out);
   const auto observations = read(log);
   std::ofstream csv(out + "/length.csv");

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MapperRun.h>
@@ -42,8 +42,8 @@ class Continue : public ::testing::Test {
   }
   std::unique_ptr<Engine> goOn(const Engine& before, const Observations& observations) {
     const auto view = before.view();
-    mapFileOf(view.map, view.graph, view.sections).write(path_);
-    auto saved = readMap(path_, registeredKinds());
+    derived::mapFileOf(view.map, view.graph, view.sections).write(path_);
+    auto saved = derived::readMap(path_, registeredKinds());
     const auto start = start_.startOn(saved.map);
     auto engine = testing::makeEngine(ini_, settings_);
     engine->sessions().continueFrom(std::move(saved), start);
@@ -185,7 +185,7 @@ TEST_F(Continue, TheMapOfTwoSessionsIsTheSameInEveryBitWithMoreThreads) {
   const auto before = map(first);
   start_.start = SessionOptions::Start::anywhere;
   const auto once = goOn(*before, second);
-  auto saved = readMap(path_, registeredKinds());
+  auto saved = derived::readMap(path_, registeredKinds());
   const auto start = start_.startOn(saved.map);
   const auto again = testing::makeEngine(ini_, settings_, 3);
   again->sessions().continueFrom(std::move(saved), start);
@@ -199,8 +199,8 @@ TEST_F(Continue, ASectionOfNobodyHereSurvivesTwoSessions) {
   const auto middle = rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2);
   const auto begun = map(first);
   auto view = begun->view();
-  mapFileOf(view.map, view.graph, {{"plugin stranger", 4, std::string("x\0y", 3)}}).write(path_);
-  auto saved = readMap(path_, registeredKinds());
+  derived::mapFileOf(view.map, view.graph, {{"plugin stranger", 4, std::string("x\0y", 3)}}).write(path_);
+  auto saved = derived::readMap(path_, registeredKinds());
   const auto start = start_.startOn(saved.map);
   auto second = testing::makeEngine(ini_);
   second->sessions().continueFrom(std::move(saved), start);

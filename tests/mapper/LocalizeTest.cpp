@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MapperRun.h>
@@ -32,13 +32,13 @@ class Localize : public ::testing::Test {
     const auto engine = testing::makeEngine(testing::kLaserIni);
     testing::run(*engine, mapped_->observations());
     const auto view = engine->view();
-    mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "map.omnimap");
+    derived::mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "map.omnimap");
   }
   static void TearDownTestSuite() {
     folder_.reset();
     mapped_.reset();
   }
-  static SavedMap saved() { return readMap(*folder_ / "map.omnimap", registeredKinds()); }
+  static derived::SavedMap saved() { return derived::readMap(*folder_ / "map.omnimap", registeredKinds()); }
 
   // Another drive through the same ring, from its start.
   std::unique_ptr<Engine> localize(const Observations& observations, int threads = 1) {
@@ -141,8 +141,8 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   const auto mapping = testing::makeEngine(ini);
   testing::run(*mapping, mapped.observations());
   const auto view = mapping->view();
-  mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "gps.omnimap");
-  auto map = readMap(*folder_ / "gps.omnimap", registeredKinds());
+  derived::mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "gps.omnimap");
+  auto map = derived::readMap(*folder_ / "gps.omnimap", registeredKinds());
   SessionOptions session;
   session.start = SessionOptions::Start::pose;
   session.start_x = 30, session.start_y = -20, session.start_yaw = 2;
@@ -169,8 +169,8 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverAlignedIsNoPlaceToBeLocatedIn) {
   testing::run(*both, box.observations());
   ASSERT_FALSE(both->view().map.sessions.back().aligned);
   const auto view = both->view();
-  mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "apart.omnimap");
-  auto map = readMap(*folder_ / "apart.omnimap", registeredKinds());
+  derived::mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "apart.omnimap");
+  auto map = derived::readMap(*folder_ / "apart.omnimap", registeredKinds());
   SessionStart start{map.map.key_frames[saved().map.key_frames.size()].map_from_base, 1, 0.5};
   const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, true);
   engine->sessions().localizeIn(std::move(map), start, kFreeKeyFrames);

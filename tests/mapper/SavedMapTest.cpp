@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/HandMadeRun.h>
@@ -44,14 +44,14 @@ class SavedMapFile : public ::testing::Test {
     run_.map.landmarks.add(0, landmark);
     run_.sections = {{"plugin gone", 7, std::string("a\0b", 3)}, {"of the future", 1, "c"}};
   }
-  map::MapFile file() const { return mapFileOf(run_.map, run_.graph, run_.sections); }
+  map::MapFile file() const { return derived::mapFileOf(run_.map, run_.graph, run_.sections); }
   std::string refusal(const map::MapFile& file) const {
     file.write(path_);
     return refusal();
   }
   std::string refusal() const {
     try {
-      readMap(path_, registeredKinds());
+      derived::readMap(path_, registeredKinds());
     } catch (const base::Error& error) {
       EXPECT_EQ(error.code(), base::ExitCode::unreadable_input) << error.what();
       EXPECT_EQ(std::string(error.what()).rfind(path_, 0), 0U) << "names the file: " << error.what();
@@ -69,25 +69,25 @@ TEST_F(SavedMapFile, WrittenReadAndWrittenAgainItHasTheSameBytesTwice) {
   file().write(path_);
   const std::string first = contentOf(path_);
   for (int trip = 0; trip < 2; ++trip) {
-    const auto saved = readMap(path_, registeredKinds());
+    const auto saved = derived::readMap(path_, registeredKinds());
     ASSERT_EQ(saved.sections.size(), 2U);
     EXPECT_EQ(saved.sections[0].name, "plugin gone");
     EXPECT_EQ(saved.sections[0].version, 7U);
     EXPECT_EQ(saved.sections[0].bytes, std::string("a\0b", 3));
     EXPECT_EQ(saved.map.landmarks.find({0, 0})->payload->kind(), "foreign");
-    mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
+    derived::mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
     EXPECT_TRUE(contentOf(path_) == first) << "trip " << trip;
   }
 }
 
 TEST_F(SavedMapFile, TheFolderThatHoldsItIsAsGood) {
   file().write(path_);
-  EXPECT_EQ(readMap(folder_.path(), registeredKinds()).map.key_frames.size(), 4U);
+  EXPECT_EQ(derived::readMap(folder_.path(), registeredKinds()).map.key_frames.size(), 4U);
 }
 
 TEST_F(SavedMapFile, AMapOfVersionOneIsReadWithASessionMadeUp) {
   const std::string old = testing::sourceFile("tests/map/data/version1.omnimap");
-  const auto saved = readMap(old, registeredKinds());
+  const auto saved = derived::readMap(old, registeredKinds());
   EXPECT_FALSE(map::MapFile::read(old).find("sessions"));
   ASSERT_GT(saved.map.key_frames.size(), 3U);
   EXPECT_EQ(saved.motion(), Motion::planar);
@@ -99,10 +99,10 @@ TEST_F(SavedMapFile, AMapOfVersionOneIsReadWithASessionMadeUp) {
     EXPECT_EQ(frame.observations.size(), 2U) << "the scan and its points";
   }
   EXPECT_TRUE(saved.map.landmarks.empty());
-  mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
+  derived::mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
   const std::string first = contentOf(path_);
-  const auto again = readMap(path_, registeredKinds());
-  mapFileOf(again.map, again.graph, again.sections).write(path_);
+  const auto again = derived::readMap(path_, registeredKinds());
+  derived::mapFileOf(again.map, again.graph, again.sections).write(path_);
   EXPECT_TRUE(contentOf(path_) == first);
 }
 

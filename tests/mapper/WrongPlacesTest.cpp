@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/FloorPlan.h>
@@ -110,8 +110,8 @@ Outcome outcomeOf(const Drive& first, const Drive& second, const SessionOptions&
   const auto before = testing::makeEngine(testing::kLaserIni);
   testing::run(*before, first.observations);
   const auto path = folder / "map.omnimap";
-  mapFileOf(before->view().map, before->view().graph, before->view().sections).write(path);
-  auto saved = readMap(path, registeredKinds());
+  derived::mapFileOf(before->view().map, before->view().graph, before->view().sections).write(path);
+  auto saved = derived::readMap(path, registeredKinds());
   const auto start = options.startOn(saved.map);
   const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, localize);
   if (localize)

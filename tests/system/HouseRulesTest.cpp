@@ -143,7 +143,7 @@ TEST(HouseRules, aFeatureStandsOnTheInterfaceOfPluginsAndOnNoOtherFeature) {
       for (const std::string& used : includedLibraries(file)) {
         EXPECT_NE(std::find(order.begin(), floor, used), floor)
             << projectPath(file) << " includes omnimapper/" << used
-            << ": features may use the libraries up to landmarks, but neither the engine nor what is above it";
+            << ": features may use the libraries up to derived, but neither the engine nor what is above it";
         EXPECT_TRUE(std::count(named.begin(), named.end(), used) > 0)
             << projectPath(file) << " includes omnimapper/" << used << ", but " << folder
             << "/CMakeLists.txt does not name omnimapper::" << used;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
@@ -7,7 +8,6 @@
 #include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <map>
@@ -24,12 +24,12 @@ namespace runs {
 using omnimapper::testing::SimulatedLog;
 namespace map_file = omnimapper::map;
 
-using LoadedMap = omnimapper::mapper::SavedMap;
+using LoadedMap = omnimapper::derived::SavedMap;
 
 /// Loads map.omnimap. Throws base::Error if any part of it is damaged.
 inline LoadedMap loadMap(const std::string& folder) {
   omnimapper::mapper::loadFeatures();  // registers the classes of its observations
-  return omnimapper::mapper::readMap(folder + "/map.omnimap", omnimapper::mapper::registeredKinds());
+  return omnimapper::derived::readMap(folder + "/map.omnimap", omnimapper::mapper::registeredKinds());
 }
 
 inline omnimapper::eval::Trajectory loadTrajectory(const std::string& folder) {

@@ -78,9 +78,9 @@ function(expect_gui_error text)
   endif()
 endfunction()
 expect_gui_error("no display")
-file(GLOB_RECURSE window "${prefix}/libomnimapper-window.so")
+file(GLOB_RECURSE window "${prefix}/libomnimapper-live-scene.so")
 file(RENAME "${window}" "${SCRATCH}/taken_away.so")
-expect_gui_error("libomnimapper-window.so belongs beside")
+expect_gui_error("libomnimapper-live-scene.so belongs beside")
 file(RENAME "${SCRATCH}/taken_away.so" "${window}")
 
 # The drivers of sensors are loaded for live runs alone. A run of a log does without their library; a live one says so.

@@ -2,9 +2,9 @@
 
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/WorkerPool.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
 #include <omnimapper/mapper/SensorPoses.h>
 
 #include <functional>

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/derived/SceneLandmarks.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -8,7 +9,6 @@
 #include "dynamic/DynamicLandmarksPlugin.h"
 #include "dynamic/MovedThingPayload.h"
 #include "plan/GeoJson.h"
-#include "scene/SceneLandmarks.h"
 
 namespace omnimapper::plugins::dynamic_landmarks_plugin_test {
 namespace {
@@ -88,14 +88,14 @@ TEST(DynamicLandmarksPlugin, InOutputsAMovedLandmarkIsItsPlacesAndStandsNowhere)
   const auto engine = testing::makeEngine(kIni, kWithMoveables);
   testing::run(*engine, withMovedPoints(twoLaps(), {3}, {0.6, 0.3, 0}));
   const auto view = engine->view();
-  const auto shapes = exports::shapesOf(view);
+  const auto shapes = derived::shapesOf(view);
   const auto record = std::find_if(shapes.begin(), shapes.end(),
                                    [](const auto& shaped) { return shaped.landmark->kind == "moved thing"; });
   ASSERT_NE(record, shapes.end());
   EXPECT_TRUE(record->moved);
-  EXPECT_EQ(exports::lengthOf(record->shape), 0) << "a length in the table is a wall's";
-  EXPECT_TRUE(exports::landmarkTriangles({*record}).empty()) << "landmarks.ply has what stands";
-  const auto plan = nlohmann::json::parse(exports::encodeGeoJson({view, "test", true, false}));
+  EXPECT_EQ(derived::lengthOf(record->shape), 0) << "a length in the table is a wall's";
+  EXPECT_TRUE(derived::landmarkTriangles({*record}).empty()) << "landmarks.ply has what stands";
+  const auto plan = nlohmann::json::parse(plugins::encodeGeoJson({view, "test", true, false}));
   for (const auto& feature : plan["features"]) {
     const auto& properties = feature["properties"];
     const bool moved = properties["label"] == "marker 3";

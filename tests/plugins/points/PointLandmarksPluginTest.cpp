@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/geometry/Angle.h>
-#include <omnimapper/mapper/SavedMap.h>
 
 #include <set>
 

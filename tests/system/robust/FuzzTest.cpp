@@ -2,8 +2,8 @@
 // a program. Whatever the files contain, a run ends by itself, in time, with an exit code that doc/exit_codes.md
 // explains and that is not "a defect of ours".
 #include <omnimapper/base/ChildProcess.h>
+#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/testing/registerPlugins.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ std::string damaged(std::string bytes, Dice& dice) {
 class Fuzz : public ::testing::Test {
  protected:
   Fuzz() {
-    omnimapper::testing::registerPlugins();
+    omnimapper::mapper::loadFeatures();
     SimulatedLogOptions options;
     options.place = SimulatedLogOptions::Place::box;
     options.laps = 0.15;

@@ -1,6 +1,6 @@
 #include "back_end/BackEnd.h"
 
-#include <omnimapper/mapper/SessionAlignment.h>
+#include <omnimapper/derived/SessionAlignment.h>
 #include <omnimapper/plugin/SessionSeeking.h>
 
 #include <algorithm>
@@ -163,9 +163,9 @@ void BackEnd::solve(const graph::SolveOptions& options) {
     const auto timer = state_.times.measure(Stage::solve);
     estimator_.solve(options);
     if (!window_) {
-      markAligned(state_.map, state_.graph, absolute_);
+      derived::markAligned(state_.map, state_.graph, absolute_);
     } else if (!window_->hasRetired()) {
-      markLocated(state_.map, state_.graph, absolute_);
+      derived::markLocated(state_.map, state_.graph, absolute_);
     }
   }
   kept_.posesChanged();
@@ -211,10 +211,10 @@ void BackEnd::judgeMap() {
   if (!state_.map_is_held) {
     for (const auto& session : state_.map.sessions) {
       const std::string name = "session_" + std::to_string(session.number);
-      const auto ties = testedTies(state_.graph, session.number);
+      const auto ties = derived::testedTies(state_.graph, session.number);
       if (!session.aligned) {
         evidence.push_back({name + "_not_aligned", 1, Evidence::Says::against_it,
-                            alignedText(session) + " with the map and lies at its assumed start"});
+                            derived::alignedText(session) + " with the map and lies at its assumed start"});
       } else if (ties.areMostlyRefused()) {
         evidence.push_back({name + "_ties_refused", static_cast<double>(ties.refused), Evidence::Says::against_it,
                             std::to_string(ties.refused) + " of the " + std::to_string(ties.refused + ties.accepted) +

@@ -1,6 +1,6 @@
 #include "run/Checkpoints.h"
 
-#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/derived/SavedMap.h>
 
 #include <exception>
 #include <filesystem>
@@ -22,7 +22,7 @@ std::string Checkpoints::offer(const View& view) {
   last_ = now;
   copy_ = std::make_unique<const Copy>(Copy{view.map, view.graph, view.sections});
   written_ = std::async(std::launch::async, [copy = copy_.get(), path = path_] {
-    mapFileOf(copy->map, copy->graph, copy->sections).write(path);
+    derived::mapFileOf(copy->map, copy->graph, copy->sections).write(path);
   });
   return "";
 }

@@ -1,10 +1,10 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/OutputFolder.h>
+#include <omnimapper/derived/SessionAlignment.h>
 #include <omnimapper/live/LiveOptions.h>
 #include <omnimapper/live/SensorSection.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/mapper/SessionAlignment.h>
 #include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/source/SourceOptions.h>

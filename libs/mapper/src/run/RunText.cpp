@@ -1,7 +1,7 @@
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/derived/SessionAlignment.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/mapper/SessionAlignment.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -77,7 +77,7 @@ std::string toText(const RunResult& result) {
   } else if (result.sessions.size() > 1) {
     const auto& session = result.sessions.back();
     sessions = "sessions          " + std::to_string(result.sessions.size()) + ", the new one with " +
-               base::counted(result.new_key_frames, "key frame") + "; " + alignedText(session) + "\n";
+               base::counted(result.new_key_frames, "key frame") + "; " + derived::alignedText(session) + "\n";
   }
   const std::size_t of_map = result.localized > 0 ? result.key_frames - result.new_key_frames : 0;
   const std::string held = of_map > 0 ? " (and " + std::to_string(of_map) + " of the map, which is not changed)" : "";

@@ -1,7 +1,7 @@
 #include "run/RunWarnings.h"
 
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/mapper/SessionAlignment.h>
+#include <omnimapper/derived/SessionAlignment.h>
 
 #include "run/SourceWarnings.h"
 
@@ -21,10 +21,10 @@ bool isMeasured(const View& view, const std::set<std::string>& measuring) {
 
 // Warns of a session that may be aligned to a wrong place, where rooms look alike.
 void warnOfRefusedTies(const map::Session& session, bool stopped, Engine& engine) {
-  const TestedTies ties = testedTies(engine.view().graph, session.number);
+  const derived::TestedTies ties = derived::testedTies(engine.view().graph, session.number);
   if (!ties.areMostlyRefused()) return;
   engine.warn(
-      alignedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
+      derived::alignedText(session) + ", but " + std::to_string(ties.refused) + " of the " +
       std::to_string(ties.refused + ties.accepted) + " measurements that tie it to the map " +
       (stopped ? "do not fit, or were not confirmed before the run was interrupted"
                : "do not fit: it may be aligned to a wrong place that looks similar, or the map is distorted there. "
@@ -87,7 +87,8 @@ void warnOfNothingMeasured(const std::set<std::string>& measuring,
 void warnOfEarlierSessions(const std::vector<map::Session>& sessions, Engine& engine) {
   for (std::size_t i = 0; i + 1 < sessions.size(); ++i) {
     if (!sessions[i].aligned)
-      engine.warn(alignedText(sessions[i]) + " with the map: it lies at its assumed start, which may be wrong");
+      engine.warn(derived::alignedText(sessions[i]) +
+                  " with the map: it lies at its assumed start, which may be wrong");
   }
 }
 
@@ -95,7 +96,7 @@ void warnOfSession(const map::Session& session, bool stopped, Engine& engine) {
   if (session.aligned) return warnOfRefusedTies(session, stopped, engine);
   if (engine.view().map_is_held) return;
   engine.warn(
-      alignedText(session) +
+      derived::alignedText(session) +
       " with the map: it lies where [session] start or a single relocalization places it, which may be wrong; see the "
       "refused closures and relocalizations in the report. Was "
       "it recorded in another place? If not, drive on where the map was made, or give a better start (origin, pose, or "

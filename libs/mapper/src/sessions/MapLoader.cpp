@@ -1,8 +1,8 @@
 #include "sessions/MapLoader.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/mapper/PluginRegistry.h>
-#include <omnimapper/mapper/SavedMap.h>
 
 #include <exception>
 #include <filesystem>
@@ -32,7 +32,7 @@ void loadMapInto(const RunRequest& request, const SessionOptions& session, const
                  Engine& engine) {
   const std::string& path = request.localize_map.empty() ? request.continue_map : request.localize_map;
   if (path.empty()) return;
-  auto saved = readMap(path, registeredKinds());
+  auto saved = derived::readMap(path, registeredKinds());
   if (saved.motion() != motion) {
     const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
     throw base::Error(base::ExitCode::unreadable_input,

@@ -5,7 +5,7 @@
 
 namespace omnimapper::mapper {
 
-void SessionManager::continueFrom(SavedMap saved, const SessionStart& start) {
+void SessionManager::continueFrom(derived::SavedMap saved, const SessionStart& start) {
   map::Session session = state_.map.sessions.back();
   state_.map = std::move(saved.map);
   state_.graph = std::move(saved.graph);
@@ -17,7 +17,7 @@ void SessionManager::continueFrom(SavedMap saved, const SessionStart& start) {
   back_end_.resume();
 }
 
-void SessionManager::localizeIn(SavedMap saved, const SessionStart& start, int key_frames) {
+void SessionManager::localizeIn(derived::SavedMap saved, const SessionStart& start, int key_frames) {
   continueFrom(std::move(saved), start);
   back_end_.holdMap(key_frames);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/mapper/SavedMap.h>
+#include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/plugin/SessionStart.h>
 
 #include <optional>
@@ -22,10 +22,10 @@ class SessionManager {
 
   /// Must be called before the first observation: loads a saved map. The session becomes a new session of it, which
   /// begins at `start`. Throws Error(unreadable_input) if a plugin cannot use its section.
-  void continueFrom(SavedMap saved, const SessionStart& start);
+  void continueFrom(derived::SavedMap saved, const SessionStart& start);
   /// Like continueFrom(), but the map is held fixed: later key frames are only localized in it, and about `key_frames`
   /// of them are kept free.
-  void localizeIn(SavedMap saved, const SessionStart& start, int key_frames);
+  void localizeIn(derived::SavedMap saved, const SessionStart& start, int key_frames);
 
  private:
   BackEnd& back_end_;

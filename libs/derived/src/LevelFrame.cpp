@@ -1,0 +1,60 @@
+#include <omnimapper/derived/LevelFrame.h>
+#include <omnimapper/geometry/Conversions.h>
+
+namespace omnimapper::derived {
+
+LevelFrame::LevelFrame(const map::Map& map) {
+  level_from_map_.translation.setZero();
+  level_from_map_.rotation.setIdentity();
+  if (!map.level || !map.level->isKnown() || map.level->up == Eigen::Vector3d::UnitZ()) return;
+  is_of_map_ = false;
+  level_from_map_.rotation = map.level->levelFromMap();
+}
+
+std::vector<ShapedLandmark> LevelFrame::operator()(std::vector<ShapedLandmark> landmarks) const {
+  if (is_of_map_) return landmarks;
+  for (auto& shaped : landmarks) {
+    map::LandmarkShape& shape = shaped.shape;
+    for (auto* polygons : {&shape.surfaces, &shape.holes})
+      for (auto& polygon : *polygons)
+        for (auto& vertex : polygon.vertices) vertex = level_from_map_ * vertex;
+    for (auto& [from, to] : shape.lines) {
+      from = level_from_map_ * from;
+      to = level_from_map_ * to;
+    }
+    for (auto& point : shape.points) point = level_from_map_ * point;
+    if (shape.normal) shape.normal = level_from_map_.rotation * *shape.normal;
+  }
+  return landmarks;
+}
+
+std::vector<map::StampedPose> LevelFrame::operator()(std::vector<map::StampedPose> trajectory) const {
+  if (is_of_map_) return trajectory;
+  for (auto& pose : trajectory)
+    pose.map_from_base = geometry::toMrpt(level_from_map_ * geometry::fromMrpt(pose.map_from_base));
+  return trajectory;
+}
+
+std::vector<Closure> LevelFrame::operator()(std::vector<Closure> closures) const {
+  if (is_of_map_) return closures;
+  for (auto& closure : closures) {
+    for (auto* end : {&closure.from, &closure.to}) {
+      const Eigen::Vector3d turned = level_from_map_ * Eigen::Vector3d(end->x, end->y, end->z);
+      *end = {turned.x(), turned.y(), turned.z()};
+    }
+  }
+  return closures;
+}
+
+map::Map LevelFrame::operator()(map::Map map) const {
+  if (is_of_map_) return map;
+  std::vector<base::KeyFrameId> ids;
+  for (const auto& frame : map.key_frames) ids.push_back(frame.id);
+  for (const auto id : ids) {
+    auto& pose = map.key_frames.edit(id).map_from_base;
+    pose = geometry::toMrpt(level_from_map_ * geometry::fromMrpt(pose));
+  }
+  return map;
+}
+
+}  // namespace omnimapper::derived

@@ -1,0 +1,194 @@
+#include <omnimapper/derived/LandmarkShapes.h>
+#include <omnimapper/derived/PlacesOfMap.h>
+#include <omnimapper/derived/PlanShape.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace omnimapper::derived {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+map::Extent extentOf(const map::LandmarkShape& shape, const Vector3d& position) {
+  PlanShape plan = fromAbove(shape);
+  map::LandmarkShape holes;
+  holes.surfaces = shape.holes;
+  map::Extent extent{
+      std::move(plan.points), std::move(plan.lines), std::move(plan.areas), fromAbove(holes).areas, 0, 0};
+  if (extent.points.empty() && extent.lines.empty() && extent.outlines.empty())
+    extent.points.emplace_back(position.head<2>());  // too small to have an outline from above
+  const Eigen::AlignedBox3d box = boxOf(shape);
+  extent.bottom = box.min().z();
+  extent.top = box.max().z();
+  return extent;
+}
+
+// The centre of its surfaces, else of its lines, else of its points.
+Vector3d middleOf(const map::LandmarkShape& shape) {
+  Vector3d sum = Vector3d::Zero();
+  double weight = 0;
+  const auto add = [&](const Vector3d& at, double of) {
+    sum += of * at;
+    weight += of;
+  };
+  for (const auto& surface : shape.surfaces) {
+    const auto& corners = surface.vertices;
+    const Vector3d normal = geometry::areaVector(surface).normalized();
+    // Triangles that share the first corner; where the outline is concave their areas are negative.
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const double twice = (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]).dot(normal);
+      add((corners[0] + corners[i - 1] + corners[i]) / 3, twice / 2);
+    }
+  }
+  if (weight > 0) return sum / weight;
+  sum.setZero();
+  weight = 0;
+  for (const auto& [from, to] : shape.lines) add((from + to) / 2, (to - from).norm());
+  if (weight > 0) return sum / weight;
+  for (const auto& [from, to] : shape.lines) add((from + to) / 2, 1);
+  for (const auto& point : shape.points) add(point, 1);
+  return sum / weight;
+}
+
+Vector3d positionOf(const map::LandmarkShape& shape) {
+  const auto& stamps = shape.point_stamps;
+  if (stamps.empty() || stamps.size() != shape.points.size()) return middleOf(shape);
+  return shape.points[static_cast<std::size_t>(std::max_element(stamps.begin(), stamps.end()) - stamps.begin())];
+}
+
+// Derivative of the distance between `point` and a plane or line variable with respect to the variable's tangent.
+Eigen::RowVectorXd distanceJacobian(const graph::Variable& kind, const Eigen::VectorXd& value, const Vector3d& point) {
+  constexpr double kStep = 1e-6;
+  const auto distance = [&](double step, int axis) {
+    Eigen::VectorXd delta = Eigen::VectorXd::Zero(kind.tangentSize()), moved(value.size());
+    delta[axis] = step;
+    kind.plus(value.data(), delta.data(), moved.data());
+    const Eigen::VectorXd plane = kind.hyperplane(moved.data());
+    const auto directions = plane.size() - 1;
+    return plane.head(directions).dot(point.head(directions)) + plane[directions];
+  };
+  Eigen::RowVectorXd jacobian(kind.tangentSize());
+  for (int axis = 0; axis < jacobian.size(); ++axis)
+    jacobian[axis] = (distance(kStep, axis) - distance(-kStep, axis)) / (2 * kStep);
+  return jacobian;
+}
+
+// The tangents of points and poses begin with the position.
+int positionSize(const graph::Variable& kind) {
+  const std::string_view name = kind.kind();
+  return name == "point3" || name == "se3" ? 3 : name == "point2" || name == "se2" ? 2 : 0;
+}
+
+void addSigma(const map::Landmark& landmark, const mapper::State& state, map::Place& place) {
+  if (landmark.variables.size() != 1 || !state.graph.contains(landmark.variables.front())) return;
+  const auto id = landmark.variables.front();
+  const graph::Variable& kind = *state.graph.variable(id).kind;
+  const Eigen::VectorXd value = state.graph.value(id);
+  const bool is_plane = kind.hyperplane(value.data()).size() > 0;
+  const int size = positionSize(kind);
+  if (!is_plane && size == 0) return;
+  const auto covariance = state.jointCovariance({id});
+  if (!covariance || !covariance->allFinite()) return;
+  double variance = 0;
+  if (is_plane) {
+    const Eigen::RowVectorXd jacobian = distanceJacobian(kind, value, place.position);
+    variance = (jacobian * *covariance * jacobian.transpose()).value();
+  } else {
+    const Eigen::MatrixXd of_position = covariance->topLeftCorner(size, size);
+    variance = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(of_position).eigenvalues().maxCoeff();
+  }
+  if (!(variance >= 0) || !std::isfinite(variance)) return;
+  place.sigma = std::sqrt(variance);
+  place.sigma_is_along_normal = is_plane;
+}
+
+using FramesByPose = std::unordered_map<base::VariableId, const map::KeyFrame*>;
+
+// Mean horizontal direction from the landmark to the poses that measured it. None if it was seen from all around,
+// because the directions then largely cancel.
+std::optional<Vector3d> seenFrom(const map::Landmark& landmark, const mapper::State& state, const FramesByPose& frames,
+                                 const Vector3d& position) {
+  constexpr double kOneSided = 0.5;  // smallest length of the mean of unit directions
+  Vector3d sum = Vector3d::Zero();
+  double count = 0;
+  for (const auto factor : state.factorsOf(landmark.id)) {
+    for (const auto variable : state.graph.factor(factor).variables) {
+      const auto frame = frames.find(variable);
+      if (frame == frames.end()) continue;
+      const auto& pose = frame->second->map_from_base;
+      const Vector2d direction = Vector2d(pose.x(), pose.y()) - position.head<2>();
+      if (!(direction.norm() > 0)) continue;
+      sum.head<2>() += direction.normalized();
+      ++count;
+    }
+  }
+  if (count == 0 || sum.norm() < kOneSided * count) return std::nullopt;
+  return sum.normalized();
+}
+
+bool allHaveVariables(const map::Landmark& landmark, const graph::Graph& graph) {
+  return std::all_of(landmark.variables.begin(), landmark.variables.end(),
+                     [&](const auto variable) { return graph.contains(variable); });
+}
+
+constexpr char kOfSensors[] = "seen_by_";  // prefix of map::seenByKey(); these counts go into Place::seen_by
+
+map::Place placeOf(const ShapedLandmark& shaped, const mapper::State& state, const FramesByPose& frames) {
+  const map::Landmark& landmark = *shaped.landmark;
+  map::Place place;
+  place.id = landmark.id;
+  place.label = shaped.shape.label;
+  place.caption = shaped.shape.caption;
+  const std::string named = landmark.kind + " ";  // "marker 12" is counted as "marker"
+  place.kind = place.label.compare(0, named.size(), named) == 0 ? landmark.kind : place.label;
+  place.moved = shaped.moved;
+  for (const auto& [label, count] : seenBy(shaped.shape)) place.seen_by[label] = count;
+  for (const auto& property : shaped.shape.properties)
+    if (property.first.rfind(kOfSensors, 0) != 0) place.properties.push_back(property);
+  place.position = positionOf(shaped.shape);
+  place.extent = extentOf(shaped.shape, place.position);
+  if (shaped.shape.normal) place.normal = shaped.shape.normal->normalized();
+  place.measurements = landmark.evidence;
+  place.first_seen = landmark.first_seen;
+  place.last_seen = landmark.last_seen;
+  if (allHaveVariables(landmark, state.graph)) {
+    place.seen_from = seenFrom(landmark, state, frames, place.position);
+    addSigma(landmark, state, place);
+  }
+  return place;
+}
+
+bool isAligned(std::uint16_t session, const map::Map& map) {
+  return std::none_of(map.sessions.begin(), map.sessions.end(),
+                      [&](const map::Session& each) { return each.number == session && !each.aligned; });
+}
+
+std::optional<map::LastPose> lastPoseOf(const map::Map& map) {
+  std::optional<map::LastPose> last;
+  for (const auto& frame : map.key_frames) {
+    if (!isAligned(frame.id.session, map)) continue;
+    const auto& pose = frame.map_from_base;
+    last = {pose.x(), pose.y(), pose.yaw(), frame.stamp, frame.id.session};
+  }
+  return last;
+}
+
+}  // namespace
+
+map::Places placesOf(const mapper::State& state) {
+  FramesByPose frames;
+  for (const auto& frame : state.map.key_frames) frames[frame.pose] = &frame;
+  map::Places places;
+  for (const auto& shaped : shapesOf(state))
+    if (shaped.isSomewhere() && isAligned(shaped.landmark->id.session, state.map))
+      places.places.push_back(placeOf(shaped, state, frames));
+  places.last_pose = lastPoseOf(state.map);
+  return places;
+}
+
+}  // namespace omnimapper::derived

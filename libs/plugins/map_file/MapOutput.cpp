@@ -1,0 +1,35 @@
+#include "MapOutput.h"
+
+#include <omnimapper/derived/OutputFile.h>
+#include <omnimapper/derived/PlacesOfMap.h>
+#include <omnimapper/derived/SavedMap.h>
+
+IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
+
+namespace omnimapper::plugins {
+
+const base::OptionTable<MapOutputOptions>& MapOutputOptions::table() {
+  using mapper::RawImages;
+  static const auto table = base::OptionTable<MapOutputOptions>().choice(
+      "keep_raw", &MapOutputOptions::keep_raw,
+      {{"none", RawImages::none}, {"depth", RawImages::depth}, {"all", RawImages::all}},
+      "Which images of the log are kept with the key frames. none: none of them; a thinned coloured cloud stays. "
+      "depth: the depth images. all: all images. What is not kept cannot be recovered from the map later.");
+  return table;
+}
+
+MapOutput::MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context)
+    : path_(derived::outputPath(context, "map.omnimap")), keep_raw_(options.keep_raw) {}
+
+void MapOutput::finish(const mapper::View& view) {
+  map::MapFile file = derived::mapFileOf(view.map, view.graph, view.sections);
+  file.set(map::placesToSection(derived::placesOf(view)));
+  file.write(path_);
+}
+
+std::unique_ptr<mapper::OutputPlugin> MapOutputFactory::make(const base::ConfigSection& section,
+                                                             const mapper::PluginContext& context) const {
+  return std::make_unique<MapOutput>(section.read<MapOutputOptions>(mapper::sectionKeysOfEngine()), context);
+}
+
+}  // namespace omnimapper::plugins
