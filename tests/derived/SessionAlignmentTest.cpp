@@ -20,7 +20,7 @@ struct ThreeSessions {
         map::KeyFrame frame;
         frame.id = {session, i};
         frame.stamp = base::stampFromUnix(1e9 + i);
-        frame.pose = graph.addVariable(poseVariable(Motion::planar), Eigen::Vector3d(i, session, 0));
+        frame.pose = graph.addVariable(mapper::poseVariable(mapper::Motion::planar), Eigen::Vector3d(i, session, 0));
         map.key_frames.insert(frame);
       }
       bind({session, 0}, {session, 1}, "odometry");
@@ -28,7 +28,7 @@ struct ThreeSessions {
   }
   base::FactorId bind(base::KeyFrameId from, base::KeyFrameId to, const std::string& owner) {
     graph.setSession(std::max(from.session, to.session));
-    return graph.addFactor(betweenPoses(Motion::planar, map.keyFrame(from).pose, map.keyFrame(to).pose,
+    return graph.addFactor(mapper::betweenPoses(mapper::Motion::planar, map.keyFrame(from).pose, map.keyFrame(to).pose,
                                         {{}, Eigen::Matrix<double, 6, 6>::Identity()}, owner));
   }
   std::vector<base::VariableId> pointsOf(const std::vector<std::uint16_t>& sessions) {
@@ -97,7 +97,7 @@ TEST(SessionAlignment, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
   const auto prior = [&](base::KeyFrameId id, const std::string& owner) {
     world.graph.setSession(id.session);
     world.graph.addFactor(
-        posePrior(Motion::planar, world.map.keyFrame(id).pose, {}, Eigen::Matrix<double, 6, 6>::Identity(), owner));
+        mapper::posePrior(mapper::Motion::planar, world.map.keyFrame(id).pose, {}, Eigen::Matrix<double, 6, 6>::Identity(), owner));
   };
   prior({1, 0}, "engine");
   EXPECT_FALSE(world.aligned(1)) << "a guess of the start is no measurement";

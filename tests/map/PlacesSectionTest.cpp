@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/Places.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <cmath>
@@ -10,6 +11,10 @@
 
 namespace omnimapper::map::places_section_test {
 namespace {
+
+MapSection toSection(const Places& places) {
+  return layerToSection(Places::kLayer, LayerOf<Places>(places));
+}
 
 Places somePlaces() {
   Place sign;
@@ -42,7 +47,7 @@ Places somePlaces() {
 
 std::string refusal(const std::string& bytes) {
   try {
-    placesFromSection({kPlacesSection, 1, bytes});
+    Places::fromSection({Places::kLayer, 1, bytes});
   } catch (const base::Error& error) {
     EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
     return error.what();
@@ -51,7 +56,7 @@ std::string refusal(const std::string& bytes) {
 }
 
 TEST(PlacesSection, KeepsEveryField) {
-  const Places before = somePlaces(), after = placesFromSection(placesToSection(before));
+  const Places before = somePlaces(), after = Places::fromSection(toSection(before));
   ASSERT_EQ(after.places.size(), 2U);
   const Place &a = before.places[0], &b = after.places[0];
   EXPECT_EQ(a.id, b.id);
@@ -79,12 +84,12 @@ TEST(PlacesSection, KeepsEveryField) {
   EXPECT_EQ(after.last_pose->yaw, 3);
   EXPECT_EQ(after.last_pose->session, 4);
   EXPECT_EQ(after.last_pose->stamp, before.last_pose->stamp);
-  EXPECT_EQ(placesToSection(after).bytes, placesToSection(before).bytes);
-  EXPECT_FALSE(placesFromSection(placesToSection({})).last_pose);
+  EXPECT_EQ(toSection(after).bytes, toSection(before).bytes);
+  EXPECT_FALSE(Places::fromSection(toSection(Places{})).last_pose);
 }
 
 TEST(PlacesSection, AnyCutIsNoticedAndNoByteDoesHarm) {
-  const std::string bytes = placesToSection(somePlaces()).bytes;
+  const std::string bytes = toSection(somePlaces()).bytes;
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_NE(refusal(bytes.substr(0, length)), "") << length;
   EXPECT_NE(refusal(bytes + "x").find("goes on"), std::string::npos);
@@ -101,17 +106,17 @@ TEST(PlacesSection, NumbersThatAreNoneAreRefused) {
   for (const double bad : {std::nan(""), HUGE_VAL}) {
     Places places = somePlaces();
     places.places[0].extent.lines[0].second.x() = bad;
-    EXPECT_NE(refusal(placesToSection(places).bytes).find("not finite"), std::string::npos);
+    EXPECT_NE(refusal(toSection(places).bytes).find("not finite"), std::string::npos);
     places = somePlaces();
     places.last_pose->x = bad;
-    EXPECT_NE(refusal(placesToSection(places).bytes), "");
+    EXPECT_NE(refusal(toSection(places).bytes), "");
   }
   Places places = somePlaces();
   places.places[0].normal = Eigen::Vector3d(0, 0, 0);
-  EXPECT_NE(refusal(placesToSection(places).bytes).find("direction"), std::string::npos);
+  EXPECT_NE(refusal(toSection(places).bytes).find("direction"), std::string::npos);
   places = somePlaces();
   places.places[0].sigma = -1;
-  EXPECT_NE(refusal(placesToSection(places).bytes).find("below zero"), std::string::npos);
+  EXPECT_NE(refusal(toSection(places).bytes).find("below zero"), std::string::npos);
 }
 
 // Damage in a section that is not read goes unnoticed; in the section that is read, and in the bytes that lead to it,
@@ -121,7 +126,7 @@ TEST(PlacesSection, IsReadWithoutTheOthers) {
   const std::string path = folder / "map.omnimap";
   MapFile file;
   file.set({"frames", 1, std::string(1000, 'f')});
-  file.set(placesToSection(somePlaces()));
+  file.set(toSection(somePlaces()));
   file.set({"graph", 1, "ggg"});
   file.write(path);
   std::ifstream in(path, std::ios::binary);
@@ -129,8 +134,8 @@ TEST(PlacesSection, IsReadWithoutTheOthers) {
   const auto read = [&](const std::string& content) -> std::string {
     std::ofstream(path, std::ios::binary) << content;
     try {
-      const auto part = MapFile::readOnly(path, {kPlacesSection, "absent"});
-      return part.sections().size() == 1 && part.find(kPlacesSection) ? "read" : "missed";
+      const auto part = MapFile::readOnly(path, {Places::kLayer, "absent"});
+      return part.sections().size() == 1 && part.find(Places::kLayer) ? "read" : "missed";
     } catch (const base::Error& error) {
       return error.what();
     }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/DenseTrajectory.h>
+#include <omnimapper/map/Level.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/testing/Fixtures.h>
@@ -209,18 +210,18 @@ TEST(LevelSection, HoldsWhichWayIsUpAndRefusesWhatIsNoDirection) {
   level.up = {0, 0.6, 0.8};
   level.covariance.diagonal() = Eigen::Vector3d(1e-4, 2e-4, 0);
   level.reason = "gravity";
-  const Level read = levelFromSection(levelToSection(level));
+  const Level read = Level::fromSection(layerToSection("level", LayerOf<Level>(level)));
   EXPECT_EQ(read.source, level.source);
   EXPECT_EQ(read.up, level.up);
   EXPECT_EQ(read.covariance, level.covariance);
   EXPECT_EQ(read.reason, level.reason);
   level.up = {0, 0, 2};
-  EXPECT_THROW(levelFromSection(levelToSection(level)), base::Error);
-  auto damaged = levelToSection(read);
+  EXPECT_THROW(Level::fromSection(layerToSection("level", LayerOf<Level>(level))), base::Error);
+  auto damaged = layerToSection("level", LayerOf<Level>(read));
   damaged.bytes[0] = 9;
-  EXPECT_THROW(levelFromSection(damaged), base::Error);
+  EXPECT_THROW(Level::fromSection(damaged), base::Error);
   damaged.bytes.resize(20);
-  EXPECT_THROW(levelFromSection(damaged), base::Error);
+  EXPECT_THROW(Level::fromSection(damaged), base::Error);
 }
 
 TEST(Level, TurnsUpToZAndSaysSo) {

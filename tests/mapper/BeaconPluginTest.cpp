@@ -142,7 +142,7 @@ TEST(BeaconPlugin, ASessionFindsItsPlaceInTheMapByTheBeaconsItSeesAgain) {
   const SimulatedLog second_log(options);
   const auto second = testing::makeEngine(kBeaconIni);
   // The initial guess is wrong by a metre and 20 degrees.
-  second->sessions().continueFrom({first->view().map, first->view().graph, {}}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
+  second->sessions().continueFrom({first->view().map, first->view().graph}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
   testing::run(*second, second_log.observations());
   const auto view = second->view();
   ASSERT_EQ(view.map.sessions.size(), 2U);

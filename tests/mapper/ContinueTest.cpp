@@ -42,7 +42,7 @@ class Continue : public ::testing::Test {
   }
   std::unique_ptr<Engine> goOn(const Engine& before, const Observations& observations) {
     const auto view = before.view();
-    derived::mapFileOf(view.map, view.graph, view.sections).write(path_);
+    derived::mapFileToAsk(view).write(path_);
     auto saved = derived::readMap(path_, registeredKinds());
     const auto start = start_.startOn(saved.map);
     auto engine = testing::makeEngine(ini_, settings_);
@@ -199,18 +199,19 @@ TEST_F(Continue, ASectionOfNobodyHereSurvivesTwoSessions) {
   const auto middle = rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2);
   const auto begun = map(first);
   auto view = begun->view();
-  derived::mapFileOf(view.map, view.graph, {{"plugin stranger", 4, std::string("x\0y", 3)}}).write(path_);
+  auto file = derived::mapFileOf(view.map, view.graph);
+  file.set({"plugin stranger", 4, std::string("x\0y", 3)});
+  file.write(path_);
   auto saved = derived::readMap(path_, registeredKinds());
   const auto start = start_.startOn(saved.map);
   auto second = testing::makeEngine(ini_);
   second->sessions().continueFrom(std::move(saved), start);
   testing::run(*second, {rest.begin(), middle});
   const auto third = goOn(*second, {middle, rest.end()});
-  const auto& sections = third->view().sections;
-  ASSERT_EQ(sections.size(), 1U);
-  EXPECT_EQ(sections[0].name, "plugin stranger");
-  EXPECT_EQ(sections[0].version, 4U);
-  EXPECT_EQ(sections[0].bytes, std::string("x\0y", 3));
+  const auto stranger = third->view().map.layers.find("plugin stranger");
+  ASSERT_TRUE(stranger);
+  EXPECT_EQ(stranger->version(), 4U);
+  EXPECT_EQ(stranger->bytes(), std::string("x\0y", 3));
 }
 
 // Without scans and closures, the two sessions share only the earth or the frame of the tracker.

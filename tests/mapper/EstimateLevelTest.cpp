@@ -158,7 +158,7 @@ TEST_F(EstimateLevel, OfAPlanarMapIsZUnlessSurfacesClearlySayOtherwise) {
 
 TEST_F(EstimateLevel, OneThatWasMeasuredInAnEarlierSessionCountsOn) {
   stand(Quaterniond::Identity());
-  run_.map.level = Level{Level::Source::imu, Vector3d(0, 0.6, 0.8), 1e-4 * Eigen::Matrix3d::Identity(), "before"};
+  run_.map.layers.set(Level{Level::Source::imu, Vector3d(0, 0.6, 0.8), 1e-4 * Eigen::Matrix3d::Identity(), "before"});
   EXPECT_EQ(estimate().level.source, Level::Source::imu);
   EXPECT_EQ(estimate().level.up, Vector3d(0, 0.6, 0.8));
 }

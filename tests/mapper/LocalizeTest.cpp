@@ -32,7 +32,7 @@ class Localize : public ::testing::Test {
     const auto engine = testing::makeEngine(testing::kLaserIni);
     testing::run(*engine, mapped_->observations());
     const auto view = engine->view();
-    derived::mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "map.omnimap");
+    derived::mapFileToAsk(view).write(*folder_ / "map.omnimap");
   }
   static void TearDownTestSuite() {
     folder_.reset();
@@ -141,7 +141,7 @@ TEST_F(Localize, ByGpsAloneFromAStartThatIsFarOff) {
   const auto mapping = testing::makeEngine(ini);
   testing::run(*mapping, mapped.observations());
   const auto view = mapping->view();
-  derived::mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "gps.omnimap");
+  derived::mapFileToAsk(view).write(*folder_ / "gps.omnimap");
   auto map = derived::readMap(*folder_ / "gps.omnimap", registeredKinds());
   SessionOptions session;
   session.start = SessionOptions::Start::pose;
@@ -169,7 +169,7 @@ TEST_F(Localize, ASessionOfTheMapThatWasNeverAlignedIsNoPlaceToBeLocatedIn) {
   testing::run(*both, box.observations());
   ASSERT_FALSE(both->view().map.sessions.back().aligned);
   const auto view = both->view();
-  derived::mapFileOf(view.map, view.graph, view.sections).write(*folder_ / "apart.omnimap");
+  derived::mapFileToAsk(view).write(*folder_ / "apart.omnimap");
   auto map = derived::readMap(*folder_ / "apart.omnimap", registeredKinds());
   SessionStart start{map.map.key_frames[saved().map.key_frames.size()].map_from_base, 1, 0.5};
   const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, true);

@@ -42,9 +42,10 @@ class SavedMapFile : public ::testing::Test {
     landmark.variables = {run_.map.key_frames[2].pose};
     landmark.payload = std::make_shared<Foreign>();
     run_.map.landmarks.add(0, landmark);
-    run_.sections = {{"plugin gone", 7, std::string("a\0b", 3)}, {"of the future", 1, "c"}};
+    run_.map.layers.set("plugin gone", std::make_shared<const map::RawLayer>(7, std::string("a\0b", 3)));
+    run_.map.layers.set("of the future", std::make_shared<const map::RawLayer>(1, "c"));
   }
-  map::MapFile file() const { return derived::mapFileOf(run_.map, run_.graph, run_.sections); }
+  map::MapFile file() const { return derived::mapFileOf(run_.map, run_.graph); }
   std::string refusal(const map::MapFile& file) const {
     file.write(path_);
     return refusal();
@@ -70,12 +71,13 @@ TEST_F(SavedMapFile, WrittenReadAndWrittenAgainItHasTheSameBytesTwice) {
   const std::string first = contentOf(path_);
   for (int trip = 0; trip < 2; ++trip) {
     const auto saved = derived::readMap(path_, registeredKinds());
-    ASSERT_EQ(saved.sections.size(), 2U);
-    EXPECT_EQ(saved.sections[0].name, "plugin gone");
-    EXPECT_EQ(saved.sections[0].version, 7U);
-    EXPECT_EQ(saved.sections[0].bytes, std::string("a\0b", 3));
+    ASSERT_EQ(saved.map.layers.size(), 2U);
+    const auto gone = saved.map.layers.find("plugin gone");
+    ASSERT_TRUE(gone);
+    EXPECT_EQ(gone->version(), 7U);
+    EXPECT_EQ(gone->bytes(), std::string("a\0b", 3));
     EXPECT_EQ(saved.map.landmarks.find({0, 0})->payload->kind(), "foreign");
-    derived::mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
+    derived::mapFileOf(saved.map, saved.graph).write(path_);
     EXPECT_TRUE(contentOf(path_) == first) << "trip " << trip;
   }
 }
@@ -99,10 +101,10 @@ TEST_F(SavedMapFile, AMapOfVersionOneIsReadWithASessionMadeUp) {
     EXPECT_EQ(frame.observations.size(), 2U) << "the scan and its points";
   }
   EXPECT_TRUE(saved.map.landmarks.empty());
-  derived::mapFileOf(saved.map, saved.graph, saved.sections).write(path_);
+  derived::mapFileOf(saved.map, saved.graph).write(path_);
   const std::string first = contentOf(path_);
   const auto again = derived::readMap(path_, registeredKinds());
-  derived::mapFileOf(again.map, again.graph, again.sections).write(path_);
+  derived::mapFileOf(again.map, again.graph).write(path_);
   EXPECT_TRUE(contentOf(path_) == first);
 }
 

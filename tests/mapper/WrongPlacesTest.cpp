@@ -110,7 +110,7 @@ Outcome outcomeOf(const Drive& first, const Drive& second, const SessionOptions&
   const auto before = testing::makeEngine(testing::kLaserIni);
   testing::run(*before, first.observations);
   const auto path = folder / "map.omnimap";
-  derived::mapFileOf(before->view().map, before->view().graph, before->view().sections).write(path);
+  derived::mapFileToAsk(before->view()).write(path);
   auto saved = derived::readMap(path, registeredKinds());
   const auto start = options.startOn(saved.map);
   const auto engine = testing::makeEngine(testing::kLaserIni, {}, 1, localize);

@@ -76,6 +76,51 @@ TEST(Batch, ProvisionalIdsBecomeFinalOnesInTheOrderTheyWereAdded) {
   EXPECT_EQ(two.graph.factor(applied.factors[1]).variables, (std::vector{two.b, applied.variables[0]}));
 }
 
+// A layer that refers to a variable.
+struct Anchor {
+  static constexpr char kLayer[] = "anchor";
+  static constexpr std::uint32_t kLayerVersion = 1;
+  base::VariableId at;
+  std::string toBytes() const { return toString(at); }
+  map::LayerReferences references() const { return {{}, {}, {at}}; }
+};
+
+TEST(Batch, SetsReplacesAndRemovesLayers) {
+  TwoPoses two;
+  Batch batch;
+  batch.setLayer(Anchor{two.a});
+  EXPECT_FALSE(batch.empty());
+  EXPECT_FALSE(batch.changesGraph());
+  apply(batch, {}, two.graph, two.map);
+  EXPECT_EQ(two.map.layers.find<Anchor>()->at, two.a);
+  Batch again;
+  again.setLayer(Anchor{two.b});
+  apply(again, {}, two.graph, two.map);
+  EXPECT_EQ(two.map.layers.find<Anchor>()->at, two.b);
+  Batch last;
+  last.removeLayer(Anchor::kLayer);
+  apply(last, {}, two.graph, two.map);
+  EXPECT_TRUE(two.map.layers.empty());
+}
+
+TEST(Batch, KeepsWhatLayersReferTo) {
+  TwoPoses two;
+  Batch lost;
+  lost.setLayer(Anchor{{7, 7}});
+  EXPECT_NE(whyUnfit(lost, two.graph, two.map).find("anchor"), std::string::npos);
+  Batch named;
+  named.setLayer(Anchor{two.a}, "frames");
+  EXPECT_NE(whyUnfit(named, two.graph, two.map), "") << "the name of another section of a map file";
+  EXPECT_TRUE(two.map.layers.empty());
+  two.map.layers.set(Anchor{two.b});
+  Batch removing;
+  removing.removeFactor(two.link);
+  removing.removeVariable(two.b);
+  EXPECT_NE(whyUnfit(removing, two.graph, two.map).find("anchor"), std::string::npos);
+  removing.setLayer(Anchor{two.a});
+  EXPECT_EQ(whyUnfit(removing, two.graph, two.map), "");
+}
+
 TEST(Batch, RemovesFactorsAndSetsWeights) {
   TwoPoses two;
   const auto second = two.graph.addFactor(between(two.a, two.b));

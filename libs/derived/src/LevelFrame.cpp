@@ -1,14 +1,16 @@
 #include <omnimapper/derived/LevelFrame.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/map/Level.h>
 
 namespace omnimapper::derived {
 
 LevelFrame::LevelFrame(const map::Map& map) {
   level_from_map_.translation.setZero();
   level_from_map_.rotation.setIdentity();
-  if (!map.level || !map.level->isKnown() || map.level->up == Eigen::Vector3d::UnitZ()) return;
+  const auto* level = map.layers.find<map::Level>();
+  if (!level || !level->isKnown() || level->up == Eigen::Vector3d::UnitZ()) return;
   is_of_map_ = false;
-  level_from_map_.rotation = map.level->levelFromMap();
+  level_from_map_.rotation = level->levelFromMap();
 }
 
 std::vector<ShapedLandmark> LevelFrame::operator()(std::vector<ShapedLandmark> landmarks) const {

@@ -1,10 +1,13 @@
 #include <omnimapper/base/ChildProcess.h>
+#include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Marginals.h>
 #include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/map/Places.h>
 #include <omnimapper/plugin/Batch.h>
+#include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/source/ObservationGate.h>
 
 #include <algorithm>
@@ -21,9 +24,6 @@ namespace omnimapper::derived {
 namespace {
 
 constexpr std::uint32_t kGraphVersion = 1;
-// Sections that are not kept unchanged: they are read here or, like "places", computed again by the program that writes
-// the map.
-const std::array<std::string, 6> kOwnSections{"graph", "frames", "landmarks", "sessions", "level", map::kPlacesSection};
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, reason);
@@ -35,7 +35,7 @@ const map::MapSection& needed(const map::MapFile& file, const std::string& name)
   return *section;
 }
 
-graph::Graph graphOf(const map::MapSection& section, const Kinds& kinds) {
+graph::Graph graphOf(const map::MapSection& section, const mapper::Kinds& kinds) {
   if (section.version > kGraphVersion) {
     refuse("section \"graph\" has version " + std::to_string(section.version) + ", and this program reads version " +
            std::to_string(kGraphVersion) + ". Use the OmniMapper that wrote it, or a later one.");
@@ -123,15 +123,28 @@ void expectWhole(const map::Landmark& landmark, const SavedMap& saved) {
   }
 }
 
+// Checks that what a layer refers to is there.
+void expectWhole(const std::string& name, const map::LayerReferences& references, const SavedMap& saved) {
+  const auto missing = [&](const std::string& what) {
+    refuse("section \"" + name + "\" refers to " + what + ", which is not in the map: damaged");
+  };
+  for (const auto id : references.key_frames)
+    if (!saved.map.key_frames.find(id)) missing("key frame " + toString(id));
+  for (const auto id : references.landmarks)
+    if (!saved.map.landmarks.find(id)) missing("landmark " + toString(id));
+  for (const auto id : references.variables)
+    if (!saved.graph.contains(id)) missing("variable " + toString(id));
+}
+
 // Checks that the sections agree with each other.
 void expectWhole(const SavedMap& saved) {
-  const auto& [map, graph, sections] = saved;
+  const auto& [map, graph] = saved;
   const auto known = [&graph = graph](base::VariableId id, const std::string& what) {
     if (!graph.contains(id))
       refuse(what + " refers to variable " + toString(id) + ", which is not in the graph: damaged");
   };
   if (map.key_frames.empty()) refuse("holds no key frame: there is nothing to continue");
-  if (map.sessions.empty() || map.sessions.back().number + 1 >= Batch::kProvisionalSession) {
+  if (map.sessions.empty() || map.sessions.back().number + 1 >= mapper::Batch::kProvisionalSession) {
     refuse("has no session, or one whose number is out of range: damaged");
   }
   const auto pose_kind = graph.contains(map.key_frames.front().pose)
@@ -152,10 +165,11 @@ void expectWhole(const SavedMap& saved) {
   }
   for (const auto& session : map.sessions) known(session.anchor, "session " + std::to_string(session.number));
   for (const auto& [id, landmark] : map.landmarks) expectWhole(landmark, saved);
+  for (const auto& [name, layer] : map.layers) expectWhole(name, layer->references(), saved);
   expectDetermined(graph);
 }
 
-SavedMap parse(const map::MapFile& file, const Kinds& kinds) {
+SavedMap parse(const map::MapFile& file, const mapper::Kinds& kinds) {
   SavedMap saved;
   saved.map = framesOf(needed(file, "frames"));
   saved.graph = graphOf(needed(file, "graph"), kinds);
@@ -164,23 +178,24 @@ SavedMap parse(const map::MapFile& file, const Kinds& kinds) {
   }
   const auto* sessions = file.find("sessions");
   saved.map.sessions = sessions ? map::sessionsFromSection(*sessions) : map::sessionsOfFrames(saved.map.key_frames);
-  if (const auto* level = file.find("level")) saved.map.level = map::levelFromSection(*level);
   for (const auto& section : file.sections()) {
-    const bool own = std::find(kOwnSections.begin(), kOwnSections.end(), section.name) != kOwnSections.end();
-    if (!own) saved.sections.push_back(section);
+    // "places" is computed again by the program that writes the map.
+    if (!map::isLayerName(section.name) || section.name == map::Places::kLayer) continue;
+    saved.map.layers.set(section.name, kinds.layers.read(section));
   }
+  mapper::adoptPlaceOnEarth(saved.map.layers, saved.graph);
   expectWhole(saved);
   return saved;
 }
 
 }  // namespace
 
-Motion SavedMap::motion() const {
+mapper::Motion SavedMap::motion() const {
   const auto kind = graph.variable(map.key_frames.front().pose).kind->kind();
-  return kind == graph::se2()->kind() ? Motion::planar : Motion::spatial;
+  return kind == graph::se2()->kind() ? mapper::Motion::planar : mapper::Motion::spatial;
 }
 
-SavedMap readMap(const std::string& path, const Kinds& kinds) {
+SavedMap readMap(const std::string& path, const mapper::Kinds& kinds) {
   // After a crash of a live run there is only its checkpoint.
   const bool is_folder = std::filesystem::is_directory(path);
   const bool has_map = std::filesystem::exists(path + "/map.omnimap");
@@ -196,7 +211,7 @@ SavedMap readMap(const std::string& path, const Kinds& kinds) {
   }
 }
 
-map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph, const std::vector<map::MapSection>& sections) {
+map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph) {
   std::ostringstream graph_bytes;
   graph::writeGraph(graph, graph_bytes);
   map::MapFile file;
@@ -204,8 +219,15 @@ map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph, const std
   file.set(map::framesToSection(map));
   file.set(map::landmarksToSection(map));
   file.set(map::sessionsToSection(map));
-  if (map.level) file.set(map::levelToSection(*map.level));
-  for (const auto& section : sections) file.set(section);
+  for (const auto& [name, layer] : map.layers) {
+    if (name != map::Places::kLayer) file.set(map::layerToSection(name, *layer));
+  }
+  return file;
+}
+
+map::MapFile mapFileToAsk(const mapper::State& state) {
+  map::MapFile file = mapFileOf(state.map, state.graph);
+  file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(placesOf(state))));
   return file;
 }
 

@@ -1,4 +1,4 @@
-#include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/Places.h>
 
 #include <cmath>
 
@@ -8,13 +8,11 @@ namespace omnimapper::map {
 
 namespace {
 
-constexpr std::uint32_t kPlacesVersion = 1;
-
 // Flags for the optional parts that follow.
 constexpr std::uint64_t kMoved = 1, kNormal = 2, kSeenFrom = 4, kSigma = 8, kAlongNormal = 16, kAllFlags = 31;
 
 [[noreturn]] void refuseValue(const std::string& what) {
-  refuse(kPlacesSection, what + ": the file is damaged. Take another copy of it, or map its log again.");
+  refuse(Places::kLayer, what + ": the file is damaged. Take another copy of it, or map its log again.");
 }
 
 template <int N>
@@ -151,32 +149,32 @@ Place readPlace(ByteReader& in) {
 
 }  // namespace
 
-MapSection placesToSection(const Places& places) {
+std::string Places::toBytes() const {
   ByteWriter out;
-  writeList(out, places.places, [&](const Place& place) { write(out, place); });
-  out.uint(places.last_pose ? 1 : 0, 1);
-  if (places.last_pose) {
-    for (const double value : {places.last_pose->x, places.last_pose->y, places.last_pose->yaw}) out.real(value);
-    writeStamp(out, places.last_pose->stamp);
-    out.uint(places.last_pose->session, 2);
+  writeList(out, places, [&](const Place& place) { write(out, place); });
+  out.uint(last_pose ? 1 : 0, 1);
+  if (last_pose) {
+    for (const double value : {last_pose->x, last_pose->y, last_pose->yaw}) out.real(value);
+    writeStamp(out, last_pose->stamp);
+    out.uint(last_pose->session, 2);
   }
-  return {kPlacesSection, kPlacesVersion, out.take()};
+  return out.take();
 }
 
-Places placesFromSection(const MapSection& section) {
-  expectSection(section, kPlacesSection, kPlacesVersion);
-  ByteReader in(section.bytes, placeOf(kPlacesSection));
-  Places places;
-  readList(in, [&] { places.places.push_back(readPlace(in)); });
+Places Places::fromSection(const MapSection& section) {
+  expectSection(section, kLayer, kLayerVersion);
+  ByteReader in(section.bytes, placeOf(kLayer));
+  Places read;
+  readList(in, [&] { read.places.push_back(readPlace(in)); });
   if (in.uint(1) != 0) {
     LastPose pose;
     for (double* value : {&pose.x, &pose.y, &pose.yaw}) *value = readFinite(in);
     pose.stamp = readStamp(in);
     pose.session = static_cast<std::uint16_t>(in.uint(2));
-    places.last_pose = pose;
+    read.last_pose = pose;
   }
-  expectEnd(in, kPlacesSection);
-  return places;
+  expectEnd(in, kLayer);
+  return read;
 }
 
 }  // namespace omnimapper::map

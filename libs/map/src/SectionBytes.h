@@ -4,7 +4,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/MapSection.h>
 
 #include <string>
 

@@ -83,7 +83,7 @@ void Engine::finish() {
     if (!state_.map_is_held) tried([&] { back_end_.findLevel(); });
     tried([&] { back_end_.conclude(); });
   }
-  tried([&] { back_end_.collectSections(); });
+  tried([&] { back_end_.savePlugins(); });
   if (!state_.map_is_held) tried([&] { back_end_.judgeMap(); });
   if (state_.extraction_errors.count() > 0) warn(state_.extraction_errors.sentence());
   if (failed) std::rethrow_exception(failed);

@@ -42,6 +42,7 @@ class Check {
       const std::string why = whyFixed(*place, graph_, map_);
       need(why.empty(), "place of a session", why);
     }
+    for (const auto& [name, layer] : batch_.layers()) checkLayer(name, layer.get());
     return problem_;
   }
 
@@ -68,6 +69,17 @@ class Check {
       }
     }
   }
+  void checkLayer(const std::string& name, const map::Layer* layer) {
+    const std::string edit = "layer \"" + name + "\"";
+    need(map::isLayerName(name), edit, "a layer cannot have this name");
+    if (!layer) return;
+    const auto references = layer->references();
+    for (const auto id : references.variables) need(graph_.contains(id), edit, "the graph has no " + toString(id));
+    for (const auto id : references.landmarks)
+      need(map_.landmarks.find(id) != nullptr, edit, "the map has no landmark " + toString(id));
+    for (const auto id : references.key_frames)
+      need(map_.key_frames.find(id) != nullptr, edit, "the map has no key frame " + toString(id));
+  }
   void checkRemoved(base::FactorId id) {
     const std::string edit = "removed factor " + toString(id);
     need(graph_.contains(id), edit, "the graph has no such factor");
@@ -89,6 +101,12 @@ class Check {
     for (const auto& [landmark_id, landmark] : map_.landmarks) {
       const bool held = std::count(landmark.variables.begin(), landmark.variables.end(), id) > 0;
       need(!held, edit, "belongs to landmark " + toString(landmark_id));
+    }
+    for (const auto& [name, layer] : map_.layers) {
+      const auto is_set = [&name = name](const auto& other) { return other.first == name; };
+      if (std::any_of(batch_.layers().begin(), batch_.layers().end(), is_set)) continue;
+      const auto bound = layer->references().variables;
+      need(std::count(bound.begin(), bound.end(), id) == 0, edit, "the layer \"" + name + "\" refers to it");
     }
   }
   void checkMerge(base::LandmarkId from, base::LandmarkId into) {
@@ -183,7 +201,7 @@ void addToGraph(const Batch& batch, const BatchOrigin& origin, graph::Graph& gra
 bool Batch::empty() const {
   return added_variables_.empty() && added_factors_.empty() && added_landmarks_.empty() && removed_factors_.empty() &&
          removed_variables_.empty() && weights_.empty() && evidence_.empty() && retired_landmarks_.empty() &&
-         merges_.empty() && decisions_.empty() && !session_place_;
+         merges_.empty() && decisions_.empty() && layers_.empty() && !session_place_;
 }
 
 bool Batch::changesGraph() const {
@@ -264,6 +282,13 @@ AppliedBatch apply(const Batch& batch, const BatchOrigin& origin, graph::Graph& 
   }
   for (const auto id : batch.removedVariables()) graph.removeVariable(id);
   if (batch.sessionPlace()) placeSession(*batch.sessionPlace(), graph, map);
+  for (const auto& [name, layer] : batch.layers()) {
+    if (layer) {
+      map.layers.set(name, layer);
+    } else {
+      map.layers.remove(name);
+    }
+  }
   return applied;
 }
 

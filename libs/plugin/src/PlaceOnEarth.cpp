@@ -4,6 +4,7 @@
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SavedVariable.h>
 
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
@@ -11,40 +12,64 @@ namespace omnimapper::mapper {
 
 namespace {
 
-constexpr std::string_view kMark = "place on earth";
+constexpr std::string_view kOldMark = "place on earth";  // at the end of a plugin's state that held a place
+constexpr std::size_t kBytes = 6 + 3 * 8;                // id, latitude, longitude, altitude
 
-bool isPlace(const std::string& bytes) {
-  constexpr std::size_t kSize = 6 + 3 * 8 + kMark.size();
-  return bytes.size() == kSize && std::string_view(bytes).substr(kSize - kMark.size()) == kMark;
+bool heldPlace(const std::string& bytes) {
+  return bytes.size() == kBytes + kOldMark.size() && std::string_view(bytes).substr(kBytes) == kOldMark;
+}
+
+PlaceOnEarth placeFrom(const std::string& bytes) {
+  std::istringstream in(bytes);
+  PlaceOnEarth place;
+  place.map_from_enu = graph::readId<base::VariableId>(in);
+  for (double* number : {&place.origin.latitude, &place.origin.longitude, &place.origin.altitude})
+    *number = graph::readDouble(in);
+  return place;
 }
 
 }  // namespace
 
-std::string writePlace(const PlaceOnEarth& place) {
+std::string PlaceOnEarth::toBytes() const {
   std::ostringstream out;
-  writeVariableId(out, place.map_from_enu);
-  for (const double number : {place.origin.latitude, place.origin.longitude, place.origin.altitude})
-    graph::writeDouble(out, number);
-  out << kMark;
+  writeVariableId(out, map_from_enu);
+  for (const double number : {origin.latitude, origin.longitude, origin.altitude}) graph::writeDouble(out, number);
   return out.str();
 }
 
-std::optional<PlaceOnEarth> placeOnEarth(const View& view) {
-  for (const auto& section : view.sections) {
-    if (!isPlace(section.bytes)) continue;
-    std::istringstream in(section.bytes);
-    PlaceOnEarth place;
-    place.map_from_enu = graph::readId<base::VariableId>(in);
-    if (!view.graph.contains(place.map_from_enu)) continue;
-    for (double* number : {&place.origin.latitude, &place.origin.longitude, &place.origin.altitude})
-      *number = graph::readDouble(in);
-    return place;
+PlaceOnEarth PlaceOnEarth::fromSection(const map::MapSection& section) {
+  expectVersion(section, kLayerVersion);
+  const auto place = section.bytes.size() == kBytes ? placeFrom(section.bytes) : PlaceOnEarth{};
+  const auto& origin = place.origin;
+  const bool is_whole = section.bytes.size() == kBytes && std::abs(origin.latitude) <= 90 &&
+                        std::abs(origin.longitude) <= 180 && std::isfinite(origin.altitude);
+  if (!is_whole) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "map file, section \"" + section.name + "\": it holds no place on earth: the file is damaged");
   }
-  return std::nullopt;
+  return place;
 }
 
-EarthFrame::EarthFrame(const PlaceOnEarth& place, const View& view)
-    : origin_(place.origin), enu_from_map_(-poseOf(view.graph, place.map_from_enu)) {}
+const PlaceOnEarth* placeOnEarth(const State& state) {
+  const auto* place = state.map.layers.find<PlaceOnEarth>();
+  return place && state.graph.contains(place->map_from_enu) ? place : nullptr;
+}
+
+void adoptPlaceOnEarth(map::Layers& layers, const graph::Graph& graph) {
+  if (layers.find(PlaceOnEarth::kLayer)) return;
+  for (const auto& [name, layer] : layers) {
+    if (!dynamic_cast<const map::RawLayer*>(layer.get())) continue;
+    const std::string bytes = layer->bytes();
+    if (!heldPlace(bytes)) continue;
+    const auto place = placeFrom(bytes);
+    if (!graph.contains(place.map_from_enu)) continue;
+    layers.set(place);
+    return;
+  }
+}
+
+EarthFrame::EarthFrame(const PlaceOnEarth& place, const State& state)
+    : origin_(place.origin), enu_from_map_(-poseOf(state.graph, place.map_from_enu)) {}
 
 Geodetic EarthFrame::operator()(const Eigen::Vector3d& point_in_map) const {
   mrpt::math::TPoint3D enu;

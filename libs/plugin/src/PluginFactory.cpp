@@ -1,3 +1,5 @@
+#include <omnimapper/map/Level.h>
+#include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PluginFactory, mrpt::rtti::CObject, omnimapper::mapper)
@@ -7,6 +9,13 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OutputPluginFactory, PluginFactory, omnimapper::m
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ExtractorFactory, PluginFactory, omnimapper::mapper)
 
 namespace omnimapper::mapper {
+
+map::LayerRegistry layersOfNoPlugin() {
+  map::LayerRegistry registry;
+  registry.add<map::Level>();
+  registry.add<PlaceOnEarth>();
+  return registry;
+}
 
 void registerFactoryBases() {
   mrpt::rtti::registerClass(CLASS_ID(PluginFactory));

@@ -1,7 +1,6 @@
 #include "GpsPlugin.h"
 
 #include <mrpt/topography/conversions.h>
-#include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SavedVariable.h>
 
@@ -16,7 +15,7 @@ IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFa
 namespace omnimapper::plugins {
 
 namespace {
-constexpr std::uint32_t kSavedGpsVersion = 2;  // version 1 lacks the mark of a place on the earth
+constexpr std::uint32_t kSavedGpsVersion = 3;  // version 2 ended with a mark that made it a place on earth, too
 }
 
 const base::OptionTable<GpsOptions>& GpsOptions::table() {
@@ -120,7 +119,24 @@ mapper::Batch GpsPlugin::measure(const map::KeyFrame& frame, const mapper::Obser
   }
   for (const auto& waiting : waiting_) batch.addFactor(factor(waiting, view));
   waiting_.clear();
+  setPlaceOnEarth(view, batch);
   return batch;
+}
+
+mapper::Batch GpsPlugin::atEnd(const mapper::View& view) {
+  mapper::Batch batch;
+  setPlaceOnEarth(view, batch);
+  return batch;
+}
+
+// If several receivers have frames of their own, that of the first is the map's.
+void GpsPlugin::setPlaceOnEarth(const mapper::View& view, mapper::Batch& batch) const {
+  if (!map_from_enu_ || mapper::Batch::isProvisional(*map_from_enu_)) return;
+  if (!view.map.layers.find(mapper::PlaceOnEarth::kLayer)) batch.setLayer(place());
+}
+
+mapper::PlaceOnEarth GpsPlugin::place() const {
+  return {*map_from_enu_, *origin_};
 }
 
 void GpsPlugin::applied(const mapper::AppliedBatch& ids) {
@@ -129,8 +145,7 @@ void GpsPlugin::applied(const mapper::AppliedBatch& ids) {
 
 std::optional<map::MapSection> GpsPlugin::save() const {
   if (!map_from_enu_) return std::nullopt;
-  const mapper::Geodetic origin{origin_->latitude, origin_->longitude, origin_->altitude};
-  return map::MapSection{{}, kSavedGpsVersion, mapper::writePlace({*map_from_enu_, origin})};
+  return map::MapSection{{}, kSavedGpsVersion, place().toBytes()};
 }
 
 void GpsPlugin::restore(const map::MapSection* saved, const mapper::View& view) {

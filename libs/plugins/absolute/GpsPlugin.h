@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationGPS.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
 #include <Eigen/Core>
@@ -40,15 +41,13 @@ class GpsPlugin : public mapper::MeasurementPlugin {
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void applied(const mapper::AppliedBatch& ids) override;
+  /// Sets the map's place on earth if no later fix could.
+  mapper::Batch atEnd(const mapper::View& view) override;
   /// Saves the origin and the variable map_from_enu.
   std::optional<map::MapSection> save() const override;
   void restore(const map::MapSection* saved, const mapper::View& view) override;
 
  private:
-  struct Origin {
-    double latitude, longitude;  // [deg] WGS84
-    double altitude;             // [m] above the ellipsoid
-  };
   struct Fix {
     base::KeyFrameId frame;
     Eigen::Vector3d antenna_in_base, antenna_in_enu;  // [m]
@@ -57,11 +56,13 @@ class GpsPlugin : public mapper::MeasurementPlugin {
 
   std::optional<Fix> read(const mrpt::obs::CObservationGPS& gps, mapper::Decision& decision);
   graph::FactorRecord factor(const Fix& fix, const mapper::View& view) const;
+  void setPlaceOnEarth(const mapper::View& view, mapper::Batch& batch) const;
+  mapper::PlaceOnEarth place() const;
   std::optional<mrpt::poses::CPose3D> alignment(const mapper::View& view) const;
 
   GpsOptions options_;
   mapper::PluginContext context_;
-  std::optional<Origin> origin_;
+  std::optional<mapper::Geodetic> origin_;
   std::vector<Fix> waiting_;  // wait until map_from_enu exists
   std::optional<base::VariableId> map_from_enu_;
 };

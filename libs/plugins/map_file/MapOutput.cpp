@@ -1,7 +1,6 @@
 #include "MapOutput.h"
 
 #include <omnimapper/derived/OutputFile.h>
-#include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/derived/SavedMap.h>
 
 IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
@@ -22,9 +21,7 @@ MapOutput::MapOutput(const MapOutputOptions& options, const mapper::PluginContex
     : path_(derived::outputPath(context, "map.omnimap")), keep_raw_(options.keep_raw) {}
 
 void MapOutput::finish(const mapper::View& view) {
-  map::MapFile file = derived::mapFileOf(view.map, view.graph, view.sections);
-  file.set(map::placesToSection(derived::placesOf(view)));
-  file.write(path_);
+  derived::mapFileToAsk(view).write(path_);
 }
 
 std::unique_ptr<mapper::OutputPlugin> MapOutputFactory::make(const base::ConfigSection& section,

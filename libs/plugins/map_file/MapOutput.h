@@ -13,8 +13,8 @@ struct MapOutputOptions {
   static const base::OptionTable<MapOutputOptions>& table();
 };
 
-/// Writes map.omnimap: the map to be loaded again (derived::mapFileOf), and the places that queries need. The same log
-/// and INI give the same bytes.
+/// Writes map.omnimap: the map to be loaded again (derived::mapFileToAsk), and the places that queries need. The same
+/// log and INI give the same bytes.
 class MapOutput : public mapper::OutputPlugin {
  public:
   MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context);

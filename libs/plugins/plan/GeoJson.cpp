@@ -164,7 +164,7 @@ Json trajectoryFeature(const map::Map& map, const map::Session& session, const P
 }  // namespace
 
 std::string encodeGeoJson(const GeoJsonInput& input) {
-  const auto place = input.metres ? std::nullopt : mapper::placeOnEarth(input.view);
+  const auto place = input.metres ? nullptr : mapper::placeOnEarth(input.view);
   const Positions at(place ? std::optional(mapper::EarthFrame(*place, input.view)) : std::nullopt);
   Json features = Json::array();
   // With a place on the earth, x and y of the map are east and north, whatever the direction of its z.

@@ -2,6 +2,7 @@
 
 #include <omnimapper/derived/LandmarkShapes.h>
 #include <omnimapper/derived/OutputFile.h>
+#include <omnimapper/map/Level.h>
 #include <omnimapper/surfaces/SurfaceSet.h>
 
 IMPLEMENTS_MRPT_OBJECT(SurfacesOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
@@ -42,7 +43,7 @@ SurfacesOutput::SurfacesOutput(const SurfacesOptions&, const mapper::PluginConte
 void SurfacesOutput::finish(const mapper::View& view) {
   surfaces::SurfaceSet set;
   set.title = title_;
-  if (const auto& level = view.map.level)
+  if (const auto* level = view.map.layers.find<map::Level>())
     set.level = surfaces::SurfaceSetLevel{level->up, toString(level->source), level->standardDeviation()};
   for (const auto& shaped : derived::shapesOf(view, derived::Candidates::kept)) {
     if (shaped.moved || shaped.shape.surfaces.empty()) continue;

@@ -15,7 +15,10 @@ namespace omnimapper::plugins {
 class LevelSurfaces {
  public:
   /// Without `level`, z of the map is up.
-  explicit LevelSurfaces(std::optional<map::Level> level) : level_(std::move(level)) {}
+  /// `level`: which way is up in the map; null if the map does not say, and z then counts as up.
+  explicit LevelSurfaces(const map::Level* level) {
+    if (level) level_ = *level;
+  }
 
   void add(const surfaces::Surface& in_map);
   /// The rotated surfaces, in the order in which they were added.

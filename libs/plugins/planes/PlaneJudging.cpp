@@ -1,6 +1,7 @@
 #include "PlaneJudging.h"
 
 #include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/map/Level.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,7 @@ std::optional<std::size_t> measurementsToDraw(const geometry::Plane3& plane, dou
 PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& known, const mapper::View& view) {
   const auto all = drawnOf(payloads, known, view);
   constexpr std::size_t kFewestLines = 3;
-  LevelSurfaces level(view.map.level);
+  LevelSurfaces level(view.map.layers.find<map::Level>());
   for (const auto& one : all) level.add(one.surface);
   const auto judgements = level.judged(known.emptyPayload().ground, view.map.key_frames);
   const double usual = usualRoughness(all);

@@ -3,6 +3,7 @@
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/landmarks/Merging.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
+#include <omnimapper/map/Level.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ struct Floor {
 
 // None if the map does not know which way is up.
 std::optional<Floor> floorOf(const PlaneLandmarkIndex& known, const mapper::View& view) {
-  const auto& level = view.map.level;
+  const auto* level = view.map.layers.find<map::Level>();
   if (level && !level->isKnown()) return std::nullopt;
   LevelSurfaces all(level);
   for (const auto& [id, surface] : known.all()) {

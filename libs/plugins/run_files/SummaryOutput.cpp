@@ -3,6 +3,7 @@
 #include <omnimapper/derived/OutputFile.h>
 #include <omnimapper/derived/RunMetrics.h>
 #include <omnimapper/map/DenseTrajectory.h>
+#include <omnimapper/map/Level.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
@@ -166,7 +167,7 @@ Json summaryOf(const mapper::View& view, const std::string& title) {
   summary["sessions"] = sessionsOf(view.map);
   if (view.map_is_held) summary["localization"] = {{"key_frames", metrics.localized}, {"located", metrics.located}};
   summary["landmarks"] = mapper::countLandmarks(view);
-  if (view.map.level) summary["level"] = levelOf(*view.map.level);
+  if (const auto* level = view.map.layers.find<map::Level>()) summary["level"] = levelOf(*level);
   summary["closures"] = {{"accepted", metrics.closures}, {"refused", metrics.refused_closures}};
   if (!view.map.sessions.empty()) summary["closures"]["session"] = view.map.sessions.back().number;
   if (!view.map_is_held) summary["verdict"] = verdictOf(view.verdict);

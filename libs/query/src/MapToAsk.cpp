@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/Places.h>
 #include <omnimapper/query/MapToAsk.h>
 
 #include <filesystem>
@@ -21,11 +22,8 @@ std::string mapFileAt(const std::string& path) {
     throw base::Error(base::ExitCode::command_line, "MAP is empty: name the folder of a map, or its map.omnimap");
   if (!fs::is_directory(path, none)) return path;
   const fs::path map = fs::path(path) / "map.omnimap", checkpoint = fs::path(path) / "checkpoint.omnimap";
-  if (!fs::exists(map, none) && fs::exists(checkpoint, none))
-    refuseMap(checkpoint,
-              "is the checkpoint of a live run that did not end, and has no data for queries. Make a map of it: "
-              "omnimapper-graphslam --replay " +
-                  path);
+  // While a live run goes on, or after it crashed, there is only its checkpoint.
+  if (!fs::exists(map, none) && fs::exists(checkpoint, none)) return checkpoint;
   if (!fs::exists(map, none))
     refuseMap(path,
               "has no map.omnimap: it is not the folder of a map. omnimapper-graphslam -o FOLDER makes one "
@@ -40,14 +38,14 @@ MapToAsk openMap(const std::string& path) {
   opened.file = mapFileAt(path);
   opened.folder = fs::path(opened.file).parent_path();
   if (opened.folder.empty()) opened.folder = ".";
-  const auto file = map::MapFile::readOnly(opened.file, {map::kPlacesSection});
-  const auto* section = file.find(map::kPlacesSection);
+  const auto file = map::MapFile::readOnly(opened.file, {map::Places::kLayer});
+  const auto* section = file.find(map::Places::kLayer);
   if (!section)
-    refuseMap(opened.file, "has no section \"" + std::string(map::kPlacesSection) +
-                               "\", which queries need: an earlier OmniMapper wrote it, or it is a checkpoint. Map its "
+    refuseMap(opened.file, "has no section \"" + std::string(map::Places::kLayer) +
+                               "\", which queries need: an earlier OmniMapper wrote it. Map its "
                                "log again, or continue it with omnimapper-graphslam --continue.");
   try {
-    opened.places = map::placesFromSection(*section);
+    opened.places = map::Places::fromSection(*section);
   } catch (const base::Error& error) {
     throw base::Error(error.code(), opened.file + ": " + error.what());
   }

@@ -160,7 +160,8 @@ TEST(GeoJsonOutput, whereTheMapKnowsItsPlaceItIsLongitudeAndLatitude) {
   RunRecord run = shapedRun();
   // The map's x axis points to the north, and its origin is 10 m north of the origin of the east-north-up frame.
   const auto map_from_enu = run.graph.addVariable(graph::se2(), graph::toValue(geometry::Se2{-10, 0, -M_PI / 2}));
-  run.sections = {{"someone else's", 1, "bytes"}, {"plugin gps", 2, mapper::writePlace({map_from_enu, {0, 20, 100}})}};
+  run.map.layers.set("someone else's", std::make_shared<const map::RawLayer>(1, "bytes"));
+  run.map.layers.set(mapper::PlaceOnEarth{map_from_enu, {0, 20, 100}});
   const json plan = floorPlanOf(run.view());
   expectRfc7946(plan);
   const json line = featureOf(plan, "0:1")["geometry"]["coordinates"];  // from (3, -1) to (3, 2)
@@ -178,7 +179,7 @@ TEST(GeoJsonOutput, whereTheMapKnowsItsPlaceItIsLongitudeAndLatitude) {
 
 TEST(GeoJsonOutput, aPlaceWhoseVariableIsGoneIsNone) {
   RunRecord run = shapedRun();
-  run.sections = {{"plugin gps", 2, mapper::writePlace({{7, 7}, {0, 20, 100}})}};
+  run.map.layers.set(mapper::PlaceOnEarth{{7, 7}, {0, 20, 100}});
   EXPECT_EQ(featureOf(floorPlanOf(run.view()), "0:1")["geometry"]["coordinates"][0][0], 3);
 }
 

@@ -1,3 +1,4 @@
+#include <omnimapper/map/Level.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include "SurfaceRun.h"
@@ -267,7 +268,7 @@ TEST_F(PlaneMerging, ClassesAreThoseOfTheLevelFrame) {
   see(place(floor));
   see(place(floor));
   ASSERT_EQ(active().size(), 3U);
-  run_.map.level = map::Level{map::Level::Source::planes, Vector3d::UnitY(), Eigen::Matrix3d::Zero(), ""};
+  run_.map.layers.set(map::Level{map::Level::Source::planes, Vector3d::UnitY(), Eigen::Matrix3d::Zero(), ""});
   apply(plugin_->atEnd(run_.view()));
   EXPECT_EQ(shapeOf(active()[0]).label, "floor") << shapeOf(active()[0]).reason;
   EXPECT_EQ(shapeOf(active()[1]).label, "table") << shapeOf(active()[1]).reason;
@@ -285,7 +286,7 @@ TEST_P(PartsOfAWall, areOneAtTheEndIfTheyStandUpright) {
   driveTo({});
   see(planesOf({plane({1, -1, 0}, {0, 0, 2}, {2, 0, 0}), part(-2, -1), part(0, 1)}));
   ASSERT_EQ(active().size(), 3U);
-  run_.map.level = GetParam().first;
+  run_.map.layers.set(GetParam().first);
   apply(plugin_->atEnd(run_.view()));
   EXPECT_EQ(active().size(), GetParam().second);
 }
@@ -300,7 +301,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(PlaneMerging, NothingHasAClassWhereUpIsNotKnown) {
   driveTo({});
   see(planesOf({wallPlane(3, -2, 2), tableTop(2, 1, 0.7)}));
-  run_.map.level = map::Level{};
+  run_.map.layers.set(map::Level{});
   apply(plugin_->atEnd(run_.view()));
   for (const auto& landmark : active()) {
     EXPECT_EQ(shapeOf(landmark).label, "surface");

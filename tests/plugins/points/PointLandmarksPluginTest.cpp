@@ -206,7 +206,7 @@ TEST(PointLandmarksPlugin, AMapIsReadBackAndItsPointsAreKnownAgain) {
   const SimulatedLog second_log(options);
   const auto second = testing::makeEngine(kPointsIni);
   // The initial values are wrong by a metre and 20 degrees.
-  second->sessions().continueFrom({first->view().map, first->view().graph, {}}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
+  second->sessions().continueFrom({first->view().map, first->view().graph}, {{0.8, -0.6, 0, 0.35, 0, 0}, 1, 0.5});
   testing::run(*second, second_log.observations());
   const auto view = second->view();
   ASSERT_EQ(view.map.sessions.size(), 2U);
@@ -242,7 +242,7 @@ TEST(PointLandmarksPlugin, ANumberWhoseLandmarkIsRetiredMakesANewOne) {
   for (const auto& [id, landmark] : map.landmarks) ids.push_back(id);
   for (const auto id : ids) map.landmarks.edit(id)->state = map::Landmark::State::retired;
   const auto second = testing::makeEngine(kPointsIni);
-  second->sessions().continueFrom({map, first->view().graph, {}}, {{0, 0, 0, 0, 0, 0}, 0.01, 0.01});
+  second->sessions().continueFrom({map, first->view().graph}, {{0, 0, 0, 0, 0, 0}, 0.01, 0.01});
   testing::run(*second, log.observations());
   EXPECT_EQ(second->view().map.landmarks.size(), 2 * before);
 }

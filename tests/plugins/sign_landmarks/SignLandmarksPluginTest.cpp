@@ -204,7 +204,7 @@ TEST(SignLandmarksPlugin, OffsetsOfThePanTiltAreFound) {
 struct Continued {
   Continued(const Mapped& first, const SimulatedLog& log, const TextOf& text_of) : engine(testing::makeEngine(kIni)) {
     const auto view = first.engine->view();
-    engine->sessions().continueFrom({view.map, view.graph, {}}, mapper::startAnywhere(view.map));
+    engine->sessions().continueFrom({view.map, view.graph}, mapper::startAnywhere(view.map));
     testing::run(*engine, signsOf(log, text_of));
   }
   std::unique_ptr<mapper::Engine> engine;
@@ -238,7 +238,7 @@ TEST(SignLandmarksPlugin, ASessionWhoseStartIsKnownStaysWhereItIs) {
   const Mapped first(log, signsOf(log));
   const auto view = first.engine->view();
   const auto engine = testing::makeEngine(kIni);
-  engine->sessions().continueFrom({view.map, view.graph, {}}, {{0, 0, 0, 0, 0, 0}, 0.5, 0.1});
+  engine->sessions().continueFrom({view.map, view.graph}, {{0, 0, 0, 0, 0, 0}, 0.5, 0.1});
   // One sign has the text of another one in the map; all others are new.
   testing::run(*engine, signsOf(SimulatedLog(drive(0.3, 2)),
                                 [](int number) { return std::to_string(number == 2 ? 208 : 400 + number); }));
@@ -265,7 +265,7 @@ TEST(SignLandmarksPlugin, ARobotInAMapThatIsHeldIsFoundBySigns) {
   observations.erase(observations.begin(), observations.begin() + static_cast<std::ptrdiff_t>(observations.size() / 3));
   const auto engine = testing::makeEngine(kIni, {}, 1, true);
   constexpr int kFreeKeyFrames = 20;
-  engine->sessions().localizeIn({held.map, held.graph, {}}, mapper::startAnywhere(held.map), kFreeKeyFrames);
+  engine->sessions().localizeIn({held.map, held.graph}, mapper::startAnywhere(held.map), kFreeKeyFrames);
   testing::run(*engine, observations);
   const auto view = engine->view();
   const mrpt::poses::CPose3D truth_from_map(log.truthAt(held.map.key_frames.front().stamp));

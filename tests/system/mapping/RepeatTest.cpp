@@ -36,7 +36,7 @@ class Repeat : public ::testing::Test {
   static std::string mapBytes(const std::string& folder) {
     auto saved = loadMap(folder);
     for (auto& session : saved.map.sessions) session.title = "log";
-    omnimapper::derived::mapFileOf(saved.map, saved.graph, saved.sections).write(file("untitled.omnimap"));
+    omnimapper::derived::mapFileOf(saved.map, saved.graph).write(file("untitled.omnimap"));
     return readFile(file("untitled.omnimap"));
   }
   /// A rawlog of the observations of one sensor.

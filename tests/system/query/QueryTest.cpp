@@ -1,4 +1,5 @@
 // omnimapper-query on a map of an office with door signs, asked by a person and by a robot.
+#include <omnimapper/map/Places.h>
 #include <omnimapper/query/GridMap.h>
 
 #include <algorithm>
@@ -224,8 +225,8 @@ TEST_F(Query, DamagedFilesAreErrorsThatNameThem) {
 }
 
 TEST_F(Query, ThePlacesAreInTheFileAndNotInTheLoadedMap) {
-  EXPECT_TRUE(omnimapper::map::MapFile::read(map() + "/map.omnimap").find(omnimapper::map::kPlacesSection));
-  for (const auto& section : loadMap(map()).sections) EXPECT_NE(section.name, omnimapper::map::kPlacesSection);
+  EXPECT_TRUE(omnimapper::map::MapFile::read(map() + "/map.omnimap").find(omnimapper::map::Places::kLayer));
+  EXPECT_FALSE(loadMap(map()).map.layers.find(omnimapper::map::Places::kLayer));
 }
 
 // The places are computed anew from the measurements of both sessions.

@@ -178,7 +178,7 @@ void BackEnd::solve(const graph::SolveOptions& options) {
 
 void BackEnd::findLevel() {
   auto judged = estimateLevel(state_.view(), state_.level_evidence, settings_.engine.motion);
-  state_.map.level = std::move(judged.level);
+  state_.map.layers.set(std::move(judged.level));
   for (auto& sentence : judged.warnings) state_.warnings.push_back(std::move(sentence));
 }
 
@@ -233,26 +233,21 @@ void BackEnd::resume() {
   estimator_.resume();
   kept_.posesChanged();
   for (auto& [section, plugin] : plugins_.measurement) {
-    const auto found =
-        std::find_if(state_.sections.begin(), state_.sections.end(),
-                     [name = kPluginSectionPrefix + section](const auto& other) { return other.name == name; });
-    plugin->restore(found == state_.sections.end() ? nullptr : &*found, state_.view());
+    const std::string name = kPluginLayerPrefix + section;
+    const auto layer = state_.map.layers.find(name);
+    std::optional<map::MapSection> saved;
+    if (layer) saved = map::layerToSection(name, *layer);
+    plugin->restore(saved ? &*saved : nullptr, state_.view());
   }
 }
 
-// The sections of these plugins replace those that they saved before; all other sections are kept.
-void BackEnd::collectSections() {
+// The states of these plugins replace those that they saved before; all other layers are kept.
+void BackEnd::savePlugins() {
   for (auto& [section, plugin] : plugins_.measurement) {
     auto saved = plugin->save();
     if (!saved) continue;
-    saved->name = kPluginSectionPrefix + section;
-    const auto place = std::find_if(state_.sections.begin(), state_.sections.end(),
-                                    [&](const auto& other) { return other.name == saved->name; });
-    if (place == state_.sections.end()) {
-      state_.sections.push_back(std::move(*saved));
-    } else {
-      *place = std::move(*saved);
-    }
+    state_.map.layers.set(kPluginLayerPrefix + section,
+                          std::make_shared<const map::RawLayer>(saved->version, std::move(saved->bytes)));
   }
 }
 

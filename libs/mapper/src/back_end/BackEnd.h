@@ -58,8 +58,8 @@ class BackEnd {
   void judgeMap();
   /// Evidence that judgeMap() adds to that of the plugins.
   void setInputEvidence(std::vector<Evidence> evidence) { input_evidence_ = std::move(evidence); }
-  /// Collects the map sections that the plugins save for a later session.
-  void collectSections();
+  /// Puts the states that the plugins save for a later session into the layers of the map.
+  void savePlugins();
 
   /// `stop` is called while a solve runs; if it returns true, the solve ends with its best values so far.
   void setStop(std::function<bool()> stop) { estimator_.setStop(std::move(stop)); }

@@ -225,7 +225,7 @@ JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured
 
 JudgedLevel estimateLevel(const State& state, const LevelEvidence& evidence, Motion motion) {
   Level imu = byGravity(state.map, evidence);
-  const auto& saved = state.map.level;
+  const auto* saved = state.map.layers.find<Level>();
   if (!imu.isKnown() && saved && saved->source == Level::Source::imu) imu = *saved;
   double margin = 0;
   const Level planes = bySurfaces(state, margin);

@@ -20,10 +20,9 @@ std::string Checkpoints::offer(const View& view) {
   }
   if (period_.count() <= 0 || now - last_ < period_ || view.map.key_frames.empty() || view.map_is_held) return "";
   last_ = now;
-  copy_ = std::make_unique<const Copy>(Copy{view.map, view.graph, view.sections});
-  written_ = std::async(std::launch::async, [copy = copy_.get(), path = path_] {
-    derived::mapFileOf(copy->map, copy->graph, copy->sections).write(path);
-  });
+  copy_ = std::make_unique<const Snapshot>(Snapshot{view.map, view.graph, view.uncertainty});
+  written_ = std::async(std::launch::async,
+                        [copy = copy_.get(), path = path_] { derived::mapFileToAsk(copy->state()).write(path); });
   return "";
 }
 

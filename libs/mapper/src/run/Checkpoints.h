@@ -2,14 +2,12 @@
 
 #include <omnimapper/graph/Graph.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/map/MapFile.h>
 #include <omnimapper/plugin/View.h>
 
 #include <chrono>
 #include <future>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace omnimapper::mapper {
 
@@ -32,17 +30,12 @@ class Checkpoints {
   std::size_t count() const { return count_; }
 
  private:
-  struct Copy {
-    map::Map map;
-    graph::Graph graph;
-    std::vector<map::MapSection> sections;
-  };
   std::string finished();
 
   std::string path_;
   std::chrono::duration<double> period_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  std::unique_ptr<const Copy>
+  std::unique_ptr<const Snapshot>
       copy_;  // the copy being written; created and destroyed by the thread that changes the map
   std::future<void> written_;
   std::size_t count_ = 0;

@@ -3,6 +3,7 @@
 #include <omnimapper/derived/SessionAlignment.h>
 #include <omnimapper/live/LiveOptions.h>
 #include <omnimapper/live/SensorSection.h>
+#include <omnimapper/map/Level.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/SessionOptions.h>
@@ -125,7 +126,8 @@ RunResult resultOf(const View& view) {
   result.closures = closures.accepted;
   result.refused_closures = closures.refused;
   result.sessions = view.map.sessions;
-  if (!view.map_is_held) result.level = view.map.level;
+  const auto* level = view.map.layers.find<map::Level>();
+  if (!view.map_is_held && level) result.level = *level;
   result.live = view.live;
   result.localized = view.localization.size();
   for (const auto& estimate : view.localization) result.located += estimate.located();

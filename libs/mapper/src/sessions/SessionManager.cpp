@@ -9,7 +9,6 @@ void SessionManager::continueFrom(derived::SavedMap saved, const SessionStart& s
   map::Session session = state_.map.sessions.back();
   state_.map = std::move(saved.map);
   state_.graph = std::move(saved.graph);
-  state_.sections = std::move(saved.sections);
   session.number = static_cast<std::uint16_t>(state_.map.sessions.empty() ? 0 : state_.map.sessions.back().number + 1);
   session.aligned = false;
   state_.graph.setSession(session.number);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <omnimapper/map/MapSection.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
@@ -7,8 +9,12 @@
 
 namespace omnimapper::map {
 
-/// Which way is up in a map, and how that was found. The map itself is not rotated to be level.
+/// Which way is up in a map, and how that was found. The map itself is not rotated to be level. The layer "level" of a
+/// map; a map whose run has not ended, or whose file is old, has none, and its z then counts as up.
 struct Level {
+  static constexpr char kLayer[] = "level";
+  static constexpr std::uint32_t kLayerVersion = 1;
+
   enum class Source : std::uint8_t {
     unknown = 0,  ///< no source could determine it
     base = 1,     ///< a robot on wheels stands level
@@ -27,6 +33,11 @@ struct Level {
   double standardDeviation() const;
   /// The smallest rotation that turns `up` into z. Surfaces are judged, and drawn from above, in the rotated frame.
   Eigen::Quaterniond levelFromMap() const;
+
+  std::string toBytes() const;
+  /// Throws Error(unreadable_input) if the section is another one, of a later version or damaged, if a number is not
+  /// finite, or if up is not a unit vector.
+  static Level fromSection(const MapSection& section);
 };
 
 /// "imu", "planes", "base" or "unknown".

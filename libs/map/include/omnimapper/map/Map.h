@@ -3,7 +3,7 @@
 #include <omnimapper/base/IdTable.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/Landmark.h>
-#include <omnimapper/map/Level.h>
+#include <omnimapper/map/Layers.h>
 
 #include <optional>
 #include <string>
@@ -25,8 +25,7 @@ struct Map {
   KeyFrames key_frames;
   base::IdTable<base::LandmarkId, Landmark> landmarks;
   std::vector<Session> sessions;  ///< in order of number
-  /// Which way is up. None until the run ends, and in old maps that do not store it; z then counts as up.
-  std::optional<Level> level;
+  Layers layers;                  ///< all other data, such as the level, the place on earth and the state of plugins
 
   /// The key frame of that id. Throws Error(internal) if there is none.
   const KeyFrame& keyFrame(base::KeyFrameId id) const { return key_frames.at(id); }

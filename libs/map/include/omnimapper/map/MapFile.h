@@ -1,21 +1,14 @@
 #pragma once
 
 #include <omnimapper/map/Map.h>
+#include <omnimapper/map/MapSection.h>
 #include <omnimapper/map/PayloadRegistry.h>
-#include <omnimapper/map/Places.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace omnimapper::map {
-
-/// One named part of a map file. The owner of the section defines what the bytes mean at each version.
-struct MapSection {
-  std::string name;
-  std::uint32_t version = 1;
-  std::string bytes;
-};
 
 /// The container `map.omnimap`: sections with a checksum each. Sections of unknown names are kept unchanged.
 class MapFile {
@@ -58,17 +51,5 @@ std::vector<Session> sessionsFromSection(const MapSection& section);
 /// The sessions of an old map that lacks this section: one session for each session number of the key frames. Each
 /// session is aligned, and its anchor is the pose of its first key frame.
 std::vector<Session> sessionsOfFrames(const KeyFrames& key_frames);
-
-/// The name of the section that holds the answers to queries. Every run that writes a map writes this section anew, so
-/// a run that continues a map does not load it.
-inline constexpr char kPlacesSection[] = "places";
-MapSection placesToSection(const Places& places);
-/// Throws Error(unreadable_input) as framesFromSection(), and if a number is not finite or a direction is not unit.
-Places placesFromSection(const MapSection& section);
-
-/// The "level" section, of maps whose level was estimated.
-MapSection levelToSection(const Level& level);
-/// Throws Error(unreadable_input) as framesFromSection(), and if a number is not finite or up is not a unit vector.
-Level levelFromSection(const MapSection& section);
 
 }  // namespace omnimapper::map

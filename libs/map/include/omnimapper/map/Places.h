@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/map/MapSection.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -49,10 +50,19 @@ struct LastPose {
   std::uint16_t session = 0;
 };
 
-/// The answers of a saved map to queries by name.
+/// The answers of a saved map to queries by name: its layer "places". It is computed from the other data whenever a map
+/// is saved, so a run that continues the map does not load it.
 struct Places {
+  static constexpr char kLayer[] = "places";
+  static constexpr std::uint32_t kLayerVersion = 1;
+
   std::vector<Place> places;  ///< in the order of ids
   std::optional<LastPose> last_pose;
+
+  std::string toBytes() const;
+  /// Throws Error(unreadable_input) if the section is another one, of a later version or damaged, if a number is not
+  /// finite, or if a direction is not a unit vector.
+  static Places fromSection(const MapSection& section);
 };
 
 }  // namespace omnimapper::map

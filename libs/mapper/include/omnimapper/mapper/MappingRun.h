@@ -4,6 +4,7 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Progress.h>
+#include <omnimapper/map/Level.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/plugin/LiveMetrics.h>

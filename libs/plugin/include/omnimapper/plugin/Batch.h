@@ -14,9 +14,9 @@
 
 namespace omnimapper::mapper {
 
-/// An atomic list of edits of graph and landmarks, with the decisions behind them. The engine applies it whole or not
-/// at all. Ids of what a batch adds are provisional (isProvisional()): they can be used within this batch, and final
-/// ids replace them when the batch is applied.
+/// An atomic list of edits of graph, landmarks and layers, with the decisions behind them. The engine applies it whole
+/// or not at all. Ids of what a batch adds are provisional (isProvisional()): they can be used within this batch, and
+/// final ids replace them when the batch is applied.
 class Batch {
  public:
   /// A fixed variable keeps its value.
@@ -55,6 +55,17 @@ class Batch {
     merges_.push_back({from, into, std::move(payload)});
   }
 
+  /// Adds the layer of the map or replaces that of the same name (map/Layers.h).
+  template <class T>
+  void setLayer(T value, const std::string& name = T::kLayer) {
+    setLayer(name, std::make_shared<const map::LayerOf<T>>(std::move(value)));
+  }
+  /// The same with a layer of any class; null is not allowed.
+  void setLayer(const std::string& name, std::shared_ptr<const map::Layer> layer) {
+    layers_.emplace_back(name, std::move(layer));
+  }
+  void removeLayer(const std::string& name) { layers_.emplace_back(name, nullptr); }
+
   struct NewVariable {
     std::shared_ptr<const graph::Variable> kind;
     Eigen::VectorXd value;
@@ -78,7 +89,7 @@ class Batch {
   };
   /// Whether the batch has no edit and no decision.
   bool empty() const;
-  /// Whether it changes the graph: decisions, evidence, new and retired landmarks alone do not.
+  /// Whether it changes the graph: decisions, layers, evidence, new and retired landmarks alone do not.
   bool changesGraph() const;
   const std::vector<NewVariable>& addedVariables() const { return added_variables_; }
   const std::vector<graph::FactorRecord>& addedFactors() const { return added_factors_; }
@@ -90,6 +101,8 @@ class Batch {
   const std::vector<base::LandmarkId>& retiredLandmarks() const { return retired_landmarks_; }
   const std::vector<Merge>& merges() const { return merges_; }
   const std::optional<SessionPlace>& sessionPlace() const { return session_place_; }
+  /// By name; null for a layer that is removed.
+  const std::vector<std::pair<std::string, std::shared_ptr<const map::Layer>>>& layers() const { return layers_; }
   /// If Decision::hypothesis is set, it is a provisional id whose index is the factor's position in addedFactors().
   const std::vector<Decision>& decisions() const { return decisions_; }
 
@@ -112,6 +125,7 @@ class Batch {
   std::vector<Merge> merges_;
   std::vector<Decision> decisions_;
   std::optional<SessionPlace> session_place_;
+  std::vector<std::pair<std::string, std::shared_ptr<const map::Layer>>> layers_;
 };
 
 /// The final ids of what an applied batch added, in the order of addition.

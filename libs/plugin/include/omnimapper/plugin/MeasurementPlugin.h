@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/map/Map.h>
-#include <omnimapper/map/MapFile.h>
+#include <omnimapper/map/MapSection.h>
 #include <omnimapper/plugin/Batch.h>
 #include <omnimapper/plugin/Job.h>
 #include <omnimapper/plugin/View.h>
@@ -12,8 +12,8 @@
 
 namespace omnimapper::mapper {
 
-/// A plugin's section of a map file is named by this prefix and the plugin's INI section.
-inline constexpr char kPluginSectionPrefix[] = "plugin ";
+/// The layer with the saved state of a plugin is named by this prefix and the plugin's INI section.
+inline constexpr char kPluginLayerPrefix[] = "plugin ";
 
 /// The result of MeasurementPlugin::prepare() for one observation; each plugin derives its own type from it.
 struct Prepared {
@@ -63,8 +63,9 @@ class MeasurementPlugin {
   /// Called after atEnd(): the evidence of this plugin for or against the finished map.
   virtual std::vector<Evidence> evidence(const View& /*view*/) const { return {}; }
 
-  /// What a map file must keep of the plugin so that a later session can continue; the engine names the section. None
-  /// if frames, landmarks and graph suffice.
+  /// What a map must keep of the plugin, for this plugin alone, so that a later session can continue; the engine names
+  /// the layer. None if frames, landmarks and graph suffice. What other plugins, outputs or queries read is a layer of
+  /// its own (Batch::setLayer()).
   virtual std::optional<map::MapSection> save() const { return std::nullopt; }
   /// Called once, before the first observation, when a map is continued: restores what save() returned and what the
   /// plugin needs of earlier sessions. `saved` is null if the file has no section of the plugin. Throws

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <mrpt/poses/CPose3D.h>
-#include <omnimapper/plugin/View.h>
+#include <omnimapper/map/Layers.h>
+#include <omnimapper/plugin/State.h>
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 
-// Where a map is on the earth. A plugin that knows this place passes it to outputs in the plugin's section of the map
-// file; a mark at the end identifies such a section.
+// Where a map is on the earth.
 namespace omnimapper::mapper {
 
 /// [deg] WGS84, altitude [m] above the ellipsoid.
@@ -16,22 +15,31 @@ struct Geodetic {
   double latitude = 0, longitude = 0, altitude = 0;
 };
 
+/// The layer "place on earth" of a map, which a plugin sets that knows where the map is.
 struct PlaceOnEarth {
+  static constexpr char kLayer[] = "place on earth";
+  static constexpr std::uint32_t kLayerVersion = 1;
+
   base::VariableId map_from_enu;  ///< a pose: where the east-north-up frame of the origin is in the map
   Geodetic origin;
+
+  std::string toBytes() const;
+  /// Throws Error(unreadable_input) if the section is of a later version or damaged.
+  static PlaceOnEarth fromSection(const map::MapSection& section);
+  map::LayerReferences references() const { return {{}, {}, {map_from_enu}}; }
 };
 
-/// The bytes of a plugin's section that holds `place`.
-std::string writePlace(const PlaceOnEarth& place);
+/// The place on earth of a map; null if it is not known, or if its variable is no longer in the graph.
+const PlaceOnEarth* placeOnEarth(const State& state);
 
-/// The place on earth that the sections of a map hold: the first whose variable is still in the graph; none if there is
-/// none.
-std::optional<PlaceOnEarth> placeOnEarth(const View& view);
+/// Earlier programs wrote the place into the state of the plugin that knew it. If `layers` have no place on earth, this
+/// function sets it from such a state whose variable is in `graph`.
+void adoptPlaceOnEarth(map::Layers& layers, const graph::Graph& graph);
 
 /// Converts points of the map to longitude, latitude and altitude.
 class EarthFrame {
  public:
-  EarthFrame(const PlaceOnEarth& place, const View& view);
+  EarthFrame(const PlaceOnEarth& place, const State& state);
   Geodetic operator()(const Eigen::Vector3d& point_in_map) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <mrpt/rtti/CObject.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/graph/FactorRegistry.h>
+#include <omnimapper/map/Layers.h>
 #include <omnimapper/map/PayloadRegistry.h>
 #include <omnimapper/perception/Extractor.h>
 #include <omnimapper/plugin/MeasurementPlugin.h>
@@ -29,10 +30,14 @@ struct PluginContext {
   std::string config_text;    ///< the INI of the run
 };
 
-/// The kinds of factors and payloads that a map file may contain.
+/// The readers of the layers that need no plugin: the level and the place on earth.
+map::LayerRegistry layersOfNoPlugin();
+
+/// The kinds of factors, payloads and layers that a map file may contain.
 struct Kinds {
   graph::FactorRegistry factors = graph::FactorRegistry::withBuiltIns();
   map::PayloadRegistry payloads;
+  map::LayerRegistry layers = layersOfNoPlugin();
 };
 
 enum class PluginKind { pose, measurement, output, extractor };
@@ -48,8 +53,8 @@ class PluginFactory : public mrpt::rtti::CObject {
   /// One sentence for --list-plugins.
   virtual std::string summary() const = 0;
   virtual const std::vector<base::OptionSpec>& options() const = 0;
-  /// Registers the variables, factors and payloads that the class's plugins put into a map, so that a map file can be
-  /// read.
+  /// Registers the variables, factors, payloads and layers that the class's plugins put into a map, so that a map file
+  /// can be read.
   virtual void registerKinds(Kinds& /*kinds*/) const {}
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <omnimapper/map/MapFile.h>
 #include <omnimapper/plugin/DecisionLog.h>
 #include <omnimapper/plugin/LiveMetrics.h>
 #include <omnimapper/plugin/LocalizationEstimate.h>
@@ -49,8 +48,6 @@ struct View : State {
   const std::vector<SolveRecord>& solves;
   /// Warnings for the user of this run: damaged input, interruption, observations left out.
   const std::vector<std::string>& warnings;
-  /// The sections of a map file beside graph, frames and landmarks: those of plugins and unknown ones.
-  const std::vector<map::MapSection>& sections;
   /// Whether the run only localizes in a saved map: it does not change what earlier sessions made.
   bool map_is_held = false;
   /// The estimates of a run that localizes, one for each key frame in the order of arrival.
@@ -71,7 +68,6 @@ struct ViewedRun {
   RunCounts counts;
   std::vector<SolveRecord> solves;
   std::vector<std::string> warnings;
-  std::vector<map::MapSection> sections;
   bool map_is_held = false;
   std::vector<LocalizationEstimate> localization;
   Verdict verdict;
@@ -84,7 +80,6 @@ struct ViewedRun {
             counts,
             solves,
             warnings,
-            sections,
             map_is_held,
             localization,
             verdict,
