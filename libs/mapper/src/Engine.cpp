@@ -30,7 +30,7 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
 
 void Engine::add(const mrpt::obs::CObservation::Ptr& observation) {
   const auto timer = state_.times.measure(Stage::engine);
-  front_end_.add(observation);
+  front_end_.add({observation});
   while (auto bundle = front_end_.next()) process(*bundle);
 }
 
@@ -41,10 +41,26 @@ void Engine::poll() {
 
 void Engine::process(FrameBundle& bundle) {
   const auto begin = state_.times.mark();
-  if (!back_end_.process(bundle)) return;
-  schedule_->mapped(bundle.stamp);
-  forget();
-  state_.times.addKeyFrameSince(begin);
+  if (back_end_.process(bundle)) {
+    schedule_->mapped(bundle.stamp);
+    forget();
+    state_.times.addKeyFrameSince(begin);
+  }
+  if (!bundle.watched.empty()) takeAnswers(bundle);
+}
+
+// Answers to answers end after some generations, so that two plugins cannot keep the engine busy with each other.
+void Engine::takeAnswers(const FrameBundle& bundle) {
+  constexpr int kMostGenerations = 8;
+  for (const auto& answer : back_end_.watch(bundle)) {
+    if (answer.generation <= kMostGenerations) {
+      front_end_.add(answer);
+    } else {
+      const std::string sentence = "a plugin answers the observations '" + answer.observation->sensorLabel +
+                                   "' of plugins without end; its further answers are left out";
+      if (std::count(state_.warnings.begin(), state_.warnings.end(), sentence) == 0) warn(sentence);
+    }
+  }
 }
 
 // Drops the data that no late observation can need any more: neither one that still waits, nor one that comes within

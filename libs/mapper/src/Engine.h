@@ -74,6 +74,7 @@ class Engine {
 
  private:
   void process(FrameBundle& bundle);
+  void takeAnswers(const FrameBundle& bundle);
   void forget();
 
   EngineSettings settings_;

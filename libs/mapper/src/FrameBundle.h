@@ -27,12 +27,19 @@ struct PerceivedParts {
   ExtractionErrors errors;             ///< errors of extractors that could not process it
 };
 
+/// An observation that a plugin returned to the engine, or one of a sensor.
+struct Arrival {
+  mrpt::obs::CObservation::Ptr observation;
+  int generation = 0;  ///< 0: of a sensor; n + 1: a watcher's answer to one of generation n
+};
+
 /// Passed from the front end to the back end: the observations of one stamp that triggered a key frame. If there are
-/// none, the stamp becomes a dependent frame of the key frame before it.
+/// none and `reference` is set, the stamp becomes a dependent frame of the key frame before it.
 struct FrameBundle {
   base::Stamp stamp;
   bool reference = false;  ///< an observation of that stamp, triggered or not, is of the reference sensor
   std::vector<std::future<PerceivedParts>> observations;  ///< results of perception, one for each observation
+  std::vector<Arrival> watched;                           ///< what watchers see, in the order of arrival
 };
 
 }  // namespace omnimapper::mapper

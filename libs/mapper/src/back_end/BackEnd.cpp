@@ -2,6 +2,7 @@
 
 #include <omnimapper/derived/SessionAlignment.h>
 #include <omnimapper/plugin/SessionSeeking.h>
+#include <omnimapper/plugin/WatchesObservations.h>
 
 #include <algorithm>
 #include <iterator>
@@ -64,6 +65,7 @@ void BackEnd::beginSession(const map::Session& session, const std::optional<Sess
 
 bool BackEnd::process(FrameBundle& bundle) {
   if (bundle.observations.empty()) {
+    if (!bundle.reference) return false;  // it is only watched
     if (!chain_.attach(bundle.stamp)) {
       ++state_.counts.unconnected;
       return false;
@@ -94,6 +96,25 @@ bool BackEnd::process(FrameBundle& bundle) {
   if (window_ && place->is_new && !place->after) addEstimate(place->id);
   for (auto& [section, plugin] : plugins_.output) plugin->keyFrameAdded(state_.view());
   return true;
+}
+
+std::vector<Arrival> BackEnd::watch(const FrameBundle& bundle) {
+  std::vector<Arrival> made;
+  for (const auto& [observation, generation] : bundle.watched) {
+    for (auto& [section, plugin] : plugins_.measurement) {
+      auto* watcher = dynamic_cast<WatchesObservations*>(plugin.get());
+      if (!watcher || !watcher->watches(*observation)) continue;
+      state_.fed.insert(section);
+      const auto watched = [&, &section = section, &observation = observation] {
+        const auto timer = state_.times.measure(Stage::plugin, section);
+        return watcher->watch({*observation, chain_.at(bundle.stamp)}, state_.view());
+      };
+      const auto result = watched();
+      if (!result.batch.empty()) applier_.apply(result.batch, {section, bundle.stamp}, *plugin);
+      for (const auto& answer : result.observations) made.push_back({answer, generation + 1});
+    }
+  }
+  return made;
 }
 
 // Collects the raw observations, then the derived ones. Observations that the key frame already has are left out: a

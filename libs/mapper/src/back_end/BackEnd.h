@@ -41,6 +41,8 @@ class BackEnd {
   /// Whether the bundle became or joined a key frame. False if its stamp is only a dependent frame, or if no pose
   /// source links it to the others; the latter is counted.
   bool process(FrameBundle& bundle);
+  /// Shows the bundle's watched observations to the plugins that watch them, and returns their new observations.
+  std::vector<Arrival> watch(const FrameBundle& bundle);
   /// In a run that localizes, takes key frames before `stamp` out of the window; in other runs does nothing.
   void retireBefore(base::Stamp stamp);
 

@@ -56,6 +56,17 @@ std::optional<base::Stamp> PoseChain::newest() const {
   return map_.key_frames.back().stamp;
 }
 
+std::optional<WatchedPose> PoseChain::at(base::Stamp stamp) const {
+  const map::KeyFrame* frame = frameAfter(stamp);
+  if (frame && frame->stamp == stamp)
+    return WatchedPose{frame->id, {CPose3D(), Eigen::Matrix<double, 6, 6>::Zero()}, frame->map_from_base};
+  frame = frameBefore(stamp);
+  if (!frame) return std::nullopt;
+  const auto since = motion(frame->stamp, stamp, true);
+  if (!since) return std::nullopt;
+  return WatchedPose{frame->id, *since, frame->map_from_base + since->begin_from_end};
+}
+
 std::optional<PoseChain::Place> PoseChain::place(base::Stamp stamp) {
   const map::KeyFrame *before = frameBefore(stamp), *after = frameAfter(stamp);
   Place place{{}, true, {}, {}};

@@ -6,6 +6,7 @@
 #include <omnimapper/plugin/Motion.h>
 #include <omnimapper/plugin/PosePlugin.h>
 #include <omnimapper/plugin/SessionStart.h>
+#include <omnimapper/plugin/WatchesObservations.h>
 
 #include <map>
 #include <optional>
@@ -39,6 +40,9 @@ class PoseChain {
   /// Adds a dependent frame for an observation of the reference sensor that is no key frame; it belongs to the key
   /// frame before it. False if there is no such key frame or no source has the motion from it.
   bool attach(base::Stamp stamp);
+  /// Where the base was at that stamp; none if there is no key frame that is not younger, or if no source has the
+  /// motion from it.
+  std::optional<WatchedPose> at(base::Stamp stamp) const;
   /// Must be called when a source has new information on that span: the key frames there are linked again.
   void relink(base::Stamp begin, base::Stamp end);
 

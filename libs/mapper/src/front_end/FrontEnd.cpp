@@ -20,6 +20,14 @@ std::vector<const Plugin*> pointers(const std::vector<Named<Plugin>>& plugins) {
   return all;
 }
 
+std::vector<WatchesObservations*> watchersOf(const std::vector<Named<MeasurementPlugin>>& plugins) {
+  std::vector<WatchesObservations*> watchers;
+  for (const auto& named : plugins) {
+    if (auto* watcher = dynamic_cast<WatchesObservations*>(named.plugin.get())) watchers.push_back(watcher);
+  }
+  return watchers;
+}
+
 }  // namespace
 
 FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
@@ -33,9 +41,11 @@ FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, Plu
       queue_(base::durationFromSeconds(settings.engine.window)),
       trigger_(settings.trigger),
       perception_(pointers(plugins.extractors), pointers(plugins.measurement), pool, settings.engine.cloud()),
+      watchers_(watchersOf(plugins.measurement)),
       reference_sensor_(settings.engine.reference_sensor) {}
 
-void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
+void FrontEnd::add(const Arrival& arrival) {
+  const auto& observation = arrival.observation;
   RunCounts& counts = state_.counts;
   ++counts.observations;
   if (!filter_.accepts(*observation, counts)) return;
@@ -47,12 +57,30 @@ void FrontEnd::add(const mrpt::obs::CObservation::Ptr& observation) {
   const auto placed = sensor_poses_.applied(observation);
   const bool is_taken = feedSources(placed);
   state_.level_evidence.add(*placed);
+  const bool is_watched = tellWatchers(*placed);
   // Without measurement plugins, the observations of the pose sources make the key frames.
-  if (perception_.wants(*placed) || (is_taken && plugins_.measurement.empty())) {
+  if (is_watched || perception_.wants(*placed) || (is_taken && plugins_.measurement.empty())) {
+    if (is_watched && arrival.generation > 0) generation_of_[placed.get()] = arrival.generation;
     if (!queue_.add(placed)) addLate(placed);
   } else if (!is_taken) {
     ++counts.unwanted;
   }
+}
+
+// Whether any plugin watches the observation.
+bool FrontEnd::tellWatchers(const mrpt::obs::CObservation& observation) const {
+  bool is_watched = false;
+  for (auto* watcher : watchers_) {
+    if (!watcher->watches(observation)) continue;
+    watcher->arrived(observation);
+    is_watched = true;
+  }
+  return is_watched;
+}
+
+bool FrontEnd::isWatched(const mrpt::obs::CObservation& observation) const {
+  return std::any_of(watchers_.begin(), watchers_.end(),
+                     [&](const auto* watcher) { return watcher->watches(observation); });
 }
 
 // Whether a pose source took the observation. If a source has new information on the past, the factors there are
@@ -135,9 +163,14 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     plugin->processUntil(group.stamp);
   }
   const auto motion = [this](base::Stamp begin, base::Stamp end) { return chain_.motion(begin, end, false); };
-  FrameBundle bundle{group.stamp, false, {}};
+  FrameBundle bundle{group.stamp, false, {}, {}};
   std::vector<mrpt::obs::CObservation::ConstPtr> fired;
   for (const auto& observation : group.observations) {
+    if (isWatched(*observation)) {
+      const auto made = generation_of_.extract(observation.get());
+      bundle.watched.push_back({observation, made ? made.mapped() : 0});
+      if (!perception_.wants(*observation)) continue;
+    }
     const auto usable = usablePart(observation);
     const bool fires = !usable ? false
                        : late  ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)
@@ -151,7 +184,8 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     bundle.reference = bundle.reference || observation->sensorLabel == reference_sensor_;
   }
   for (const auto& raw : fired) bundle.observations.push_back(perception_.submit(raw, fired));
-  if (!bundle.observations.empty() || bundle.reference) bundles_.push_back(std::move(bundle));
+  if (!bundle.observations.empty() || bundle.reference || !bundle.watched.empty())
+    bundles_.push_back(std::move(bundle));
 }
 
 std::optional<base::Stamp> FrontEnd::oldestWaiting() const {

@@ -5,10 +5,13 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/mapper/Trigger.h>
+#include <omnimapper/plugin/WatchesObservations.h>
 
 #include <deque>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <vector>
 
 #include "FrameBundle.h"
 #include "RunState.h"
@@ -30,8 +33,8 @@ class FrontEnd {
   FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, PluginSet& plugins, PoseChain& chain,
            base::WorkerPool& pool, Schedule& schedule, RunState& state);
 
-  /// Takes one observation. Unusable ones are counted.
-  void add(const mrpt::obs::CObservation::Ptr& observation);
+  /// Takes one observation of a sensor or of a watcher. Unusable ones are counted.
+  void add(const Arrival& arrival);
   /// Called at the end of the log: from then on next() returns everything that still waits.
   void close();
   /// The bundle to process now; none until more observations are added. It must be processed before the next call,
@@ -49,6 +52,8 @@ class FrontEnd {
   bool feedSources(const mrpt::obs::CObservation::ConstPtr& observation);
   mrpt::obs::CObservation::ConstPtr usablePart(mrpt::obs::CObservation::ConstPtr observation) const;
   bool isCovered(base::Stamp stamp) const;
+  bool tellWatchers(const mrpt::obs::CObservation& observation) const;
+  bool isWatched(const mrpt::obs::CObservation& observation) const;
   void addLate(const mrpt::obs::CObservation::Ptr& observation);
   bool releaseNext();
   void release(const ReleaseQueue::Group& group, bool late);
@@ -63,6 +68,8 @@ class FrontEnd {
   ReleaseQueue queue_;
   Trigger trigger_;
   Perception perception_;
+  std::vector<WatchesObservations*> watchers_;
+  std::unordered_map<const mrpt::obs::CObservation*, int> generation_of_;  // of the queued ones that watchers made
   std::string reference_sensor_;
   std::deque<FrameBundle> bundles_;
   bool closed_ = false;
