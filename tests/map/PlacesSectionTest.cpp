@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/base/Bytes.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Places.h>
@@ -23,7 +24,11 @@ Places somePlaces() {
   sign.label = "sign 7";
   sign.caption = std::string("2\0\xff", 3);
   sign.moved = true;
-  sign.properties = {{"number", "213"}, {"words", "a, b"}};
+  sign.properties = {{"number", "213"},
+                     {"looks", std::uint64_t{7}},
+                     {"area", Measure{0.125, "m2"}},
+                     {"repeated_elsewhere", true},
+                     {"first_place_last_seen", base::stampFromUnix(1.15e9)}};
   sign.position = {1, -2, 0.5};
   sign.extent.points = {{1, -2}};
   sign.extent.lines = {{{0, 1}, {2, 3}}};
@@ -47,7 +52,7 @@ Places somePlaces() {
 
 std::string refusal(const std::string& bytes) {
   try {
-    Places::fromSection({Places::kLayer, 1, bytes});
+    Places::fromSection({Places::kLayer, Places::kLayerVersion, bytes});
   } catch (const base::Error& error) {
     EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
     return error.what();
@@ -64,7 +69,12 @@ TEST(PlacesSection, KeepsEveryField) {
   EXPECT_EQ(a.label, b.label);
   EXPECT_EQ(a.caption, b.caption);
   EXPECT_EQ(a.moved, b.moved);
-  EXPECT_EQ(a.properties, b.properties);
+  ASSERT_EQ(a.properties.size(), b.properties.size());
+  for (std::size_t i = 0; i < a.properties.size(); ++i) {
+    EXPECT_EQ(keyOf(a.properties[i]), keyOf(b.properties[i]));
+    EXPECT_EQ(textOf(a.properties[i]), textOf(b.properties[i]));
+    EXPECT_EQ(a.properties[i].value.index(), b.properties[i].value.index());
+  }
   EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.extent.points, b.extent.points);
   EXPECT_EQ(a.extent.lines, b.extent.lines);
@@ -86,6 +96,35 @@ TEST(PlacesSection, KeepsEveryField) {
   EXPECT_EQ(after.last_pose->stamp, before.last_pose->stamp);
   EXPECT_EQ(toSection(after).bytes, toSection(before).bytes);
   EXPECT_FALSE(Places::fromSection(toSection(Places{})).last_pose);
+}
+
+// Version 1 kept properties as texts, and the names of measures, counts and times ended in what they were.
+TEST(PlacesSection, PropertiesOfVersionOneGetTheirKinds) {
+  Places places;
+  places.places.emplace_back();
+  std::string bytes = toSection(places).bytes;
+  base::ByteWriter old;
+  const std::vector<std::pair<std::string, std::string>> texts{
+      {"number", "213"},          {"words", "a, b"},     {"area_m2", "8.000"},          {"repeated_elsewhere", "yes"},
+      {"place_1_last_seen", "5"}, {"count_of_seen", ""}, {"place_1_measurements", "12"}};
+  old.uint(texts.size(), 4);
+  for (const auto& [name, text] : texts) {
+    old.block(name);
+    old.block(text);
+  }
+  constexpr std::size_t kBefore = 4 + 6 + 3 * 8;  // number of places, id, three empty texts
+  bytes.replace(kBefore, 4, old.bytes());
+  const auto read = Places::fromSection({Places::kLayer, 1, bytes}).places.at(0).properties;
+  ASSERT_EQ(read.size(), texts.size());
+  EXPECT_EQ(std::get<std::string>(read[0].value), "213") << "a number of a door is a name";
+  EXPECT_EQ(std::get<std::string>(read[1].value), "a, b");
+  EXPECT_EQ(read[2].name, "area");
+  EXPECT_EQ(std::get<Measure>(read[2].value).value, 8);
+  EXPECT_EQ(keyOf(read[2]), "area_m2");
+  EXPECT_TRUE(std::get<bool>(read[3].value));
+  EXPECT_EQ(std::get<base::Stamp>(read[4].value), base::stampFromUnix(5));
+  EXPECT_EQ(std::get<std::string>(read[5].value), "");
+  EXPECT_EQ(std::get<std::uint64_t>(read[6].value), 12u);
 }
 
 TEST(PlacesSection, AnyCutIsNoticedAndNoByteDoesHarm) {

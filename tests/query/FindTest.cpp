@@ -50,7 +50,7 @@ TEST(Find, WhereNothingIsNearTheClosestNamesAreSuggested) {
 
 TEST(Find, MeasuresAreNoNames) {
   map::Place wall = wallFrom(0, 0, 5, 0);
-  wall.properties = {{"length_m", "5.000"}, {"repeated_elsewhere", "yes"}, {"number", "12"}};
+  wall.properties = {{"length", map::Measure{5, "m"}}, {"repeated_elsewhere", true}, {"number", "12"}};
   EXPECT_EQ(namesOf(wall), (std::vector<std::string>{"wall", "12"}));
 }
 

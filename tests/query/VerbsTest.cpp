@@ -142,9 +142,9 @@ TEST_F(HandMadeFolder, AMapIsOpenedByFolderOrFileAndEachDefectIsNamed) {
   file.write(map_.file);
   EXPECT_EQ(openMap(folder_.path()).places.places.size(), 6U);
   EXPECT_EQ(openMap(map_.file).folder, folder_.path());
-  file.set({"places", 2, ""});
+  file.set({"places", 3, ""});
   file.write(map_.file);
-  EXPECT_TRUE(says(refusal(), map_.file) && says(refusal(), "version 2"));
+  EXPECT_TRUE(says(refusal(), map_.file) && says(refusal(), "version 3"));
   file.set({"places", 1, "\1\1\1\1"});
   file.write(map_.file);
   EXPECT_TRUE(says(refusal(), "truncated"));

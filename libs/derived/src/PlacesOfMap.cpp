@@ -28,39 +28,6 @@ map::Extent extentOf(const map::LandmarkShape& shape, const Vector3d& position) 
   return extent;
 }
 
-// The centre of its surfaces, else of its lines, else of its points.
-Vector3d middleOf(const map::LandmarkShape& shape) {
-  Vector3d sum = Vector3d::Zero();
-  double weight = 0;
-  const auto add = [&](const Vector3d& at, double of) {
-    sum += of * at;
-    weight += of;
-  };
-  for (const auto& surface : shape.surfaces) {
-    const auto& corners = surface.vertices;
-    const Vector3d normal = geometry::areaVector(surface).normalized();
-    // Triangles that share the first corner; where the outline is concave their areas are negative.
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      const double twice = (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]).dot(normal);
-      add((corners[0] + corners[i - 1] + corners[i]) / 3, twice / 2);
-    }
-  }
-  if (weight > 0) return sum / weight;
-  sum.setZero();
-  weight = 0;
-  for (const auto& [from, to] : shape.lines) add((from + to) / 2, (to - from).norm());
-  if (weight > 0) return sum / weight;
-  for (const auto& [from, to] : shape.lines) add((from + to) / 2, 1);
-  for (const auto& point : shape.points) add(point, 1);
-  return sum / weight;
-}
-
-Vector3d positionOf(const map::LandmarkShape& shape) {
-  const auto& stamps = shape.point_stamps;
-  if (stamps.empty() || stamps.size() != shape.points.size()) return middleOf(shape);
-  return shape.points[static_cast<std::size_t>(std::max_element(stamps.begin(), stamps.end()) - stamps.begin())];
-}
-
 // Derivative of the distance between `point` and a plane or line variable with respect to the variable's tangent.
 Eigen::RowVectorXd distanceJacobian(const graph::Variable& kind, const Eigen::VectorXd& value, const Vector3d& point) {
   constexpr double kStep = 1e-6;
@@ -136,8 +103,6 @@ bool allHaveVariables(const map::Landmark& landmark, const graph::Graph& graph) 
                      [&](const auto variable) { return graph.contains(variable); });
 }
 
-constexpr char kOfSensors[] = "seen_by_";  // prefix of map::seenByKey(); these counts go into Place::seen_by
-
 map::Place placeOf(const ShapedLandmark& shaped, const mapper::State& state, const FramesByPose& frames) {
   const map::Landmark& landmark = *shaped.landmark;
   map::Place place;
@@ -147,10 +112,9 @@ map::Place placeOf(const ShapedLandmark& shaped, const mapper::State& state, con
   const std::string named = landmark.kind + " ";  // "marker 12" is counted as "marker"
   place.kind = place.label.compare(0, named.size(), named) == 0 ? landmark.kind : place.label;
   place.moved = shaped.moved;
-  for (const auto& [label, count] : seenBy(shaped.shape)) place.seen_by[label] = count;
-  for (const auto& property : shaped.shape.properties)
-    if (property.first.rfind(kOfSensors, 0) != 0) place.properties.push_back(property);
-  place.position = positionOf(shaped.shape);
+  place.seen_by = shaped.shape.seen_by;
+  place.properties = shaped.shape.properties;
+  place.position = referencePoint(shaped.shape);
   place.extent = extentOf(shaped.shape, place.position);
   if (shaped.shape.normal) place.normal = shaped.shape.normal->normalized();
   place.measurements = landmark.evidence;

@@ -1,4 +1,5 @@
 #include <omnimapper/derived/PlanShape.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,14 @@ void addSurface(PlanShape& plan, const geometry::Polygon3& surface) {
   plan.areas.push_back(std::move(area));
 }
 
+// The convex outline of corners from above.
+void addHull(PlanShape& plan, const std::vector<Eigen::Vector3d>& corners) {
+  std::vector<PlanPoint> points;
+  for (const auto& corner : corners) points.emplace_back(corner.head<2>());
+  const auto hull = geometry::convexHull(points);
+  if (hull.size() > 2 && doubledArea(hull) >= kLeastOfPlan * kLeastOfPlan) plan.areas.push_back(hull);
+}
+
 }  // namespace
 
 PlanShape fromAbove(const map::LandmarkShape& shape) {
@@ -56,6 +65,12 @@ PlanShape fromAbove(const map::LandmarkShape& shape) {
   for (const auto& surface : shape.surfaces) addSurface(plan, surface);
   for (const auto& [from, to] : shape.lines) addLine(plan, {from.head<2>(), to.head<2>()});
   for (const auto& point : shape.points) plan.points.emplace_back(point.head<2>());
+  if (shape.box) {
+    const auto corners = shape.box->corners();
+    addHull(plan, {corners.begin(), corners.end()});
+  } else if (shape.mesh) {
+    addHull(plan, shape.mesh->vertices);
+  }
   return plan;
 }
 

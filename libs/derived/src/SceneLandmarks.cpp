@@ -33,6 +33,14 @@ void addDashed(CSetOfTriangles& strokes, const Eigen::Vector3d& from, const Eige
     obs::addStroke(strokes, from + begin * (to - from), from + end * (to - from), width);
 }
 
+void addMesh(CSetOfTriangles& triangles, const map::Mesh& mesh) {
+  const auto at = [&](std::uint32_t index) {
+    const Eigen::Vector3d& p = mesh.vertices[index];
+    return mrpt::math::TPoint3Df(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
+  };
+  for (const auto& [a, b, c] : mesh.triangles) triangles.insertTriangle(mrpt::opengl::TTriangle(at(a), at(b), at(c)));
+}
+
 // The outlines and lines of a landmark, dashed if it has moved.
 CSetOfTriangles::Ptr landmarkStrokes(const ShapedLandmark& landmark) {
   auto strokes = CSetOfTriangles::Create();
@@ -44,6 +52,8 @@ CSetOfTriangles::Ptr landmarkStrokes(const ShapedLandmark& landmark) {
   };
   for (const auto& surface : landmark.shape.surfaces) addWalk(surface);
   for (const auto& hole : landmark.shape.holes) addWalk(hole);
+  if (landmark.shape.box)
+    for (const auto& face : facesOf(*landmark.shape.box)) addWalk(face);
   for (const auto& [from, to] : landmark.shape.lines) add(*strokes, from, to, kLineStroke);
   // A dashed path through its former places.
   if (!landmark.shape.point_stamps.empty()) {
@@ -71,6 +81,7 @@ void addNormal(CSetOfObjects& scene, const ShapedLandmark& landmark) {
 Eigen::Vector3d namePlace(const map::LandmarkShape& shape) {
   const Eigen::Vector3d above(0, 0, 0.1);
   if (!shape.surfaces.empty()) return middleOfSurface(shape.surfaces.front()) + above;
+  if (shape.box || shape.mesh) return referencePoint(shape) + above;
   if (!shape.lines.empty()) return 0.5 * (shape.lines.front().first + shape.lines.front().second) + above;
   return shape.points.back() + above;
 }
@@ -103,6 +114,15 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
     const std::uint8_t alpha = coversThePlan(shape.label) || landmark.isFaint() ? kFaint : kTranslucent;
     for (std::size_t i = 0; i < shape.surfaces.size(); ++i)
       obs::addFilled(*object, planeOf(shape.surfaces[i], shape), withHoles(i, shape), inkOf(landmark, alpha));
+    if (shape.box && !shape.mesh)
+      for (const auto& face : facesOf(*shape.box))
+        obs::addFilled(*object, planeOf(face, {}), {face}, inkOf(landmark, alpha));
+    if (shape.mesh) {
+      auto surface = CSetOfTriangles::Create();
+      addMesh(*surface, *shape.mesh);
+      surface->setColor_u8(inkOf(landmark));
+      object->insert(surface);
+    }
     if (!landmark.isFaint()) addNormal(*object, landmark);
   }
   if (const auto strokes = landmarkStrokes(landmark); strokes->getTrianglesCount() > 0) object->insert(strokes);
@@ -160,6 +180,11 @@ std::vector<mrpt::opengl::TTriangle> landmarkTriangles(const std::vector<ShapedL
     CSetOfTriangles more;
     for (const auto& [from, to] : shape.lines) obs::addStroke(more, from, to, kLineStroke);
     for (const auto& point : shape.points) addOctahedron(more, point);
+    if (shape.mesh) {
+      addMesh(more, *shape.mesh);
+    } else if (shape.box) {
+      for (const auto& face : facesOf(*shape.box)) take(*obs::filled(planeOf(face, {}), {face}));
+    }
     take(more);
   }
   return all;

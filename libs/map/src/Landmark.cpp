@@ -18,4 +18,13 @@ std::vector<geometry::Polygon3> holesIn(const LandmarkShape& shape, std::size_t 
   return holes;
 }
 
+std::array<Eigen::Vector3d, 8> Box::corners() const {
+  std::array<Eigen::Vector3d, 8> all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Eigen::Vector3d side((i & 1) != 0 ? 0.5 : -0.5, (i & 2) != 0 ? 0.5 : -0.5, (i & 4) != 0 ? 0.5 : -0.5);
+    all[i] = middle + map_from_box * side.cwiseProduct(size);
+  }
+  return all;
+}
+
 }  // namespace omnimapper::map

@@ -1,6 +1,8 @@
 #include <omnimapper/map/Places.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "SectionBytes.h"
 
@@ -89,15 +91,70 @@ Extent readExtent(ByteReader& in) {
   return extent;
 }
 
+// The kinds of values of properties, by the index in Property::Value.
+enum PropertyKind : std::uint64_t { kText, kCount, kMeasure, kFlag, kTime };
+
+void write(ByteWriter& out, const Property& property) {
+  out.block(property.name);
+  out.uint(property.value.index(), 1);
+  if (const auto* text = std::get_if<std::string>(&property.value)) out.block(*text);
+  if (const auto* count = std::get_if<std::uint64_t>(&property.value)) out.uint(*count, 8);
+  if (const auto* measure = std::get_if<Measure>(&property.value)) {
+    out.real(measure->value);
+    out.block(measure->unit);
+  }
+  if (const auto* flag = std::get_if<bool>(&property.value)) out.uint(*flag ? 1 : 0, 1);
+  if (const auto* stamp = std::get_if<base::Stamp>(&property.value)) writeStamp(out, *stamp);
+}
+
+Property readProperty(ByteReader& in) {
+  Property property{std::string(in.block()), {}};
+  switch (in.uint(1)) {
+    case kText:
+      property.value = std::string(in.block());
+      break;
+    case kCount:
+      property.value = in.uint(8);
+      break;
+    case kMeasure: {
+      const double value = readFinite(in);
+      property.value = Measure{value, std::string(in.block())};
+      break;
+    }
+    case kFlag:
+      property.value = in.uint(1) != 0;
+      break;
+    case kTime:
+      property.value = readStamp(in);
+      break;
+    default:
+      refuseValue("has a property of an unknown kind");
+  }
+  return property;
+}
+
+// Version 1 had texts alone; the end of the name said what the text was.
+Property readOldProperty(ByteReader& in) {
+  const std::string name(in.block()), text(in.block());
+  if (text == "yes" || text == "no") return {name, text == "yes"};
+  const auto underscore = name.rfind('_');
+  const std::string end = underscore == std::string::npos ? "" : name.substr(underscore + 1);
+  char* rest = nullptr;
+  const double number = std::strtod(text.c_str(), &rest);
+  if (text.empty() || *rest != '\0' || !std::isfinite(number)) return {name, text};
+  if (end == "measurements" || end == "sightings") return {name, static_cast<std::uint64_t>(std::max(0.0, number))};
+  for (const char* unit : {"m", "m2", "m3", "deg", "s", "kg"})
+    if (end == unit) return {name.substr(0, underscore), Measure{number, unit}};
+  if (end == "seen") return {name, base::stampFromUnix(number)};
+  return {name, text};
+}
+
 void write(ByteWriter& out, const Place& place) {
   writeId(out, place.id);
   out.block(place.kind);
   out.block(place.label);
   out.block(place.caption);
-  writeList(out, place.properties, [&](const auto& property) {
-    out.block(property.first);
-    out.block(property.second);
-  });
+  writeList(out, place.properties, [&](const Property& property) { write(out, property); });
   write<3>(out, place.position);
   write(out, place.extent);
   out.uint(place.measurements, 4);
@@ -115,16 +172,13 @@ void write(ByteWriter& out, const Place& place) {
   if (place.sigma) out.real(*place.sigma);
 }
 
-Place readPlace(ByteReader& in) {
+Place readPlace(ByteReader& in, std::uint32_t version) {
   Place place;
   place.id = readId<base::LandmarkTag>(in);
   place.kind = in.block();
   place.label = in.block();
   place.caption = in.block();
-  readList(in, [&] {
-    const std::string name(in.block());
-    place.properties.emplace_back(name, in.block());
-  });
+  readList(in, [&] { place.properties.push_back(version == 1 ? readOldProperty(in) : readProperty(in)); });
   place.position = read<3>(in);
   place.extent = readExtent(in);
   place.measurements = static_cast<std::uint32_t>(in.uint(4));
@@ -165,7 +219,7 @@ Places Places::fromSection(const MapSection& section) {
   expectSection(section, kLayer, kLayerVersion);
   ByteReader in(section.bytes, placeOf(kLayer));
   Places read;
-  readList(in, [&] { read.places.push_back(readPlace(in)); });
+  readList(in, [&] { read.places.push_back(readPlace(in, section.version)); });
   if (in.uint(1) != 0) {
     LastPose pose;
     for (double* value : {&pose.x, &pose.y, &pose.yaw}) *value = readFinite(in);

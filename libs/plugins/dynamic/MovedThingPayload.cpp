@@ -30,9 +30,9 @@ map::LandmarkShape MovedThingPayload::shape(const std::vector<Eigen::VectorXd>&,
     shape.points.push_back(point);
     shape.point_stamps.push_back(place.last_seen);
     const std::string number = "place_" + std::to_string(shape.points.size());
-    shape.properties.emplace_back(number + "_first_seen", base::formatUnix(place.first_seen));
-    shape.properties.emplace_back(number + "_last_seen", base::formatUnix(place.last_seen));
-    shape.properties.emplace_back(number + "_measurements", std::to_string(place.measurements));
+    shape.properties.push_back({number + "_first_seen", place.first_seen});
+    shape.properties.push_back({number + "_last_seen", place.last_seen});
+    shape.properties.push_back({number + "_measurements", std::uint64_t{place.measurements}});
   }
   return shape;
 }

@@ -5,7 +5,6 @@
 #include <omnimapper/derived/PlanShape.h>
 #include <omnimapper/plugin/PlaceOnEarth.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -45,18 +44,16 @@ std::string isoTime(base::Stamp stamp) {
   return text;
 }
 
-// Measures and counts become numbers, so that a GIS can sort and style by them; the text of a sign remains a text.
-Json valueOf(const std::string& name, const std::string& text) {
-  if (name == "number" || name == "words") return text;
-  const char* const end = text.data() + text.size();
-  std::int64_t whole = 0;
-  if (const auto read = std::from_chars(text.data(), end, whole); read.ec == std::errc() && read.ptr == end)
-    return whole;
-  double number = 0;
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec == std::errc() && read.ptr == end && std::isfinite(number)) return number;
-  return text;
-}
+// Measures and counts are numbers, so that a GIS can sort and style by them.
+struct ValueJson {
+  Json operator()(const std::string& text) const { return text; }
+  Json operator()(std::uint64_t count) const { return count; }
+  Json operator()(const map::Measure& measure) const {
+    return std::isfinite(measure.value) ? Json(std::round(measure.value * 1000) / 1000 + 0.0) : Json();
+  }
+  Json operator()(bool flag) const { return flag; }
+  Json operator()(base::Stamp stamp) const { return isoTime(stamp); }
+};
 
 // A path without the positions that rounding made equal to the one before.
 Json walkOf(const std::vector<derived::PlanPoint>& points, const Positions& at) {
@@ -118,7 +115,9 @@ Json propertiesOf(const derived::ShapedLandmark& shaped) {
   const map::Landmark& landmark = *shaped.landmark;
   Json properties = {{"feature", "landmark"}, {"label", shaped.shape.label}};
   if (!shaped.shape.caption.empty()) properties["caption"] = shaped.shape.caption;
-  for (const auto& [name, value] : shaped.shape.properties) properties[name] = valueOf(name, value);
+  for (const auto& property : shaped.shape.properties)
+    properties[map::keyOf(property)] = std::visit(ValueJson(), property.value);
+  for (const auto& [label, count] : shaped.shape.seen_by) properties["seen_by_" + label] = count;
   if (const auto photograph = derived::photographAddress(shaped.shape); !photograph.empty())
     properties["photograph"] = photograph;
   properties["kind"] = landmark.kind;

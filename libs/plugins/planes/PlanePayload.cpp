@@ -57,13 +57,6 @@ std::vector<SurfacePatch> wellSeenIfAny(const std::vector<SurfacePatch>& patches
   return has_area ? well_seen : patches;
 }
 
-std::string number(double value) {
-  const double rounded = std::round(value * 1000) / 1000;
-  std::string text = std::to_string(rounded + 0.0);
-  text.erase(text.size() - 3);
-  return text;
-}
-
 }  // namespace
 
 std::vector<surfaces::FlatPart> partsOf(const map::LandmarkShape& shape) {
@@ -190,12 +183,12 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
     };
     for (const auto& outline : areas.outlines) shape.surfaces.push_back(inSpace(outline));
     for (const auto& hole : areas.holes) shape.holes.push_back(inSpace(hole));
-    shape.properties.emplace_back("area_m2", number(area));
+    shape.properties.push_back({"area", map::Measure{area, "m2"}});
   } else if (hull.size() > 1) {
     const auto [low, high] =
         std::minmax_element(hull.begin(), hull.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
     shape.lines.emplace_back(axes.inSpace(*low), axes.inSpace(*high));
-    shape.properties.emplace_back("length_m", number((*high - *low).norm()));
+    shape.properties.push_back({"length", map::Measure{(*high - *low).norm(), "m"}});
   }
   const auto judged = judgement          ? *judgement
                       : wasSeenAsPlane() ? judgedAlone(shape, plane, groundIn(key_frames))
@@ -203,7 +196,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   shape.label = toString(judged.is);
   shape.reason = judged.reason;
   for (const auto& [label, seen] : seen_by) {
-    shape.properties.emplace_back(map::seenByKey(label), std::to_string(seen.planes + seen.lines));
+    shape.addSeenBy(label, seen.planes + seen.lines);
   }
   return shape;
 }

@@ -43,9 +43,8 @@ map::LandmarkShape PointPayload::shape(const std::vector<Eigen::VectorXd>& value
   const Eigen::VectorXd& value = values.front();
   shape.label = label();
   shape.points.emplace_back(value[0], value[1], value.size() > 2 ? value[2] : height);
-  if (number >= 0) shape.properties.emplace_back("number", std::to_string(number));
-  for (const auto& [label, measurements] : seen_by)
-    shape.properties.emplace_back(map::seenByKey(label), std::to_string(measurements));
+  if (number >= 0) shape.properties.push_back({"number", std::to_string(number)});
+  for (const auto& [label, measurements] : seen_by) shape.addSeenBy(label, measurements);
   return shape;
 }
 

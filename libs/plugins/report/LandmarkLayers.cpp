@@ -21,7 +21,8 @@ std::string titleOf(const derived::ShapedLandmark& shaped) {
   const auto& [landmark, shape, moved] = shaped;
   std::string text = shape.label + " " + (shape.caption.empty() ? toString(landmark->id) : shape.caption) +
                      (moved ? " (moved)" : "") + ": " + base::counted(landmark->evidence, "measurement");
-  for (const auto& [name, value] : shape.properties) text += "\n" + name + " " + value;
+  for (const auto& property : shape.properties) text += "\n" + map::keyOf(property) + " " + map::textOf(property);
+  for (const auto& [label, count] : shape.seen_by) text += "\nseen_by_" + label + " " + std::to_string(count);
   return "<title>" + draw::escapeMarkup(text) + "</title>";
 }
 

@@ -24,7 +24,7 @@ std::string swatch(const std::string& label) {
 
 std::string sensorsOf(const map::LandmarkShape& shape) {
   std::string text;
-  for (const auto& [label, count] : derived::seenBy(shape))
+  for (const auto& [label, count] : shape.seen_by)
     text += (text.empty() ? "" : ", ") + draw::escapeMarkup(label) + " " + grouped(count);
   return text;
 }
@@ -37,9 +37,10 @@ std::string photographOf(const map::LandmarkShape& shape) {
 // The properties that the plugin gives, without those that have their own columns.
 std::string otherProperties(const map::LandmarkShape& shape) {
   std::string text;
-  for (const auto& [name, value] : shape.properties) {
-    if (name == "area_m2" || name == "length_m" || name.rfind("seen_by_", 0) == 0) continue;
-    text += (text.empty() ? "" : ", ") + draw::escapeMarkup(name) + " " + draw::escapeMarkup(value);
+  for (const auto& property : shape.properties) {
+    const std::string key = map::keyOf(property);
+    if (key == "area_m2" || key == "length_m") continue;
+    text += (text.empty() ? "" : ", ") + draw::escapeMarkup(key) + " " + draw::escapeMarkup(map::textOf(property));
   }
   return text;
 }
@@ -50,8 +51,9 @@ std::string landmarkRow(const derived::ShapedLandmark& shaped, base::Stamp start
   const auto since = [&](base::Stamp stamp) {
     return base::isValid(stamp) ? base::fixed(base::secondsBetween(start, stamp), 1) : "";
   };
-  const Eigen::AlignedBox3d box = derived::boxOf(shape);
-  const auto middle = [&](int axis) { return numberCell(box.isEmpty() ? "" : base::fixed(box.center()(axis), 2)); };
+  const auto middle = [&, &shape = shape](int axis) {
+    return numberCell(shaped.isSomewhere() ? base::fixed(derived::referencePoint(shape)(axis), 2) : "");
+  };
   return "<tr>" + numberCell(toString(landmark->id)) + cell(swatch(shape.label) + draw::escapeMarkup(shape.label)) +
          cell(draw::escapeMarkup(landmark->kind)) + middle(0) + middle(1) + middle(2) +
          numberCell(area > 0 ? base::fixed(area, 2) : "") + numberCell(length > 0 ? base::fixed(length, 2) : "") +
@@ -88,7 +90,7 @@ std::string drawLandmarkTable(const std::vector<derived::ShapedLandmark>& landma
 
 std::string drawSensorBars(const std::vector<derived::ShapedLandmark>& landmarks) {
   std::map<std::string, std::size_t> counts;
-  for (const auto& landmark : landmarks) ++counts[derived::sensorsText(derived::seenBy(landmark.shape))];
+  for (const auto& landmark : landmarks) ++counts[derived::sensorsText(landmark.shape.seen_by)];
   counts.erase("");
   std::vector<Bar> bars;
   for (const auto& [sensors, count] : counts) bars.push_back({sensors, static_cast<double>(count), grouped(count)});

@@ -153,13 +153,12 @@ map::LandmarkShape SignPayload::shape(const std::vector<Eigen::VectorXd>& values
     }
   }
   const SignText read = text();
-  if (!read.number.empty()) shape.properties.emplace_back("number", read.number);
+  if (!read.number.empty()) shape.properties.push_back({"number", read.number});
   std::string lines;
   for (const auto& word : read.words) lines += (lines.empty() ? "" : ", ") + word;
-  if (!lines.empty()) shape.properties.emplace_back("words", lines);
-  if (is_repeated) shape.properties.emplace_back("repeated_elsewhere", "yes");
-  for (const auto& [label, measurements] : seen_by)
-    shape.properties.emplace_back(map::seenByKey(label), std::to_string(measurements));
+  if (!lines.empty()) shape.properties.push_back({"words", lines});
+  if (is_repeated) shape.properties.push_back({"repeated_elsewhere", true});
+  for (const auto& [label, measurements] : seen_by) shape.addSeenBy(label, measurements);
   return shape;
 }
 

@@ -3,7 +3,6 @@
 #include <omnimapper/query/Find.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <limits>
@@ -34,18 +33,6 @@ void expectText(const std::string& text) {
                std::to_string(kLongestText) + " characters are compared. Give a few words of it.");
   if (const std::string shown = base::printable(text); shown != text)
     refuseText("the text to find has control characters or is not UTF-8: '" + shown + "'. Give it without them.");
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-// The names of measures end in their unit. Properties that are yes or no, or a time, are no names either.
-bool isMeasure(const std::pair<std::string, std::string>& property) {
-  static const std::array<std::string, 9> ends{"_m",  "_m2",   "_m3",           "_deg",      "_s",
-                                               "_kg", "_seen", "_measurements", "_sightings"};
-  return property.second == "yes" || property.second == "no" ||
-         std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return endsWith(property.first, end); });
 }
 
 std::vector<std::string> partsOf(const std::string& list) {
@@ -110,11 +97,12 @@ std::vector<std::string> namesOf(const map::Place& place) {
   for (const auto& name : {place.caption, place.label})
     if (!name.empty()) names.push_back(name);
   for (const auto& property : place.properties) {
-    if (isMeasure(property) || property.second.empty()) continue;
-    names.push_back(property.second);
-    const auto parts = partsOf(property.second);
+    const auto* text = std::get_if<std::string>(&property.value);  // counts, measures and times are no names
+    if (!text || text->empty()) continue;
+    names.push_back(*text);
+    const auto parts = partsOf(*text);
     if (parts.size() > 1) names.insert(names.end(), parts.begin(), parts.end());
-    if (property.first == "words" && !place.caption.empty()) names.push_back(place.caption + ", " + property.second);
+    if (property.name == "words" && !place.caption.empty()) names.push_back(place.caption + ", " + *text);
   }
   return names;
 }

@@ -43,11 +43,20 @@ Json timeJson(base::Stamp stamp) {
   return text + "Z";
 }
 
+struct ValueJson {
+  Json operator()(const std::string& text) const { return text; }
+  Json operator()(std::uint64_t count) const { return count; }
+  Json operator()(const map::Measure& measure) const { return measure.value; }
+  Json operator()(bool flag) const { return flag; }
+  Json operator()(base::Stamp stamp) const { return timeJson(stamp); }
+};
+
 }  // namespace
 
 Json jsonOf(const map::Place& place) {
   Json properties = Json::object(), seen_by = Json::object();
-  for (const auto& [name, value] : place.properties) properties[name] = value;
+  for (const auto& property : place.properties)
+    properties[map::keyOf(property)] = std::visit(ValueJson(), property.value);
   for (const auto& [label, count] : place.seen_by) seen_by[label] = count;
   return {{"id", toString(place.id)},
           {"kind", place.kind},

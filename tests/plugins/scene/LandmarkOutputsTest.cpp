@@ -38,9 +38,37 @@ TEST(LandmarkShapes, areThoseOfWhatIsThereAndOfWhatMovedButNotOfWhatWasMerged) {
   EXPECT_DOUBLE_EQ(derived::areaOf(shapes[2].shape), 0.75);
   EXPECT_DOUBLE_EQ(derived::boxOf(shapes[0].shape).max().z(), 2);
   EXPECT_TRUE(derived::boxOf({}).isEmpty());
-  EXPECT_EQ(derived::sensorsText(derived::seenBy(shapes[0].shape)), "kinect and laser");
-  EXPECT_EQ(derived::sensorsText(derived::seenBy(shapes[1].shape)), "laser only");
-  EXPECT_EQ(derived::sensorsText(derived::seenBy(shapes[3].shape)), "");
+  EXPECT_EQ(derived::sensorsText(shapes[0].shape.seen_by), "kinect and laser");
+  EXPECT_EQ(derived::sensorsText(shapes[1].shape.seen_by), "laser only");
+  EXPECT_EQ(derived::sensorsText(shapes[3].shape.seen_by), "");
+}
+
+// A box of 1 x 2 x 3 m, turned by 90 deg about z, and a mesh: what objects are made of.
+TEST(LandmarkShapes, boxesAndMeshesHaveExtentsPlansAndTriangles) {
+  map::LandmarkShape box, mesh;
+  box.box = map::Box{{5, 6, 7}, Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ())), {1, 2, 3}};
+  const auto extent = derived::boxOf(box);
+  EXPECT_LT((extent.min() - Vector3d(4, 5.5, 5.5)).norm(), 1e-12) << extent.min().transpose();
+  EXPECT_LT((extent.max() - Vector3d(6, 6.5, 8.5)).norm(), 1e-12) << extent.max().transpose();
+  EXPECT_EQ(derived::referencePoint(box), Vector3d(5, 6, 7));
+  double surface = 0;
+  for (const auto& face : derived::facesOf(*box.box)) {
+    const Vector3d outwards = geometry::areaVector(face);
+    surface += outwards.norm();
+    EXPECT_GT(outwards.dot(face.vertices.front() - box.box->middle), 0) << "counter-clockwise from outside";
+  }
+  EXPECT_NEAR(surface, 2 * (1 * 2 + 2 * 3 + 1 * 3), 1e-12);
+  const auto plan = derived::fromAbove(box);
+  ASSERT_EQ(plan.areas.size(), 1u);
+  EXPECT_NEAR(derived::doubledArea(plan.areas[0]), 2 * 2, 1e-12);
+  mesh.mesh = std::make_shared<const map::Mesh>(map::Mesh{{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{{0, 1, 2}}}});
+  EXPECT_EQ(derived::referencePoint(mesh), Vector3d(1, 1, 0));
+  RunRecord run = shapedRun();
+  const auto before = derived::landmarkTriangles(derived::shapesOf(run.view())).size();
+  add(run, "thing", box);
+  EXPECT_EQ(derived::landmarkTriangles(derived::shapesOf(run.view())).size(), before + 12);
+  add(run, "thing", mesh);
+  EXPECT_EQ(derived::landmarkTriangles(derived::shapesOf(run.view())).size(), before + 13);
 }
 
 TEST(LandmarkShapes, areCountedByLabelAndThoseWithNumbersByKind) {
@@ -69,7 +97,8 @@ TEST(LandmarkShapes, whatIsNotFiniteOrHasNoAreaIsLeftOut) {
   shape.points = {{nan, 0, 0}, {1, 2, 3}};
   shape.point_stamps = {at(0), at(1)};
   shape.normal = Vector3d(0, 0, nan);
-  shape.properties = {{"seen_by_laser", "many"}, {"seen_by_", "2"}};
+  shape.box = map::Box{{0, 0, nan}, Eigen::Quaterniond::Identity(), {1, 1, 1}};
+  shape.mesh = std::make_shared<const map::Mesh>(map::Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 3}}}});
   add(run, "beacon", shape);
   run.map.landmarks.edit(add(run, "bare", {}))->payload = nullptr;
   const auto shapes = derived::shapesOf(run.view());
@@ -80,6 +109,8 @@ TEST(LandmarkShapes, whatIsNotFiniteOrHasNoAreaIsLeftOut) {
   ASSERT_EQ(kept.points.size(), 1u);
   EXPECT_EQ(kept.point_stamps, std::vector<base::Stamp>{at(1)});
   EXPECT_FALSE(kept.normal);
+  EXPECT_FALSE(kept.box);
+  EXPECT_FALSE(kept.mesh) << "a corner is missing";
   EXPECT_EQ(kept.label, "beacon") << "its kind, if a payload has no label";
   EXPECT_FALSE(shapes[1].isSomewhere());
 }

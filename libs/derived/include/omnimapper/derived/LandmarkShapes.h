@@ -4,7 +4,7 @@
 #include <omnimapper/plugin/State.h>
 
 #include <Eigen/Geometry>
-#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,8 +16,10 @@ struct ShapedLandmark {
   const map::Landmark* landmark;
   map::LandmarkShape shape;  ///< with finite coordinates and a label
   bool moved = false;        ///< it is no longer there: the shape shows where it was
-  /// Whether it has any surface, line or point.
-  bool isSomewhere() const { return !shape.surfaces.empty() || !shape.lines.empty() || !shape.points.empty(); }
+  /// Whether it has any geometry.
+  bool isSomewhere() const {
+    return !shape.surfaces.empty() || !shape.lines.empty() || !shape.points.empty() || shape.box || shape.mesh;
+  }
   /// Whether it was measured so rarely that it may be noise: maps draw it thin.
   bool isFaint() const { return landmark->evidence < 3; }
 };
@@ -29,11 +31,8 @@ enum class Candidates { left_out, kept };
 /// Parts of shapes that are not finite, and surfaces without area, are left out.
 std::vector<ShapedLandmark> shapesOf(const mapper::State& state, Candidates candidates = Candidates::left_out);
 
-/// Number of measurements by each sensor, by sensor label, if its payload has them.
-std::map<std::string, std::size_t> seenBy(const map::LandmarkShape& shape);
-
 /// "laser only", "kinect and laser", ...; empty if nothing is known.
-std::string sensorsText(const std::map<std::string, std::size_t>& seen_by);
+std::string sensorsText(const std::map<std::string, std::uint64_t>& seen_by);
 
 /// The outline of the surface with that index, followed by the outlines of its holes.
 std::vector<geometry::Polygon3> withHoles(std::size_t surface, const map::LandmarkShape& shape);
@@ -45,6 +44,14 @@ double lengthOf(const map::LandmarkShape& shape);
 
 /// The smallest box along the axes of the map that contains the shape [m]; empty if it has no geometry.
 Eigen::AlignedBox3d boxOf(const map::LandmarkShape& shape);
+
+/// The one point that stands for a landmark in tables, answers and exports [m]: where it was last, if it was at several
+/// places, else the centre of its surfaces, of its box, of its mesh, of its lines or of its points. The shape must have
+/// geometry.
+Eigen::Vector3d referencePoint(const map::LandmarkShape& shape);
+
+/// The six faces of a box, with corners counter-clockwise as seen from outside.
+std::vector<geometry::Polygon3> facesOf(const map::Box& box);
 
 /// The photograph as a data address for pages (draw::pngAddress()); empty if there is none.
 std::string photographAddress(const map::LandmarkShape& shape);

@@ -3,10 +3,13 @@
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/map/Property.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 #include <cstdint>
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -19,15 +22,26 @@ namespace omnimapper::map {
 
 class KeyFrames;
 
-/// The name of the property that counts how often the sensor of that label measured a landmark.
-inline std::string seenByKey(const std::string& label) {
-  return "seen_by_" + (label.empty() ? "no_label" : label);
-}
-
 /// A small picture of something. `rgb`: red, green, blue of each pixel, row by row from the top.
 struct Photograph {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
+};
+
+/// A box along axes of its own.
+struct Box {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();                  ///< [m] in the map
+  Eigen::Quaterniond map_from_box = Eigen::Quaterniond::Identity();  ///< unit
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();                    ///< [m] of its sides, positive
+
+  /// The corners in the map [m]: bit i of the index says on which side of axis i a corner is.
+  std::array<Eigen::Vector3d, 8> corners() const;
+};
+
+/// Triangles in space; their corners are counter-clockwise as seen from outside.
+struct Mesh {
+  std::vector<Eigen::Vector3d> vertices;                ///< [m] in the map
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices of vertices
 };
 
 /// The shape of a landmark, for drawing and export. All geometry is in the frame of the map [m].
@@ -40,11 +54,18 @@ struct LandmarkShape {
   std::vector<geometry::Polygon3> holes;     ///< each is cut out of one of `surfaces` (holesIn())
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;  ///< from, to
   std::vector<Eigen::Vector3d> points;
+  std::optional<Box> box;                        ///< around a thing that has no flat surfaces of its own
+  std::shared_ptr<const Mesh> mesh;              ///< its surface; null if it has none
   std::vector<base::Stamp> point_stamps;         ///< when the landmark was at each of `points`; empty: at all times
   std::optional<Eigen::Vector3d> normal;         ///< unit, points to the free side
   std::shared_ptr<const Photograph> photograph;  ///< a camera's image of the landmark; null if there is none
-  std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value: for tables and exports
-  /// The property that seenByKey() names counts how often a sensor measured the landmark.
+  std::vector<Property> properties;              ///< whatever else is known: for tables, exports and searches
+  std::map<std::string, std::uint64_t> seen_by;  ///< number of measurements by sensor label, as far as it is known
+
+  /// Counts measurements of the sensor of that label; one without a label is called "no_label".
+  void addSeenBy(const std::string& label, std::uint64_t measurements) {
+    seen_by[label.empty() ? "no_label" : label] += measurements;
+  }
 };
 
 /// The holes of a surface of the shape. A hole belongs to the smallest surface around it, because an island may lie in

@@ -3,6 +3,7 @@
 #include <omnimapper/base/Id.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/map/MapSection.h>
+#include <omnimapper/map/Property.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -26,12 +27,12 @@ struct Extent {
 /// A landmark as the answer to a query by name. It needs neither graph nor key frames.
 struct Place {
   base::LandmarkId id;
-  std::string kind;                                             ///< what it is counted as: "sign", "marker"
-  std::string label;                                            ///< what a user calls it: "sign", "marker 12"
-  std::string caption;                                          ///< the text on it; may be empty
-  bool moved = false;                                           ///< gone; the other members describe it as it was
-  std::vector<std::pair<std::string, std::string>> properties;  ///< name with unit, value
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();           ///< [m] middle of its extent, or its last position
+  std::string kind;     ///< what it is counted as: "sign", "marker"
+  std::string label;    ///< what a user calls it: "sign", "marker 12"
+  std::string caption;  ///< the text on it; may be empty
+  bool moved = false;   ///< gone; the other members describe it as it was
+  std::vector<Property> properties;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m] middle of its extent, or its last position
   Extent extent;
   std::optional<Eigen::Vector3d> normal;     ///< unit, points to the free side
   std::optional<Eigen::Vector3d> seen_from;  ///< unit, from it towards the viewpoints; none if seen from all around
@@ -54,7 +55,7 @@ struct LastPose {
 /// is saved, so a run that continues the map does not load it.
 struct Places {
   static constexpr char kLayer[] = "places";
-  static constexpr std::uint32_t kLayerVersion = 1;
+  static constexpr std::uint32_t kLayerVersion = 2;
 
   std::vector<Place> places;  ///< in the order of ids
   std::optional<LastPose> last_pose;

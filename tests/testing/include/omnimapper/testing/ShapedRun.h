@@ -25,7 +25,8 @@ inline map::LandmarkShape wall() {
   shape.label = "wall";
   shape.surfaces = {{{{-1, 2, 0}, {3, 2, 0}, {3, 2, 2}, {-1, 2, 2}}}};
   shape.normal = Vector3d(0, -1, 0);
-  shape.properties = {{"area_m2", "8.000"}, {"seen_by_kinect", "3"}, {"seen_by_laser", "9"}};
+  shape.properties = {{"area", map::Measure{8, "m2"}}};
+  shape.seen_by = {{"kinect", 3}, {"laser", 9}};
   return shape;
 }
 
@@ -35,7 +36,8 @@ inline map::LandmarkShape line() {
   shape.label = "wall";
   shape.lines = {{{3, -1, 0.3}, {3, 2, 0.3}}};
   shape.normal = Vector3d(-1, 0, 0);
-  shape.properties = {{"length_m", "3.000"}, {"seen_by_laser", "5"}};
+  shape.properties = {{"length", map::Measure{3, "m"}}};
+  shape.seen_by = {{"laser", 5}};
   return shape;
 }
 
@@ -46,7 +48,8 @@ inline map::LandmarkShape table() {
   shape.surfaces = {
       {{{0, -0.9, 0.7}, {0, 0.1, 0.7}, {0.5, 0.1, 0.7}, {0.5, -0.4, 0.7}, {1, -0.4, 0.7}, {1, -0.9, 0.7}}}};
   shape.normal = Vector3d(0, 0, 1);
-  shape.properties = {{"area_m2", "0.750"}, {"seen_by_kinect", "4"}, {"top", "oak <old>"}};
+  shape.properties = {{"area", map::Measure{0.75, "m2"}}, {"top", "oak <old>"}};
+  shape.seen_by = {{"kinect", 4}};
   return shape;
 }
 
