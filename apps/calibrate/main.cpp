@@ -1,4 +1,4 @@
-// omnimapper-calibrate: refines the calibration of a camera from the log itself.
+// omnimapper-calibrate: measures from a log how a camera is calibrated and how sensors are mounted.
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/calibration/DepthRun.h>
 #include <unistd.h>
@@ -6,13 +6,12 @@
 #include <iostream>
 #include <optional>
 
+#include "MountingTask.h"
 #include "program/Program.h"
 
 namespace {
 
 using namespace omnimapper;
-using calibration::CalibrationResult;
-
 struct Arguments {
   calibration::CalibrationRequest rgbd;
   calibration::DepthRequest depth;
@@ -42,7 +41,7 @@ CLI::App* addTask(CLI::App& app, const std::string& name, const std::string& hel
 }
 
 template <class Request>
-int runTask(CalibrationResult (*task)(const Request&, base::Progress&, const std::function<bool()>&),
+int runTask(calibration::CalibrationResult (*task)(const Request&, base::Progress&, const std::function<bool()>&),
             const Request& request, const std::string& picture, bool quiet) {
   program::listenForInterrupts();
   std::optional<base::TerminalProgress> progress(std::in_place, std::cerr, !quiet && isatty(STDERR_FILENO));
@@ -60,11 +59,11 @@ int runTask(CalibrationResult (*task)(const Request&, base::Progress&, const std
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Refines the calibration of a camera from a log of it.\n"
+      "Measures from a log how a camera is calibrated and how the sensors of a robot are mounted.\n"
       "Example: omnimapper-calibrate rgbd -r camera.rawlog -o out/calibration\n"
-      "         omnimapper-graphslam -i rgbd_handheld.ini -i out/calibration/calibration.ini -r camera.rawlog -o "
-      "out/map\n"
-      "         omnimapper-calibrate depth -r camera.rawlog -o out/depth",
+      "         omnimapper-graphslam -i rgbd_handheld.ini -i out/calibration/calibration.ini -r camera.rawlog -o map\n"
+      "         omnimapper-calibrate depth -r camera.rawlog -o out/depth\n"
+      "         omnimapper-calibrate mounting drive.rawlog -o out/mounting",
       "omnimapper-calibrate");
   app.require_subcommand(1);
   app.footer(
@@ -89,7 +88,10 @@ int main(int argc, char** argv) {
   of_depth->add_option("--degree", depth.degree, "degree of the polynomial over the image")
       ->check(CLI::Range(perception::DepthDistortion::kLeastDegree, perception::DepthDistortion::kMostDegree))
       ->capture_default_str();
-  return program::run(app, argc, argv, [&, of_depth] {
+  MountingArguments mounting;
+  auto* of_mounting = addMountingTask(app, mounting);
+  return program::run(app, argc, argv, [&, of_depth, of_mounting] {
+    if (of_mounting->parsed()) return runMountingTask(mounting);
     if (of_depth->parsed())
       return runTask(calibration::runDepthCalibration, arguments.depth, distortion, arguments.quiet);
     return runTask(calibration::runCalibration, arguments.rgbd, residuals, arguments.quiet);

@@ -38,7 +38,7 @@ TEST(DeclaredFaults, AGoodLogHasNone) {
   EXPECT_EQ(toIni(checked.settings), "");
   ASSERT_EQ(checked.facts.cameras.size(), 1U);
   const auto& camera = checked.facts.cameras.front();
-  EXPECT_NEAR(*camera.height, 1.1, 0.02);
+  EXPECT_NEAR(camera.height->value, 1.1, 0.02);
   EXPECT_LT(camera.tilt, 0.01);
   ASSERT_TRUE(camera.scale);
   EXPECT_NEAR(camera.scale->value, 1, 0.01);

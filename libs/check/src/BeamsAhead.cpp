@@ -40,8 +40,8 @@ std::map<std::size_t, double> ahead(const CObservation2DRangeScan& scan, double 
 
 }  // namespace
 
-std::optional<double> constantRangeAhead(const std::vector<ScanPair>& pairs, const OdometryBetween& odometry,
-                                         double limit) {
+std::optional<Measured> constantRangeAhead(const std::vector<ScanPair>& pairs, const OdometryBetween& odometry,
+                                           double limit) {
   constexpr double kTravel = 0.2, kTurn = 0.06;  // [m] [rad] of a pair in which the robot drives straight on
   constexpr double kSame = 0.15;                 // of the distance driven, by which a constant range may change
   constexpr double kMost = 0.7;                  // share of the beams
@@ -77,7 +77,10 @@ std::optional<double> constantRangeAhead(const std::vector<ScanPair>& pairs, con
                            static_cast<double>(equal) > kLeastShare * pairs_compared &&
                            static_cast<double>(equal) > kMost * static_cast<double>(constant.size()) &&
                            static_cast<double>(beyond) < kFewestBeyond * pairs_compared;
-  return is_constant ? std::optional(range) : std::nullopt;
+  std::vector<double> errors;
+  for (const double other : constant) errors.push_back(std::abs(other - range));
+  constexpr double kNormal = 1.4826;  // standard deviation divided by the median error
+  return is_constant ? std::optional(Measured{range, kNormal * quantile(errors, 0.5)}) : std::nullopt;
 }
 
 }  // namespace omnimapper::check

@@ -29,7 +29,8 @@ struct Hypothesis {
 // The floor in the frame of the sensor.
 struct Floor {
   Vector3d up;
-  double distance;
+  Measured distance;
+  double up_sigma;  // [rad] about each axis
   std::size_t images;
 };
 
@@ -66,6 +67,26 @@ std::vector<View> viewsOf(const std::vector<SampledImage>& images, const Hypothe
   return views;
 }
 
+// The mean of planes that are seen again and again. What one image has wrong, such as the depth noise of the place
+// where the floor is seen, another one has, too, so that the mean is not known better than by some share of the
+// scatter.
+Floor meanOf(const std::vector<geometry::Plane3>& planes, const Vector3d& up) {
+  constexpr double kIndependent = 4;                                   // images that share their errors
+  constexpr double kLeastAngle = 0.05 * kDegree, kLeastShare = 0.002;  // [rad] [of the distance] of a depth camera
+  const double n = static_cast<double>(planes.size());
+  Floor floor{up, {}, 0, planes.size()};
+  for (const auto& plane : planes) floor.distance.value += plane.distance / n;
+  double angles = 0, distances = 0;
+  for (const auto& plane : planes) {
+    angles += (plane.normal - up).squaredNorm() / 2;
+    distances += (plane.distance - floor.distance.value) * (plane.distance - floor.distance.value);
+  }
+  const double independent = std::max(1.0, n / kIndependent);
+  floor.up_sigma = std::hypot(kLeastAngle, std::sqrt(angles / n / independent));
+  floor.distance.sigma = std::hypot(kLeastShare * floor.distance.value, std::sqrt(distances / n / independent));
+  return floor;
+}
+
 // The plane that most images show at one place. Walls move in the frame of the sensor while the robot drives.
 std::optional<Floor> floorOf(const std::vector<View>& views, const Eigen::Matrix3d& base_from_sensor) {
   constexpr double kSameDirection = 4 * kDegree, kSameDistance = 0.08;  // [rad] [of the distance]
@@ -80,22 +101,20 @@ std::optional<Floor> floorOf(const std::vector<View>& views, const Eigen::Matrix
   for (const auto& view : views) {
     for (const auto& candidate : view.planes) {
       const auto& plane = candidate.plane;
-      Floor floor{Vector3d::Zero(), 0, 0};
+      Vector3d up = Vector3d::Zero();
+      std::vector<geometry::Plane3> seen;
       for (const auto& other : views) {
         const auto found = std::find_if(other.planes.begin(), other.planes.end(),
                                         [&](const CameraPlane& one) { return same(plane, one.plane); });
         if (found == other.planes.end()) continue;
-        floor.up += found->plane.normal;
-        floor.distance += found->plane.distance;
-        ++floor.images;
+        up += found->plane.normal;
+        seen.push_back(found->plane);
       }
       // Of planes that are seen as often, the one that the declared pose calls level is the floor.
-      const double score = static_cast<double>(floor.images) + (base_from_sensor * plane.normal).z();
+      const double score = static_cast<double>(seen.size()) + (base_from_sensor * plane.normal).z();
       if (score <= best_score) continue;
       best_score = score;
-      floor.distance /= static_cast<double>(floor.images);
-      floor.up.normalize();
-      best = floor;
+      best = meanOf(seen, up.normalized());
     }
   }
   const bool is_seen_often = best && best->images >= 4 && 3 * best->images >= with_planes;
@@ -139,6 +158,7 @@ CameraFacts explained(const std::vector<SampledImage>& images, const CameraWitne
     level = levelling(*floor, rotation);
     facts.floor_images = floor->images;
     facts.height = floor->distance;
+    facts.tilt_sigma = floor->up_sigma;
     facts.tilt = std::acos(std::clamp((rotation * floor->up).z(), -1.0, 1.0));
     facts.pose = geometry::toMrpt(geometry::Se3{Eigen::Quaterniond(level * rotation), declared.translation});
   }
@@ -146,7 +166,9 @@ CameraFacts explained(const std::vector<SampledImage>& images, const CameraWitne
   facts.walls = fit.size();
   fit.measure(facts);
   if (facts.scale) facts.scale = Measured{facts.scale->value * hypothesis.scale, facts.scale->sigma * hypothesis.scale};
-  if (facts.height) *facts.height /= hypothesis.scale;  // by the depths of the log
+  // By the depths of the log.
+  if (facts.height)
+    facts.height = Measured{facts.height->value / hypothesis.scale, facts.height->sigma / hypothesis.scale};
   if (facts.focal) facts.focal = Measured{facts.focal->value * hypothesis.focal, facts.focal->sigma * hypothesis.focal};
   if (facts.yaw) {
     const Eigen::Matrix3d turned = Eigen::AngleAxisd(facts.yaw->value, Vector3d::UnitZ()).toRotationMatrix();

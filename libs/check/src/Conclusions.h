@@ -2,6 +2,7 @@
 
 #include <omnimapper/check/LogFacts.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,12 +13,16 @@ namespace omnimapper::check {
 enum class Contradiction { none, forward, turning, both };
 
 Contradiction contradictionOf(const MotionFacts& motion);
+/// The comparison of that laser with that odometry; null if there is none.
+const MotionFacts* motionOf(const LogFacts& facts, const std::string& laser, const std::string& odometry);
 /// Whether the odometry is at rest in most pairs of scans that show motion.
 bool isFrozen(const MotionFacts& motion);
 /// [s] that the INI already adds to the stamps of a sensor.
 double clockInIni(const LogFacts& facts, const std::string& label);
 /// [s] Laser odometry finds smaller offsets between the clocks of the motion and of the laser by itself.
 constexpr double kCorrectedOffset = 0.3;
+/// As clockOffsets() of judge.h, for offsets of odometries and gyroscopes of at least that many seconds.
+std::map<std::string, double> clockOffsets(const LogFacts& facts, double least);
 /// Which of the two is wrong where scans and odometry turn against each other: none if they do not, not_known if
 /// nothing else in the log measures the turns.
 enum class Culprit { none, laser, odometry, not_known };
@@ -49,6 +54,9 @@ bool isTurned(const CameraFacts& camera);
 bool hasWrongPose(const CameraFacts& camera);
 /// Whether it differs from the laser because the laser is wrong: the motion of the robot shows this, too.
 bool blamesLaser(const LogFacts& facts, const CameraFacts& camera);
+/// [m] Height of the camera over the floor that it sees, by the scale of its depths that the walls of the laser show;
+/// none if the log shows only one of the two.
+std::optional<Measured> trueHeight(const CameraFacts& camera);
 /// True depth divided by depth in the log, if the declared height of the camera is right and the floor appears at
 /// another distance by a third or more; none else, or if no height is declared.
 std::optional<double> scaleByHeight(const CameraFacts& camera);

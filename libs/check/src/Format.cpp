@@ -1,5 +1,7 @@
 #include "Format.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -40,6 +42,13 @@ std::string percent(double share) {
 
 std::string quoted(const std::string& label) {
   return label.empty() ? "(no label)" : "'" + label + "'";
+}
+
+std::string sectionOf(const std::string& label) {
+  std::string name = "place_of_" + label;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
+  return name;
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

@@ -23,6 +23,8 @@ std::string angleText(double radians);
 std::string poseKeys(const mrpt::poses::CPose3D& pose);
 /// The label in quotes, 'laser', or "(no label)".
 std::string quoted(const std::string& label);
+/// Name of a section for a sensor, made of its label: "place_of_laser".
+std::string sectionOf(const std::string& label);
 std::string joined(const std::vector<std::string>& words, const std::string& between);
 
 inline double degrees(double radians) {

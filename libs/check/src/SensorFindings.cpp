@@ -106,7 +106,7 @@ class CameraJudge {
           "the true depths are " + significant(camera_.scale->value) + " times those in the log" + by_walls_ +
               "; set [calibration] depth_scale = " + significant(camera_.scale->value * ini_.depth_scale));
     } else if (const auto scale = scaleByHeight(camera_); scale && !camera_.scale) {
-      add(Weight::problem, "the floor appears " + significant(*camera_.height) +
+      add(Weight::problem, "the floor appears " + significant(camera_.height->value) +
                                " m below the camera, but its pose declares " + significant(camera_.declared.z()) +
                                " m: either the depths have another unit (then set [calibration] depth_scale = " +
                                significant(*scale * ini_.depth_scale) +

@@ -104,7 +104,7 @@ std::string cameraLines(const LogFacts& facts) {
             " m; pose on the base: " + poseText(camera.declared) + "\n  " + counted(camera.planes, "plane") + " in " +
             counted(camera.images, "image");
     if (camera.height) {
-      text += "; the floor in " + std::to_string(camera.floor_images) + " of them, " + fixed(*camera.height, 2) +
+      text += "; the floor in " + std::to_string(camera.floor_images) + " of them, " + fixed(camera.height->value, 2) +
               " m below the camera and tilted by " + fixed(degrees(camera.tilt), 1) + " deg";
     }
     if (!camera.laser.empty()) {

@@ -415,7 +415,8 @@ class Judge {
     if (!ahead) return;
     const auto pose = poseByFloor(facts_.scans.at(laser));
     contradict(Weight::problem,
-               quoted(laser) + ": while the robot drives on, what the laser sees ahead stays " + fixed(*ahead, 1) +
+               quoted(laser) + ": while the robot drives on, what the laser sees ahead stays " +
+                   fixed(ahead->value, 1) +
                    " m away: its beams meet the floor, because it is tilted, or a part of the robot; " +
                    (pose ? "if it is the floor, set " + poseKeys(*pose) + " for it in [mapper] sensors"
                          : "set its pose in [mapper] sensors, with its height, or limit the range ([laser_points] "

@@ -9,7 +9,6 @@
 #include <omnimapper/perception/LaserPointsExtractor.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -141,7 +140,7 @@ class Proposal {
     auto sections = plugins_.sensors;
     std::vector<Setting> settings;
     for (const auto& [label, keys] : changes) {
-      std::string section = sectionName(label);
+      std::string section = sectionOf(label);
       while (has(sections, section)) section += "_";
       sections.push_back(section);
       settings.push_back({section, "label", label, ""});
@@ -179,13 +178,6 @@ class Proposal {
       settings_.insert(settings_.end(), keys.begin(), keys.end());
       return;
     }
-  }
-
-  static std::string sectionName(const std::string& label) {
-    std::string name = "place_of_" + label;
-    std::replace_if(
-        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
-    return name;
   }
 
   void proposeLasers() {

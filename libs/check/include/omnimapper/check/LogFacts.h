@@ -15,6 +15,13 @@
 
 namespace omnimapper::check {
 
+/// A number and its standard deviation.
+struct Measured {
+  double value = 0, sigma = 0;
+  /// Whether it differs from `expected` by more than `least` and by more than four standard deviations.
+  bool differs(double expected, double least) const;
+};
+
 /// The stamps of one sensor, in order of arrival.
 struct StampFacts {
   std::size_t count = 0;     ///< observations, including those without a stamp
@@ -76,9 +83,9 @@ struct ScanFacts {
   double longest_share = 0;     ///< share of the valid beams whose range is exactly `longest`
   bool longest_stands_out = false;  ///< far more beams have exactly this range than have the ranges just below it
   bool sensor_pose_moves = false;
-  std::optional<double> constant_ahead;   ///< [m] range ahead, if it stays the same while the robot drives on
-  std::optional<SweepFacts> sweep;        ///< none if the log does not determine it
-  mrpt::poses::CPose3D base_from_sensor;  ///< sensor pose of the first scan, or the one that the INI sets
+  std::optional<Measured> constant_ahead;  ///< [m] range ahead, if it stays the same while the robot drives on
+  std::optional<SweepFacts> sweep;         ///< none if the log does not determine it
+  mrpt::poses::CPose3D base_from_sensor;   ///< sensor pose of the first scan, or the one that the INI sets
 
   bool isAtOrigin() const;
   bool isUpsideDown() const;
@@ -163,13 +170,6 @@ struct MotionFacts {
   std::optional<double> yaw_noise_per_root_m;       ///< [rad]
 };
 
-/// A number and its standard deviation.
-struct Measured {
-  double value = 0, sigma = 0;
-  /// Whether it differs from `expected` by more than `least` and by more than four standard deviations.
-  bool differs(double expected, double least) const;
-};
-
 /// Comparison of a depth camera on a robot with the floor, with the odometry, and with the walls that a laser sees.
 struct CameraFacts {
   /// What makes the planes of the images agree with the laser.
@@ -184,15 +184,16 @@ struct CameraFacts {
   mrpt::poses::CPose3D declared;    ///< base_from_sensor
   Images are = Images::as_declared;
 
-  std::size_t floor_images = 0;   ///< images that show one and the same level surface below the camera
-  std::optional<double> height;   ///< [m] distance of the camera from this surface, by its depths
-  double tilt = 0;                ///< [rad] between this surface and the floor that the declared pose implies
-  std::size_t walls = 0;          ///< upright planes in images for which the laser saw something
-  std::size_t matched = 0;        ///< those that lie on walls of the laser, with the values below
-  std::optional<Measured> yaw;    ///< [rad] true yaw minus declared yaw
-  std::optional<Measured> scale;  ///< [-] true depth divided by depth in the log
-  std::optional<Measured> focal;  ///< [-] true focal length divided by the declared one
-  std::optional<Measured> clock;  ///< [s] stamp of an image minus stamp of the laser for the same moment
+  std::size_t floor_images = 0;    ///< images that show one and the same level surface below the camera
+  std::optional<Measured> height;  ///< [m] distance of the camera from this surface, by its depths
+  double tilt = 0;                 ///< [rad] between this surface and the floor that the declared pose implies
+  double tilt_sigma = 0;           ///< [rad] standard deviation of the direction of this surface, about each axis
+  std::size_t walls = 0;           ///< upright planes in images for which the laser saw something
+  std::size_t matched = 0;         ///< those that lie on walls of the laser, with the values below
+  std::optional<Measured> yaw;     ///< [rad] true yaw minus declared yaw
+  std::optional<Measured> scale;   ///< [-] true depth divided by depth in the log
+  std::optional<Measured> focal;   ///< [-] true focal length divided by the declared one
+  std::optional<Measured> clock;   ///< [s] stamp of an image minus stamp of the laser for the same moment
   std::optional<mrpt::poses::CPose3D> pose;  ///< base_from_sensor by floor and walls; none if neither was found
 };
 
