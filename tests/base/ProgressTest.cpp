@@ -9,39 +9,51 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Reports for slightly longer than the two seconds after which a line is drawn.
-std::string shownFor(bool terminal, std::chrono::milliseconds how_long) {
+const std::string kErase = "\r\033[K";
+
+std::size_t drawn(const std::string& shown) {
+  std::size_t lines = 0;
+  for (auto at = shown.find(kErase); at != std::string::npos; at = shown.find(kErase, at + 1)) ++lines;
+  return lines;
+}
+
+struct Shown {
+  std::string text;
+  std::chrono::duration<double> took;
+};
+
+// Reports for that long at least, and until the line has been drawn that many times. A line is drawn after two seconds.
+Shown shownFor(bool terminal, std::chrono::milliseconds how_long, std::size_t lines = 0) {
   std::ostringstream out;
+  const auto begin = std::chrono::steady_clock::now();
   {
     TerminalProgress progress(out, terminal);
-    const auto end = std::chrono::steady_clock::now() + how_long;
-    while (std::chrono::steady_clock::now() < end) {
+    while (std::chrono::steady_clock::now() < begin + how_long || drawn(out.str()) < lines) {
       progress.report(0.25, "reading the log");
       std::this_thread::sleep_for(1ms);
     }
   }
-  return out.str();
+  return {out.str(), std::chrono::steady_clock::now() - begin};
 }
 
 TEST(Progress, IsQuietWhenTheOutputIsNoTerminal) {
-  EXPECT_EQ(shownFor(false, 2100ms), "");
+  EXPECT_EQ(shownFor(false, 2100ms).text, "");
 }
 
 TEST(Progress, IsQuietForShortWork) {
-  EXPECT_EQ(shownFor(true, 50ms), "");
+  auto shown = shownFor(true, 50ms);
+  while (shown.took > 2s) shown = shownFor(true, 50ms);  // the machine was busy
+  EXPECT_EQ(shown.text, "");
 }
 
 TEST(Progress, OnATerminalLongWorkShowsOneLineAndErasesItAtTheEnd) {
-  const std::string shown = shownFor(true, 2350ms);
+  const auto [shown, took] = shownFor(true, 2100ms, 3);
   EXPECT_NE(shown.find("25 %"), std::string::npos);
   EXPECT_NE(shown.find("reading the log"), std::string::npos);
   EXPECT_EQ(shown.find('\n'), std::string::npos);
-  const std::string erase = "\r\033[K";
-  EXPECT_EQ(shown.substr(shown.size() - erase.size()), erase);
-  std::size_t redrawn = 0;
-  for (auto at = shown.find(erase); at != std::string::npos; at = shown.find(erase, at + 1)) ++redrawn;
-  EXPECT_GE(redrawn, 2u);
-  EXPECT_LE(redrawn, 6u);  // 0.35 s at ten per second, the final erasing, and one more for a slow machine
+  EXPECT_EQ(shown.substr(shown.size() - kErase.size()), kErase);
+  EXPECT_GE(drawn(shown), 4u) << "with the final erasing";
+  EXPECT_LE(double(drawn(shown)), 10 * (took.count() - 2) + 2) << "ten a second";
 }
 
 TEST(Progress, TheDefaultSaysNothingAnywhere) {

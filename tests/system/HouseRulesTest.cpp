@@ -215,6 +215,15 @@ TEST(HouseRules, aSkippedTestSaysWhy) {
   }
 }
 
+TEST(HouseRules, testsBoundNoWallTime) {
+  for (const path& file : files("tests", cpp_extensions)) {
+    if (projectPath(file).rfind("tests/bench/", 0) == 0) continue;
+    EXPECT_FALSE(std::regex_search(codeOnly(read(file)),
+                                   std::regex(R"((EXPECT|ASSERT)_L[TE]\([^;]*(steady_clock|ended\.seconds,))")))
+        << projectPath(file) << " fails on a busy machine: wait for a state instead";
+  }
+}
+
 TEST(HouseRules, nothingNamesAPlaceOnOneMachine) {
   const std::string slash = "/";
   expectAbsentFromText("(^|[^\\w.])" + slash + "(work|home|root|Users)" + slash,

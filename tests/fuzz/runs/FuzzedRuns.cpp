@@ -207,7 +207,7 @@ FuzzedRun FuzzedRuns::ofFolder(Dice& dice, const std::string& folder) const {
 }
 
 std::optional<std::string> complaint(const testing::Ended& ended, const Bounds& bounds) {
-  if (!ended.in_time || ended.seconds > bounds.seconds) return "took " + std::to_string(ended.seconds) + " s";
+  if (!ended.in_time || ended.own_seconds > bounds.seconds) return "took " + std::to_string(ended.own_seconds) + " s";
   if (ended.signal != 0) return "signal " + std::to_string(ended.signal);
   const bool is_documented = ended.code == 0 || (ended.code >= 2 && ended.code <= 19);
   if (!is_documented) return "exit code " + std::to_string(ended.code);

@@ -37,7 +37,7 @@ struct Statistics {
 void add(const testing::Ended& ended, Statistics& statistics) {
   ++statistics.runs;
   ++statistics.ends[ended.signal != 0 ? "signal " + std::to_string(ended.signal) : std::to_string(ended.code)];
-  statistics.most_seconds = std::max(statistics.most_seconds, ended.seconds);
+  statistics.most_seconds = std::max(statistics.most_seconds, ended.own_seconds);
   statistics.most_mib = std::max(statistics.most_mib, ended.peak_mib);
 }
 

@@ -71,7 +71,7 @@ TEST_F(Cameras, OnGivenPosesKnowWhichWayIsUpByWhatTheySee) {
 TEST_F(Cameras, InASimulatedHandKnowWhichWayIsUpByAnAccelerometer) {
   const std::string place = scratch_ / "home";
   omnimapper::testing::ProgramOptions patient;
-  patient.time_limit = 300;  // 200 images take 50 s of a free core
+  patient.limit = 300;  // 200 images take 50 s of a free core
   const Texts simulate{ownProgram("omnimapper-simulate"),
                        "-i",
                        sourceFile("rawlogs/home_handheld.ini"),

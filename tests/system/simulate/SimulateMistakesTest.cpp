@@ -107,13 +107,12 @@ TEST_F(SimulateMistakes, CtrlCLeavesNoImagesOfWhatIsNotInTheLog) {
 TEST_F(SimulateMistakes, CtrlCLeavesWhatWasMeasuredUntilThen) {
   Program program({omnimapper::testing::ownProgram("omnimapper-simulate"), "-i", ini_, "-o", folder_, "--set",
                    "simulation.duration_s=3000"});
+  // The truth of an observation is written after it.
   while (!fs::exists(folder_ + "/.omnimapper/staged/truth") && program.isRunning())
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
   program.send(SIGINT);
   const auto ended = program.wait();
   ASSERT_TRUE(endedWith(ExitCode::interrupted, ended));
-  EXPECT_LT(ended.seconds, 60);
   EXPECT_NE(ended.out.find("(interrupted)"), std::string::npos) << ended.out;
   const auto report = readLog(folder_ + "/small.rawlog");
   EXPECT_EQ(report.ending, omnimapper::source::SourceReport::Ending::complete) << report.message;

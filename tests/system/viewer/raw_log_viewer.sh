@@ -25,16 +25,23 @@ look() { import -window root -crop $view rgb:- 2>/dev/null | cksum; }
 # Whether viewer and screen wait for something to do: no thread of theirs runs or waits for a core.
 is_idle() { ! cat /proc/"$viewer"/task/*/stat /proc/"$screen"/task/*/stat 2>/dev/null | sed 's/.*) //' | grep -q '^[RD]'; }
 
-# settle: waits until whatever was asked for has been drawn: for half a second viewer and screen have had nothing to do,
-# and the view is the same as before it. Then takes the picture.
-settle() {
-  end=$(($(date +%s) + 20))
+# rest N: waits until viewer and screen have had nothing to do N times in a row, a tenth of a second apart.
+rest() {
   quiet=0
-  while [ $quiet -lt 5 ] && [ "$(date +%s)" -le $end ]; do
-    [ $quiet -gt 0 ] || last=$(look)
+  while [ $quiet -lt "$1" ] && kill -0 $viewer 2>/dev/null; do
     sleep 0.1
     if is_idle; then quiet=$((quiet + 1)); else quiet=0; fi
-    [ $quiet -lt 5 ] || [ "$(look)" = "$last" ] || quiet=0
+  done
+}
+
+# settle: waits until whatever was asked for has been drawn: viewer and screen have had nothing to do for half a second, and
+# the view is the same as before it. Then takes the picture.
+settle() {
+  last=none now=$(look)
+  while [ "$now" != "$last" ] && kill -0 $viewer 2>/dev/null; do
+    last=$now
+    rest 5
+    now=$(look)
   done
   import -window root "$picture" 2>/dev/null || true
 }
@@ -62,19 +69,25 @@ is_at_top() {
   [ "${white:-255}" -lt 250 ]
 }
 
-# drag X Y: the scene by that many pixels. The viewer follows the second movement, from where the first ended.
+# drag X Y: the scene by that many pixels. The viewer follows the second movement, from where the first ended, and takes
+# movements that come while it is busy for one.
 drag() {
-  x mousemove 840 670 mousedown 3 sleep 0.1 mousemove 841 670 sleep 0.1 mousemove $((841 + $1)) $((670 + $2)) \
-    sleep 0.1 mouseup 3
+  x mousemove 840 670 mousedown 3
+  rest 2
+  x mousemove 841 670
+  rest 2
+  x mousemove $((841 + $1)) $((670 + $2))
+  rest 2
+  x mouseup 3
 }
 
 # whole WIDTH HEIGHT LEFT TOP: whether all that is drawn is within the view, clear of its four sides.
 whole() { [ "${3#+}" -gt 4 ] && [ "${4#+}" -gt 4 ] && [ $((${3#+} + $1)) -lt 858 ] && [ $((${4#+} + $2)) -lt 248 ]; }
 
 # There is no window manager, nor anything that says when a window is ready: all of it again until it is seen to work.
-# Rounds are counted, because on a busy machine each may take 50 s; the caller ends what hangs.
+# Rounds are counted, because on a busy machine each may take a minute; the caller ends what hangs.
 shown=no box=nothing came=no rounds=0
-while [ $rounds -lt 20 ]; do
+while [ $rounds -lt 40 ]; do
   if ! kill -0 $viewer 2>/dev/null; then
     tail -n 5 "$picture.log" >&2
     [ $came = yes ] && echo "RawLogViewer has ended" >&2 || echo "RawLogViewer has ended before its window came" >&2

@@ -6,12 +6,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
+
+#include "ProcessGroup.h"
 
 namespace omnimapper::testing {
 
@@ -58,12 +61,12 @@ std::string contentOf(int fd) {
 std::string toString(const Ended& ended) {
   std::string how = "ended with code " + std::to_string(ended.code);
   if (ended.signal != 0) how = std::string("was ended by signal ") + ::strsignal(ended.signal);
-  if (!ended.in_time) how = "was killed after " + std::to_string(ended.seconds) + " s";
+  if (!ended.in_time) how = "was killed after " + std::to_string(ended.own_seconds) + " s of its own";
   return how + "\nstdout: " + ended.out + "\nstderr: " + ended.err;
 }
 
 Program::Program(const std::vector<std::string>& argv, const ProgramOptions& options)
-    : out_(memoryFile("stdout")), err_(memoryFile("stderr")), time_limit_(options.time_limit), start_(now()) {
+    : out_(memoryFile("stdout")), err_(memoryFile("stderr")), limit_(options.limit), start_(now()), looked_(start_) {
   child_ = ::fork();
   if (child_ < 0) throw std::runtime_error(std::string("cannot start ") + argv.at(0) + ": " + std::strerror(errno));
   if (child_ == 0) become(argv, options, out_, err_);
@@ -120,9 +123,34 @@ void Program::kill() {
   reap(true);
 }
 
+// While a thread has work, only the time on the cores counts, else all of it. A look that comes late, because this
+// program had no core either, counts as one in time.
+void Program::look() {
+  constexpr double kLongest = 0.2;
+  const auto group = lookAtProcessGroup(child_);
+  const double time = now(), passed = std::min(time - looked_, kLongest);
+  const double used = std::max(0.0, group.processor_seconds - processor_seconds_);
+  ended_.own_seconds += group.has_work ? std::min(passed, used) : passed;
+  looked_ = time;
+  processor_seconds_ = group.processor_seconds;
+}
+
+bool Program::waitUntilIdle() {
+  double used = -1;
+  for (int quiet = 0; quiet < 10; ++quiet) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const auto group = lookAtProcessGroup(child_);
+    if (group.has_work || group.processor_seconds != used) quiet = 0;
+    used = group.processor_seconds;
+    if (!isRunning()) return false;
+  }
+  return true;
+}
+
 Ended Program::wait() {
   while (isRunning()) {
-    if (secondsSinceStart() > time_limit_) {
+    if (now() - looked_ > 0.1) look();
+    if (ended_.own_seconds > limit_) {
       ended_.in_time = false;
       kill();
       break;

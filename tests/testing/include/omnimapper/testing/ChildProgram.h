@@ -10,19 +10,20 @@ namespace omnimapper::testing {
 
 /// How a program ended, and what it printed.
 struct Ended {
-  int code = -1;         ///< exit code; -1 if a signal ended it
-  int signal = 0;        ///< the signal that ended it; 0 if it left by itself
-  bool in_time = true;   ///< false if it was killed at its time limit
-  std::string out, err;  ///< standard output and error, whole
-  double seconds = 0;    ///< [s] from start to end
-  double peak_mib = 0;   ///< largest memory in use [MiB]
+  int code = -1;           ///< exit code; -1 if a signal ended it
+  int signal = 0;          ///< the signal that ended it; 0 if it left by itself
+  bool in_time = true;     ///< false if it was killed at its limit
+  std::string out, err;    ///< standard output and error, whole
+  double seconds = 0;      ///< [s] from start to end
+  double own_seconds = 0;  ///< [s] the same, but without the time in which other programs had the cores
+  double peak_mib = 0;     ///< largest memory in use [MiB]
 };
 
 /// How it ended, then what it printed, for messages of tests.
 std::string toString(const Ended& ended);
 
 struct ProgramOptions {
-  double time_limit = 120;         ///< [s] after which the program is killed
+  double limit = 120;              ///< [s] of Ended::own_seconds after which the program is killed
   std::uint64_t largest_file = 0;  ///< [bytes] a write beyond this size of a file fails; 0: no limit
 };
 
@@ -38,6 +39,9 @@ class Program {
   bool isRunning();
   /// Whether the program has that file open now.
   bool hasOpen(const std::string& path) const;
+  /// Waits until neither the program nor one that it started has had anything to do for half a second. Returns false if
+  /// the program has ended instead.
+  bool waitUntilIdle();
   /// Sends the program a signal, unless it has ended.
   void send(int signal);
   /// Waits for the end of the program. May be called again, with the same result.
@@ -45,12 +49,14 @@ class Program {
 
  private:
   void kill();  ///< kills the program and all processes that it started
+  void look();  ///< adds to Ended::own_seconds what has passed since it was called last
   bool reap(bool block);
   double secondsSinceStart() const;
 
   pid_t child_ = -1;
   int out_ = -1, err_ = -1;  // files in memory
-  double time_limit_, start_;
+  double limit_, start_;
+  double looked_, processor_seconds_ = 0;  // when look() was called last, and what it saw
   bool has_ended_ = false;
   Ended ended_;
 };
