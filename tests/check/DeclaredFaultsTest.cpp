@@ -97,6 +97,55 @@ TEST(DeclaredFaults, TheClockOfTheCameraIsMeasuredAndProposed) {
   }
 }
 
+/// The log with depth images of every `step`-th pixel.
+Observations smaller(const Observations& log, int step) {
+  auto copies = withFault(log, {DeclaredFault::camera_yaw, 0});
+  each<mrpt::obs::CObservation3DRangeScan>(copies, [&](auto& scan) {
+    const auto pixels = scan.rangeImage;
+    scan.rangeImage_setSize(static_cast<int>(pixels.rows()) / step, static_cast<int>(pixels.cols()) / step);
+    for (int row = 0; row < scan.rangeImage.rows(); ++row) {
+      for (int column = 0; column < scan.rangeImage.cols(); ++column)
+        scan.rangeImage(row, column) = pixels(step * row, step * column);
+    }
+    scan.hasIntensityImage = false;
+    scan.cameraParams.scaleToResolution(static_cast<unsigned>(scan.rangeImage.cols()),
+                                        static_cast<unsigned>(scan.rangeImage.rows()));
+  });
+  return copies;
+}
+
+TEST(DeclaredFaults, SmallDepthImagesWorkOrAreSaidToGiveNothing) {
+  const Checked small(smaller(home(), 4));
+  ASSERT_EQ(small.facts.cameras.size(), 1U);
+  const auto& camera = small.facts.cameras.front();
+  EXPECT_EQ(camera.columns, 160U);
+  if (camera.noise == 1) {
+    EXPECT_GT(camera.planes, camera.images) << small.text();
+  } else {
+    EXPECT_TRUE(small.says("its images show surfaces only with")) << small.text();
+    EXPECT_NE(small.proposed("planes", "noise_at_1m_m"), "") << small.text();
+  }
+  const Checked tiny(smaller(home(), 40));  // 16 x 12 pixels
+  EXPECT_TRUE(tiny.says("its images give no surfaces: 0 planes in")) << tiny.text();
+}
+
+TEST(DeclaredFaults, ImagesOfAnotherSizeThanTheirCalibrationAreNamed) {
+  auto log = withFault(home(), {DeclaredFault::camera_yaw, 0});
+  each<mrpt::obs::CObservation3DRangeScan>(log, [](auto& scan) {
+    scan.hasIntensityImage = true;
+    scan.intensityImage = mrpt::img::CImage(320, 240, mrpt::img::CH_RGB);
+    scan.cameraParamsIntensity = scan.cameraParams;  // of 640 x 480 px
+  });
+  const Checked half(log);
+  EXPECT_TRUE(
+      half.says("problem: 'kinect': its colour images have 320 x 240 px, but their calibration is that of "
+                "images of 640 x 480 px; set picture_fx_px = 262.5"))
+      << half.text();
+  EXPECT_EQ(warningsOf(half), 1U) << half.text();
+  EXPECT_EQ(half.proposed("calibration", "picture_cx_px"), "159.5");
+  EXPECT_EQ(half.proposed("calibration", "label"), "kinect");
+}
+
 TEST(DeclaredFaults, AWrongLaserIsNotBlamedOnTheCamera) {
   const Checked turned(withFault(home(), {DeclaredFault::laser_yaw, 45}));
   EXPECT_TRUE(turned.says("problem: 'laser': is mounted otherwise than its sensor pose states")) << turned.text();
@@ -144,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair("camera_yaw_10_off", "'kinect': is turned by -9.9"),
                       std::pair("camera_clock_0.3s_late", "problem: 'kinect' and 'laser': their clocks differ"),
                       std::pair("camera_negative_fy", "its focal length is not positive; set depth_fx_px"),
-                      std::pair("camera_160x120_no_surfaces", "its images are small, 160 x 120 px"),
+                      std::pair("camera_160x120_no_surfaces", "set [planes] noise_at_1m_m = 0.0046"),
                       std::pair("max_range_dropouts_valid", "single beams at the maximum range"),
                       std::pair("max_range_4m_declared_80", "problem: 'laser': 15 % of the valid beams measure"),
                       std::pair("no_stamps", "set [source] step_s"), std::pair("same_stamps", "set [source] step_s")));

@@ -43,13 +43,13 @@ void stretch(geometry::Plane3& plane, double focal) {
 
 std::vector<View> viewsOf(const std::vector<SampledImage>& images, const Hypothesis& hypothesis) {
   std::vector<View> views;
-  for (const auto& [image, found] : images) {
+  for (const auto& [image, found, noise] : images) {
     auto planes = found;
     if (hypothesis.changesDepths()) {
       auto changed = std::make_shared<mrpt::obs::CObservation3DRangeScan>(*image);
       changed->rangeUnits = static_cast<float>(changed->rangeUnits * hypothesis.scale);
       if (hypothesis.images == CameraFacts::Images::ranges) changed->range_is_depth = false;
-      planes = planesOf(*changed);
+      planes = planesOf(*changed, noise);
     }
     View view{image->timestamp, {}};
     if (planes) {
@@ -132,7 +132,7 @@ Eigen::Matrix3d levelling(const Floor& floor, const Eigen::Matrix3d& base_from_s
 double medianDepth(const std::vector<SampledImage>& images) {
   constexpr int kStep = 7;
   std::vector<double> depths;
-  for (const auto& [image, planes] : images) {
+  for (const auto& [image, planes, noise] : images) {
     const auto& range = image->rangeImage;
     for (int row = 0; row < range.rows(); row += kStep) {
       for (int column = 0; column < range.cols(); column += kStep) {
@@ -245,6 +245,7 @@ CameraFacts fitCamera(const std::vector<SampledImage>& images, const CameraWitne
   const auto& first = *images.front().image;
   best.camera = first.sensorLabel;
   best.images = images.size();
+  best.noise = images.front().noise;
   best.columns = static_cast<unsigned>(first.rangeImage.cols());
   best.rows = static_cast<unsigned>(first.rangeImage.rows());
   best.fx = first.cameraParams.fx();

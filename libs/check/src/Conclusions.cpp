@@ -4,6 +4,7 @@
 #include <mrpt/math/wrap2pi.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/matching/ScanInBase.h>
+#include <omnimapper/perception/PlaneSegmenter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -290,6 +291,14 @@ bool blamesLaser(const LogFacts& facts, const CameraFacts& camera) {
       return true;
   }
   return false;
+}
+
+std::optional<double> neededNoise(const IniFacts& ini, const CameraFacts& camera) {
+  const double usual = perception::PlaneOptions().noise_at_1m, needed = camera.noise * usual;
+  constexpr double kSame = 1.01;
+  // With depths in another unit nothing is known of their noise.
+  if (hasWrongScale(camera) || kSame * std::max(ini.depth_noise, usual) >= needed) return std::nullopt;
+  return needed;
 }
 
 std::optional<Measured> trueHeight(const CameraFacts& camera) {

@@ -54,6 +54,9 @@ bool isTurned(const CameraFacts& camera);
 bool hasWrongPose(const CameraFacts& camera);
 /// Whether it differs from the laser because the laser is wrong: the motion of the robot shows this, too.
 bool blamesLaser(const LogFacts& facts, const CameraFacts& camera);
+/// [m] `[planes] noise_at_1m_m` with which planes are found, if hardly any are found with that of the INI; none
+/// if that of the INI does, or if the depths have another unit.
+std::optional<double> neededNoise(const IniFacts& ini, const CameraFacts& camera);
 /// [m] Height of the camera over the floor that it sees, by the scale of its depths that the walls of the laser show;
 /// none if the log shows only one of the two.
 std::optional<Measured> trueHeight(const CameraFacts& camera);

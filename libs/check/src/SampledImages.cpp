@@ -7,8 +7,28 @@
 
 namespace omnimapper::check {
 
-std::shared_ptr<const obs::CObservationPlanes> planesOf(const mrpt::obs::CObservation3DRangeScan& image) {
-  static const perception::PlaneExtractor extractor({}, {});
+namespace {
+
+double planesPerImage(const std::vector<SampledImage>& images) {
+  std::size_t planes = 0;
+  for (const auto& one : images) planes += one.planes->planes.size();
+  return images.empty() ? 0 : static_cast<double>(planes) / static_cast<double>(images.size());
+}
+
+std::vector<SampledImage> withNoise(const std::vector<SampledImage>& images, double noise) {
+  std::vector<SampledImage> all;
+  for (const auto& one : images) {
+    if (auto planes = planesOf(*one.image, noise)) all.push_back({one.image, std::move(planes), noise});
+  }
+  return all;
+}
+
+}  // namespace
+
+std::shared_ptr<const obs::CObservationPlanes> planesOf(const mrpt::obs::CObservation3DRangeScan& image, double noise) {
+  perception::PlaneOptions options;
+  options.noise_at_1m *= noise;
+  const perception::PlaneExtractor extractor(options, {});
   try {
     return extractor.extract(image);
   } catch (const base::Error&) {
@@ -28,14 +48,24 @@ void SampledImages::add(const std::shared_ptr<const mrpt::obs::CObservation3DRan
     used = copy;
     have_negative_focal_ = true;
   }
-  auto planes = planesOf(*used);
+  auto planes = planesOf(*used, 1);
   if (!planes) return;
-  images_.push_back({used, std::move(planes)});
+  images_.push_back({used, std::move(planes), 1});
   if (images_.size() < kMost) return;
   std::vector<SampledImage> kept;
   for (std::size_t i = 0; i < images_.size(); i += 2) kept.push_back(images_[i]);
   images_ = std::move(kept);
   stride_ *= 2;
+}
+
+std::vector<SampledImage> SampledImages::all() const {
+  constexpr double kHardlyAny = 0.5, kSome = 1.5;  // planes per image
+  if (planesPerImage(images_) >= kHardlyAny) return images_;
+  for (const double noise : {2.0, 4.0}) {
+    auto noisy = withNoise(images_, noise);
+    if (planesPerImage(noisy) >= kSome) return noisy;
+  }
+  return images_;
 }
 
 }  // namespace omnimapper::check

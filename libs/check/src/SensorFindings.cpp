@@ -153,15 +153,23 @@ class CameraJudge {
             " m: are they in another unit? Set [calibration] depth_scale, for example " + (is_far ? "0.001" : "1000"));
   }
 
+  // Small images have more noise in a pixel than the extractor expects, or show too little of each surface.
   void judgeSize() {
-    constexpr unsigned kSmall = 200;  // columns
-    if (camera_.columns >= kSmall) return;
-    findings_.push_back({Weight::note,
-                         who_ + "its images are small, " + std::to_string(camera_.columns) + " x " +
-                             std::to_string(camera_.rows) +
-                             " px: only surfaces that fill [planes] min_pixels pixels are found",
-                         false});
+    const std::string size =
+        std::to_string(camera_.columns) + " x " + std::to_string(camera_.rows) + " px, or depths with much noise";
+    if (const auto noise = neededNoise(ini_, camera_)) {
+      add(Weight::warning, "its images show surfaces only with " + fixed(camera_.noise, 0) +
+                               " times the noise that the PlaneExtractor assumes, because they are small, " + size +
+                               "; set [planes] noise_at_1m_m = " + fixed(*noise, 4));
+    } else if (camera_.images >= kFewestImages && 4 * camera_.planes < camera_.images) {
+      findings_.push_back({Weight::warning,
+                           who_ + "its images give no surfaces: " + counted(camera_.planes, "plane") + " in " +
+                               counted(camera_.images, "image") + " of " + size,
+                           false});
+    }
   }
+
+  static constexpr std::size_t kFewestImages = 8;
 
   const IniFacts& ini_;
   const CameraFacts& camera_;
@@ -174,6 +182,27 @@ class CameraJudge {
 
 std::vector<Finding> clockFindings(const LogFacts& facts) {
   return ClockJudge(facts).findings();
+}
+
+std::vector<Finding> imageSizeFindings(const LogFacts& facts) {
+  std::vector<Finding> findings;
+  for (const auto& one : facts.other_sizes) {
+    const auto size = [](double columns, double rows) { return fixed(columns, 0) + " x " + fixed(rows, 0) + " px"; };
+    const std::string kind = one.is_depth ? "depth" : "picture", prefix = kind + "_";
+    const std::string remedy =
+        one.isScaled() ? "set " + prefix + "fx_px = " + fixed(one.fx, 1) + ", " + prefix +
+                             "fy_px = " + fixed(one.fy, 1) + ", " + prefix + "cx_px = " + fixed(one.cx, 1) + " and " +
+                             prefix + "cy_px = " + fixed(one.cy, 1) + " in [calibration]" +
+                             (one.is_depth ? "" : ", unless signs are read, which scales the calibration itself") +
+                             ", or record the calibration of the images that are sent"
+                       : std::string("they are cut or stretched: record the calibration of the images that are sent");
+    findings.push_back({Weight::problem,
+                        quoted(one.label) + ": its " + (one.is_depth ? "depth" : "colour") + " images have " +
+                            size(one.columns, one.rows) + ", but their calibration is that of images of " +
+                            size(one.calibrated_columns, one.calibrated_rows) + "; " + remedy,
+                        true});
+  }
+  return findings;
 }
 
 std::vector<Finding> cameraFindings(const LogFacts& facts) {

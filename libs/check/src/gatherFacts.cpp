@@ -13,6 +13,7 @@
 #include "BeamsAhead.h"
 #include "CameraFit.h"
 #include "Conclusions.h"
+#include "ImageSizes.h"
 #include "LevelStatistics.h"
 #include "OdometryStatistics.h"
 #include "PoseStatistics.h"
@@ -52,6 +53,7 @@ class FactGatherer::Statistics {
       if (is_known && gyroscopes_[label].sensor.add(*observation)) gyroscopes_[label].stamps.push_back(stamp);
     }
     level_.add(*observation);
+    sizes_.add(*observation);
     if (const auto pose = std::dynamic_pointer_cast<const mrpt::obs::CObservationRobotPose>(observation)) {
       poses_[label].add(*pose);
     }
@@ -81,9 +83,13 @@ class FactGatherer::Statistics {
     for (const auto& [sensor, statistics] : stamps_) facts.sensors[sensor] = stampFacts(statistics);
     for (const auto& [label, statistics] : odometry_) facts.odometry[label] = statistics.facts();
     for (const auto& [label, statistics] : poses_) facts.poses[label] = statistics.facts();
+    facts.other_sizes = sizes_.facts();
     std::vector<SampledImage> images;
-    for (const auto& [label, sampled] : images_)
-      images.insert(images.end(), sampled.all().begin(), sampled.all().end());
+    std::map<std::string, std::vector<SampledImage>> by_label;
+    for (const auto& [label, sampled] : images_) {
+      by_label[label] = sampled.all();
+      images.insert(images.end(), by_label[label].begin(), by_label[label].end());
+    }
     facts.levels = level_.facts(!odometry_.empty(), images);
     const auto compared = beginningOf(odometry_, kMostLabels);
     for (auto a = odometry_.begin(); a != compared; ++a) {
@@ -100,7 +106,7 @@ class FactGatherer::Statistics {
       }
       if (odometry_.empty()) compare(label, laser, "", nullptr, facts);
     }
-    addCameras(facts);
+    addCameras(by_label, facts);
     return facts;
   }
 
@@ -116,7 +122,7 @@ class FactGatherer::Statistics {
   };
 
   // Compares the depth cameras with the best laser, and the best odometry at the moments of that laser.
-  void addCameras(LogFacts& facts) const {
+  void addCameras(const std::map<std::string, std::vector<SampledImage>>& by_label, LogFacts& facts) const {
     const auto lasers = usableLasers(facts);
     const auto odometry = usableOdometry(facts);
     if (!odometry) return;
@@ -140,12 +146,12 @@ class FactGatherer::Statistics {
       const auto motion = between(stamp - half, stamp + half);
       return motion ? std::optional(motion->phi() / 0.3) : std::nullopt;
     };
-    for (const auto& [label, images] : images_) {
-      if (images.all().empty()) continue;
-      facts.cameras.push_back(fitCamera(images.all(), witness));
+    for (const auto& [label, images] : by_label) {
+      if (images.empty()) continue;
+      facts.cameras.push_back(fitCamera(images, witness));
       auto& clock = facts.cameras.back().clock;
       if (clock && !lasers.empty()) clock->value -= 0.5 * sweepOf(facts.scans.at(lasers.front()));
-      facts.cameras.back().has_negative_focal = images.haveNegativeFocal();
+      facts.cameras.back().has_negative_focal = images_.at(label).haveNegativeFocal();
       if (!lasers.empty()) facts.cameras.back().laser = lasers.front();
     }
   }
@@ -243,6 +249,7 @@ class FactGatherer::Statistics {
   std::map<std::string, Gyroscope> gyroscopes_;
   std::map<std::string, PoseStatistics> poses_;
   LevelStatistics level_;
+  ImageSizes sizes_;
   std::map<std::string, SampledImages> images_;  // by label
   std::map<std::string, Laser> lasers_;
   StreamClock clock_;
@@ -261,6 +268,7 @@ Declared Declared::read(const base::Config& config) {
   };
   read("scan_odometry", "sweep_s", ini.sweep);
   read("laser_points", "max_range_m", ini.max_range);
+  read("planes", "noise_at_1m_m", ini.depth_noise);
   if (!config.has("calibration")) return declared;
   const auto calibration = config.section("calibration").read<perception::CameraCalibrationOptions>();
   ini.has_calibration = true;

@@ -28,7 +28,7 @@ class Judge {
     judgeContent();
     judgeOdometry();
     judgePairs();
-    for (const auto& some : {clockFindings(facts_), cameraFindings(facts_)})
+    for (const auto& some : {clockFindings(facts_), imageSizeFindings(facts_), cameraFindings(facts_)})
       findings_.insert(findings_.end(), some.begin(), some.end());
     judgePoses();
     judgeLevels();

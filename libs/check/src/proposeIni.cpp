@@ -36,6 +36,7 @@ class Proposal {
     proposeEngine();
     proposeSensors();
     proposeCalibration();
+    proposePlanes();
     proposeLasers();
     proposeOdometry();
     return std::move(settings_);
@@ -167,17 +168,54 @@ class Proposal {
         add("depth_is_range", "true", "by the walls of the laser");
       if (hasWrongScale(camera))
         add("depth_scale", significant(camera.scale->value * ini.depth_scale), "by the walls of the laser");
+      const bool has_size = addSizes(camera.camera, keys);
       const bool is_wrong = hasWrongFocalLength(camera);
-      if (is_wrong || camera.has_negative_focal) {
+      if (!has_size && (is_wrong || camera.has_negative_focal)) {
         const double factor = is_wrong ? camera.focal->value : 1;
         add("depth_fx_px", fixed(camera.fx * factor, 1), is_wrong ? "by the walls of the laser" : "positive");
         add("depth_fy_px", fixed(camera.fy * factor, 1), "");
       }
-      if (keys.empty()) continue;
-      set("calibration", "label", camera.camera, "");
-      settings_.insert(settings_.end(), keys.begin(), keys.end());
+      if (addCalibration(camera.camera, keys)) return;
+    }
+    // Cameras that are compared with nothing.
+    for (const auto& one : facts_.other_sizes) {
+      if (!canBeNamed(one.label) || (ini.has_calibration && ini.calibrated != one.label)) continue;
+      std::vector<Setting> keys;
+      addSizes(one.label, keys);
+      if (addCalibration(one.label, keys)) return;
+    }
+  }
+
+  void proposePlanes() {
+    for (const auto& camera : facts_.cameras) {
+      const auto noise = neededNoise(facts_.ini, camera);
+      if (!noise || !has(plugins_.extractors, "planes")) continue;
+      set("planes", "noise_at_1m_m", fixed(*noise, 4), "its images are small or noisy");
       return;
     }
+  }
+
+  bool addCalibration(const std::string& label, const std::vector<Setting>& keys) {
+    if (keys.empty()) return false;
+    set("calibration", "label", label, "");
+    settings_.insert(settings_.end(), keys.begin(), keys.end());
+    return true;
+  }
+
+  // Adds the calibrations of images that are smaller or larger than those for which they were made. Returns whether
+  // that of the depth images is among them. Where signs are read, the calibration of pictures is scaled anyway.
+  bool addSizes(const std::string& label, std::vector<Setting>& keys) const {
+    bool has_depth = false;
+    for (const auto& one : facts_.other_sizes) {
+      if (one.label != label || !one.isScaled() || (!one.is_depth && has(plugins_.extractors, "signs"))) continue;
+      const std::string prefix = one.is_depth ? "depth_" : "picture_";
+      keys.push_back({"calibration", prefix + "fx_px", fixed(one.fx, 1), "scaled to the size of the images"});
+      keys.push_back({"calibration", prefix + "fy_px", fixed(one.fy, 1), ""});
+      keys.push_back({"calibration", prefix + "cx_px", fixed(one.cx, 1), ""});
+      keys.push_back({"calibration", prefix + "cy_px", fixed(one.cy, 1), ""});
+      has_depth = has_depth || one.is_depth;
+    }
+    return has_depth;
   }
 
   void proposeLasers() {

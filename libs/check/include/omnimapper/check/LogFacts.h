@@ -180,8 +180,9 @@ struct CameraFacts {
   unsigned columns = 0, rows = 0;   ///< of the depth images
   double fx = 0, fy = 0;            ///< [px] declared focal lengths, without their signs
   bool has_negative_focal = false;  ///< one of them is negative; all else is computed with positive ones
-  double median_depth = 0;          ///< [m] of the pixels with a depth, as the log declares it
-  mrpt::poses::CPose3D declared;    ///< base_from_sensor
+  double noise = 1;               ///< [-] with which planes are found in them: a factor on the PlaneExtractor's default
+  double median_depth = 0;        ///< [m] of the pixels with a depth, as the log declares it
+  mrpt::poses::CPose3D declared;  ///< base_from_sensor
   Images are = Images::as_declared;
 
   std::size_t floor_images = 0;    ///< images that show one and the same level surface below the camera
@@ -197,6 +198,17 @@ struct CameraFacts {
   std::optional<mrpt::poses::CPose3D> pose;  ///< base_from_sensor by floor and walls; none if neither was found
 };
 
+/// Images whose size is not that of the images for which their camera was calibrated.
+struct ImageSizeFacts {
+  std::string label;
+  bool is_depth = false;                               ///< depth images; else colour images
+  double columns = 0, rows = 0;                        ///< [px] of the images
+  double calibrated_columns = 0, calibrated_rows = 0;  ///< [px] of the images of the calibration
+  double fx = 0, fy = 0, cx = 0, cy = 0;               ///< [px] the calibration, scaled to the images
+  /// Whether both have the same shape, so that one may be the other in another resolution.
+  bool isScaled() const;
+};
+
 /// Comparison of a gyroscope with the turns that scan matching finds.
 struct GyroscopeFacts {
   std::string gyroscope, laser;     ///< labels
@@ -210,6 +222,7 @@ struct IniFacts {
   std::map<std::string, double> clock_offsets;                 ///< [s] added to the stamps, by label
   bool has_calibration = false;                                ///< the members below are of a section [calibration]
   std::string calibrated;                                      ///< label; empty for every depth camera
+  double depth_noise = 0;  ///< [m] `[planes] noise_at_1m_m`; 0 if the INI does not give it
   double depth_scale = 1;
   bool mirrored = false, depth_is_range = false;
 };
@@ -230,6 +243,7 @@ struct LogFacts {
   std::vector<LevelFacts> levels;                                     ///< in the frames of all poses, and in the base
   std::vector<MotionFacts> motions;                                   ///< one for each laser with each odometry
   std::vector<GyroscopeFacts> gyroscopes;                             ///< one for each laser with each gyroscope
+  std::vector<ImageSizeFacts> other_sizes;                            ///< of cameras with a wrong size only
   std::vector<CameraFacts> cameras;  ///< depth cameras of a robot with odometry or laser
   /// Share of a laser's scans within the time span of an odometry, by (laser, odometry).
   std::map<std::pair<std::string, std::string>, double> covered;
