@@ -63,6 +63,18 @@ TEST(DeclaredFaults, ThePoseOfTheCameraIsMeasuredAndProposed) {
   }
 }
 
+TEST(DeclaredFaults, ACameraAtAnotherHeightThanDeclaredIsNamedBesideALaser) {
+  for (const double height : {0.8, 1.3}) {
+    auto log = withFault(home(), {DeclaredFault::camera_yaw, 0});
+    each<mrpt::obs::CObservation3DRangeScan>(log, [&](auto& scan) { scan.sensorPose.z(height); });
+    const Checked checked(log);
+    EXPECT_TRUE(checked.says("warning: 'kinect': its pose declares a height of ")) << checked.text();
+    EXPECT_EQ(warningsOf(checked), 1U) << checked.text();
+    EXPECT_NEAR(std::stod(checked.proposed("place_of_kinect", "pose_z_m")), 1.1, 0.021);
+    EXPECT_NEAR(std::stod(checked.proposed("place_of_kinect", "pose_pitch_deg")), 10, 0.3);
+  }
+}
+
 TEST(DeclaredFaults, TheUnitOfDepthsIsMeasuredAndProposed) {
   for (const double scale : {0.2, 1000.0}) {
     const Checked checked(withFault(home(), {DeclaredFault::depth_scale, scale}));

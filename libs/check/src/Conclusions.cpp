@@ -307,8 +307,20 @@ std::optional<Measured> trueHeight(const CameraFacts& camera) {
   return Measured{height.value * scale.value, std::hypot(height.sigma * scale.value, height.value * scale.sigma)};
 }
 
-bool hasWrongPose(const CameraFacts& camera) {
-  return camera.pose && (isTilted(camera) || isTurned(camera));
+bool hasWrongHeight(const CameraFacts& camera) {
+  constexpr double kLeast = 0.05;           // [m]
+  constexpr std::size_t kFewestWalls = 10;  // on which camera and laser agree
+  const auto height = trueHeight(camera);
+  // A camera without a height was never placed.
+  return height && camera.matched >= kFewestWalls && camera.declared.z() >= kLeast &&
+         height->differs(camera.declared.z(), kLeast);
+}
+
+std::optional<mrpt::poses::CPose3D> betterCameraPose(const CameraFacts& camera) {
+  if (!camera.pose || !(isTilted(camera) || isTurned(camera) || hasWrongHeight(camera))) return std::nullopt;
+  auto pose = *camera.pose;
+  if (hasWrongHeight(camera)) pose.z(trueHeight(camera)->value);
+  return pose;
 }
 
 std::optional<double> scaleByHeight(const CameraFacts& camera) {

@@ -50,8 +50,11 @@ bool hasWrongScale(const CameraFacts& camera);
 bool hasWrongFocalLength(const CameraFacts& camera);
 bool isTilted(const CameraFacts& camera);
 bool isTurned(const CameraFacts& camera);
-/// Whether it is tilted or turned, and CameraFacts::pose is better.
-bool hasWrongPose(const CameraFacts& camera);
+/// Whether the floor is at another distance than the declared height, by depths whose scale the walls of the laser
+/// show.
+bool hasWrongHeight(const CameraFacts& camera);
+/// base_from_sensor of a camera that is tilted, turned or at another height than declared; none of any other.
+std::optional<mrpt::poses::CPose3D> betterCameraPose(const CameraFacts& camera);
 /// Whether it differs from the laser because the laser is wrong: the motion of the robot shows this, too.
 bool blamesLaser(const LogFacts& facts, const CameraFacts& camera);
 /// [m] `[planes] noise_at_1m_m` with which planes are found, if hardly any are found with that of the INI; none

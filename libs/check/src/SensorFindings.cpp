@@ -78,6 +78,7 @@ class CameraJudge {
     judgeScale();
     judgeFocalLength();
     judgePose();
+    judgeHeight();
     judgeUnits();
     judgeSize();
     return std::move(findings_);
@@ -139,8 +140,19 @@ class CameraJudge {
     } else {
       how = "is tilted by " + fixed(degrees(camera_.tilt), 1) + " deg, by the floor that it sees";
     }
-    add(much ? Weight::problem : Weight::warning,
-        how + ", against its declared pose; set " + poseKeys(*camera_.pose) + " for it in [mapper] sensors");
+    add(much ? Weight::problem : Weight::warning, how + ", against its declared pose; set " +
+                                                      poseKeys(*betterCameraPose(camera_)) +
+                                                      " for it in [mapper] sensors");
+  }
+
+  void judgeHeight() {
+    if (!hasWrongHeight(camera_)) return;
+    const auto height = *trueHeight(camera_);
+    add(Weight::warning, "its pose declares a height of " + fixed(camera_.declared.z(), 2) + " m, but it is " +
+                             fixed(height.value, 2) + " +- " + fixed(height.sigma, 2) +
+                             " m over the floor that it sees" + by_walls_ + " at the right scale; set pose_z_m " +
+                             fixed(height.value, 2) +
+                             " for it in [mapper] sensors, if the base's origin is on the floor");
   }
 
   void judgeUnits() {

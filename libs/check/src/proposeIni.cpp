@@ -132,7 +132,8 @@ class Proposal {
       if (const auto aperture = betterAperture(facts_, laser)) change(laser, "aperture_deg", degrees(*aperture), 1);
     }
     for (const auto& camera : facts_.cameras) {
-      if (hasWrongPose(camera) && !blamesLaser(facts_, camera)) change_pose(camera.camera, *camera.pose);
+      const auto pose = betterCameraPose(camera);
+      if (pose && !blamesLaser(facts_, camera)) change_pose(camera.camera, *pose);
     }
     for (const auto& [label, offset] : clockOffsets(facts_))
       change(label, "clock_offset_s", offset + clockInIni(facts_, label), 3,
