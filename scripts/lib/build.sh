@@ -17,7 +17,7 @@ build_jobs() {
 }
 
 # What build/release holds beside mapping: nothing, the simulator, or the simulator and the tests.
-readonly without_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=OFF -DOMNIMAPPER_BUILD_TESTS=OFF)
+readonly without_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=OFF -DOMNIMAPPER_BUILD_TESTS=OFF -DOMNIMAPPER_BUILD_BENCH=OFF)
 readonly with_simulator=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=OFF)
 readonly with_tests=(-DOMNIMAPPER_BUILD_SIMULATOR=ON -DOMNIMAPPER_BUILD_TESTS=ON)
 

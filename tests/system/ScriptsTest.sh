@@ -113,6 +113,29 @@ for script in $(find scripts .ci -maxdepth 1 -type f -executable | sort); do
   expect "$script --no-such-flag" refused "$("$script" --no-such-flag >/dev/null 2>&1 || echo refused)"
 done
 
+# scripts/bench knows every bench: what it is, how it runs without arguments, and where the paths in these come from.
+(
+  source scripts/lib/common.sh
+  source scripts/lib/bench.sh
+  list_benches >"$scratch/benches"
+  make_input() { echo "$1"; }
+  recording() { echo "$1"; }
+  for bench in $(<"$scratch/benches"); do bench_comment "$bench" | grep -q . || echo "$bench"; done >"$scratch/silent"
+  for word in $(grep -v '^#' tests/bench/arguments.txt | grep -oE '@(data/[^, ]*|[a-z0-9_]+)' | sort -u); do
+    bench_input "$word" some 2>&1 >/dev/null || true # keeps what it says, not the path
+  done >"$scratch/unknown"
+)
+expect "benches without a comment at the top" "" "$(<"$scratch/silent")"
+expect "unknown words in tests/bench/arguments.txt" "" "$(<"$scratch/unknown")"
+expect "benches in tests/bench/arguments.txt" "$(<"$scratch/benches")" \
+  "$(grep -v '^#' tests/bench/arguments.txt | cut -d ' ' -f 1 | sort)"
+expect "benches that scripts/bench lists" "$(cat "$scratch/benches"; cd scripts; printf '%s\n' bench-* | sed 's/^bench-//')" \
+  "$(scripts/bench list | cut -d ' ' -f 1)"
+expect "how scripts/bench says that grid runs" "Default arguments: -m @map_of_aces/map.omnimap" \
+  "$(scripts/bench list grid | tail -n 1)"
+expect "scripts/bench no_such_bench" "error: there is no bench 'no_such_bench'; scripts/bench list names them" \
+  "$(scripts/bench no_such_bench 2>&1 || true)"
+
 # What scripts/models needs is installed where it is missing. Here Python has no onnx, dpkg knows of no package, and
 # apt-get only writes down what it is asked for.
 mkdir -p "$scratch/bin" "$scratch/python"
