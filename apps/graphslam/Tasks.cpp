@@ -10,6 +10,9 @@
 #include <iostream>
 #include <memory>
 
+#include "program/Program.h"
+#include "program/ShippedInis.h"
+
 using namespace omnimapper;
 
 namespace {
@@ -34,6 +37,12 @@ class TemporaryFolder {
 };
 
 }  // namespace
+
+base::Config readConfig(const Arguments& arguments) {
+  auto config = base::Config::fromFiles(program::findInis(arguments.inis));
+  for (const auto& setting : arguments.settings) config.set(setting);
+  return config;
+}
 
 int checkLogs(const Arguments& arguments, const base::Config& config, std::optional<base::TerminalProgress>& progress,
               const std::function<bool()>& stop) {
@@ -66,6 +75,12 @@ mapper::RunResult mapObservations(Arguments& arguments, const base::Config& conf
                                   const std::function<bool()>& stop) {
   auto& run = arguments.run;
   const bool is_of_logs = !run.live && run.replay.empty();
+  if (run.live) {
+    program::listenForRereads();
+    run.changed_config = [&arguments] {
+      return program::takeReread() ? std::optional(readConfig(arguments)) : std::nullopt;
+    };
+  }
   if (is_of_logs && run.localize_map.empty()) run.watch = std::make_shared<check::LogWatch>(config);
   return mapper::runMapping(run, config, progress, stop);
 }

@@ -9,6 +9,9 @@
 
 #include "MappingArguments.h"
 
+/// The INIs of the command line with its settings.
+omnimapper::base::Config readConfig(const Arguments& arguments);
+
 /// Maps observations of logs, which are checked beside, or of sensors.
 omnimapper::mapper::RunResult mapObservations(Arguments& arguments, const omnimapper::base::Config& config,
                                               omnimapper::base::Progress& progress, const std::function<bool()>& stop);

@@ -15,7 +15,6 @@
 #include "MappingArguments.h"
 #include "Tasks.h"
 #include "program/Program.h"
-#include "program/ShippedInis.h"
 
 namespace {
 
@@ -52,8 +51,7 @@ int run(Arguments& arguments) {
   program::listenForInterrupts();
   mapper::loadFeatures();
   if (!arguments.run.replay.empty()) findReplay(arguments);
-  auto config = base::Config::fromFiles(program::findInis(arguments.inis));
-  for (const auto& setting : arguments.settings) config.set(setting);
+  auto config = readConfig(arguments);
   if (arguments.list_plugins || !arguments.print_ini.empty()) mapper::loadPluginLibraries(config);
   if (arguments.list_plugins) return std::cout << mapper::listPlugins(), 0;
   if (arguments.ini_reference) return std::cout << mapper::iniReference(mapper::fixedSections()), 0;

@@ -16,7 +16,7 @@
 namespace omnimapper::program {
 
 namespace {
-volatile std::sig_atomic_t g_interrupted = 0, g_all_is_done = 0;
+volatile std::sig_atomic_t g_interrupted = 0, g_all_is_done = 0, g_reread = 0;
 // The first interrupt is seen by the next call of isInterrupted(); the second ends the program at once.
 void onInterrupt(int) {
   if (g_interrupted != 0) _exit(static_cast<int>(base::ExitCode::interrupted));
@@ -70,6 +70,16 @@ void listenForInterrupts() {
   answer(SIGINT, onInterrupt);
   answer(SIGTERM, onInterrupt);
   answer(SIGXFSZ, SIG_IGN);
+}
+
+void listenForRereads() {
+  answer(SIGUSR1, [](int) { g_reread = 1; });
+}
+
+bool takeReread() {
+  const bool is_asked = g_reread != 0;
+  g_reread = 0;
+  return is_asked;
 }
 
 bool isInterrupted() {

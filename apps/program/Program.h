@@ -26,6 +26,10 @@ CLI::Validator positive();
 /// disk, instead of ending the program.
 void listenForInterrupts();
 bool isInterrupted();
+/// From now on SIGUSR1 asks the program to read its settings again.
+void listenForRereads();
+/// Whether it was asked for since the last call.
+bool takeReread();
 /// To be called when all outputs are written. After this call the first Ctrl-C no longer prints that work is
 /// interrupted.
 void nothingIsLeftToDo();

@@ -55,7 +55,7 @@ class FrontEndOfComments : public ::testing::Test {
     auto comment = CObservationComment::Create();
     comment->timestamp = at(seconds);
     comment->sensorLabel = "notes";
-    front_end_->add(comment);
+    front_end_->add({comment});
   }
   /// Appends the bundles that are released now to `all`, by their time [ms]. Each gets its key frame, as in the back
   /// end.

@@ -15,15 +15,17 @@ namespace {
 
 const std::string kFirstLine = "omnimapper journal 1", kExtension = ".journal";
 
-// Reads a line: a NUMBER, d NUMBER, b or j.
+// Reads a line: a NUMBER, d NUMBER, p NUMBER, b or j.
 std::optional<JournalEvent> eventOf(std::string_view line) {
   JournalEvent event;
   if (line == "b" || line == "j") {
     event.kind = line == "b" ? JournalEvent::Kind::bundle : JournalEvent::Kind::job;
     return event;
   }
-  if (line.size() < 3 || (line[0] != 'a' && line[0] != 'd') || line[1] != ' ') return std::nullopt;
-  event.kind = line[0] == 'a' ? JournalEvent::Kind::add : JournalEvent::Kind::drop;
+  if (line.size() < 3 || (line[0] != 'a' && line[0] != 'd' && line[0] != 'p') || line[1] != ' ') return std::nullopt;
+  event.kind = line[0] == 'a'   ? JournalEvent::Kind::add
+               : line[0] == 'd' ? JournalEvent::Kind::drop
+                                : JournalEvent::Kind::plugins;
   const auto end = line.data() + line.size();
   const auto [rest, error] = std::from_chars(line.data() + 2, end, event.number);
   return error == std::errc() && rest == end ? std::make_optional(event) : std::nullopt;
@@ -61,6 +63,9 @@ void JournalWriter::add(const JournalEvent& event) {
       break;
     case JournalEvent::Kind::drop:
       file_ << "d " << event.number << "\n";
+      break;
+    case JournalEvent::Kind::plugins:
+      file_ << "p " << event.number << "\n";
       break;
     case JournalEvent::Kind::bundle:
       file_ << "b\n";
@@ -109,12 +114,13 @@ std::string findJournal(const std::string& path) {
                    (found.size() == 2 ? found.back() : "one of " + std::to_string(found.size() - 1) + " others"));
 }
 
-std::string iniOf(const std::string& journal) {
-  return std::filesystem::path(journal).replace_extension(".ini").string();
+std::string iniOf(const std::string& journal, std::uint64_t change) {
+  const std::string number = change == 0 ? "" : "." + std::to_string(change);
+  return std::filesystem::path(journal).replace_extension().string() + number + ".ini";
 }
 
-std::optional<std::string> findIni(const std::string& journal) {
-  const std::string ini = iniOf(journal);
+std::optional<std::string> findIni(const std::string& journal, std::uint64_t change) {
+  const std::string ini = iniOf(journal, change);
   if (!std::filesystem::exists(ini)) return std::nullopt;
   if (base::readInput(ini, "INI of the live run").compare(0, base::kWrittenFromALog.size(), base::kWrittenFromALog) !=
       0)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 #include <optional>
 #include <utility>
@@ -74,6 +75,44 @@ void Engine::forget() {
   back_end_.retireBefore(*kept);
 }
 
+void Engine::changePlugins(PluginChange change) {
+  const auto timer = state_.times.measure(Stage::engine);
+  const auto is_removed = [&](const std::string& section) {
+    return std::count(change.removed.begin(), change.removed.end(), section) > 0;
+  };
+  const auto stays = [&](const auto& named) { return !is_removed(named.section); };
+  if (change.added.pose.empty() && std::none_of(plugins_.pose.begin(), plugins_.pose.end(), stays)) {
+    throw base::Error(base::ExitCode::unknown_plugin,
+                      "no pose plugin would be left, and a map needs at least one: name one in [mapper] pose_plugins");
+  }
+  while (auto bundle = front_end_.nextOfAll()) process(*bundle);
+  while (back_end_.hasJobs()) back_end_.applyAllJobs();
+  for (const auto& [section, plugin] : plugins_.pose) {
+    if (!is_removed(section)) continue;
+    for (const auto& sentence : plugin->warnings()) warn("[" + section + "] " + sentence);
+  }
+  for (const auto& [section, plugin] : plugins_.extractors) {
+    if (!is_removed(section)) continue;
+    for (const auto& sentence : plugin->warnings()) warn("[" + section + "] " + sentence);
+  }
+  back_end_.savePlugins();
+  const auto exchange = [&](auto& plugins, auto& added, const std::vector<std::string>& order) {
+    plugins.erase(std::remove_if(plugins.begin(), plugins.end(), [&](const auto& named) { return !stays(named); }),
+                  plugins.end());
+    std::move(added.begin(), added.end(), std::back_inserter(plugins));
+    const auto rank = [&](const auto& named) { return std::find(order.begin(), order.end(), named.section); };
+    std::stable_sort(plugins.begin(), plugins.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  };
+  std::vector<std::string> new_sections;
+  for (const auto& named : change.added.measurement) new_sections.push_back(named.section);
+  exchange(plugins_.pose, change.added.pose, change.order.pose);
+  exchange(plugins_.extractors, change.added.extractors, change.order.extractors);
+  exchange(plugins_.measurement, change.added.measurement, change.order.measurement);
+  exchange(plugins_.output, change.added.output, change.order.output);
+  front_end_.pluginsChanged();
+  back_end_.pluginsChanged(new_sections);
+}
+
 void Engine::finish() {
   const auto timer = state_.times.measure(Stage::engine);
   // If one plugin throws, the map of the others is still finished; the exception is rethrown at the end.
@@ -108,6 +147,19 @@ void Engine::finish() {
 void Engine::judge() {
   const auto timer = state_.times.measure(Stage::engine);
   if (!state_.map_is_held && !state_.map.key_frames.empty()) back_end_.judgeMap();
+}
+
+void Engine::note(const std::string& what) {
+  Decision decision;
+  decision.plugin = "engine";
+  decision.kind = "change of the run";
+  decision.accepted = true;
+  decision.reason = what;
+  if (!state_.map.key_frames.empty()) {
+    decision.stamp = state_.map.key_frames.back().stamp;
+    decision.from = state_.map.key_frames.back().id;
+  }
+  state_.decisions.push_back(std::move(decision));
 }
 
 std::vector<std::string> Engine::idlePlugins() const {

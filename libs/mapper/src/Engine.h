@@ -39,6 +39,14 @@ class Engine {
   void poll();
   /// Whether new observations should wait until the workers have caught up.
   bool isBusy() const { return front_end_.isFull(); }
+  /// Removes and adds plugins between two bundles. Everything in perception, and every job, is finished first, so the
+  /// result depends only on the observations before the call. What a removed plugin made stays; its state is saved as
+  /// if the map were written, and a plugin of the same section that is added later, in this run or in one that
+  /// continues the map, goes on from it. Throws Error(unknown_plugin) if no pose plugin would be left; nothing is
+  /// changed then.
+  void changePlugins(PluginChange change);
+  /// The plugins of the run as they are now.
+  const PluginSet& plugins() const { return plugins_; }
   /// Called at the end of the log: processes everything that is still queued, applies the jobs in order, solves the
   /// graph with the final options and judges the map.
   void finish();
@@ -55,6 +63,8 @@ class Engine {
   void setStop(std::function<bool()> stop) { back_end_.setStop(std::move(stop)); }
   /// Adds a warning, a sentence for the user that the report and the summary show.
   void warn(const std::string& sentence) { state_.warnings.push_back(sentence); }
+  /// Notes in the decision log what the user did during the run: half a sentence.
+  void note(const std::string& what);
   /// Sets the number of observations that the source discarded as unusable; the summary shows it.
   void setLeftOut(std::size_t observations) { state_.counts.left_out = observations; }
   /// Sets the metrics of a live run that the summary shows.

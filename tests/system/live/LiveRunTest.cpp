@@ -99,6 +99,37 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out()})));
 }
 
+// The user adds walls to the INI while the robot drives, and then a plugin that does not exist.
+TEST(LiveRun, pluginsComeWhileTheRunGoesOnAndAReplayBringsThemAgain) {
+  LiveRun run(4);
+  run.play(kBox);
+  const std::string ini = run.folder / "live.ini", settings = readFile(ini);
+  Program mapper(run.live());
+  const auto journal = [&] { return readFile(run.recorded(".journal")); };
+  const auto waitFor = [&](const std::function<bool()>& state) {
+    while (mapper.isRunning() && !state()) sleep(0.02);
+  };
+  waitFor([&] { return !run.recorded(".journal").empty() && journal().find("a 100\n") != std::string::npos; });
+  writeFile(ini, settings +
+                     "[mapper]\nmeasurement_plugins = walls, loop_closure\n"
+                     "[perception]\nextractors = laser_points, laser_lines\n"
+                     "[laser_lines]\nclass = LaserLineExtractor\n"
+                     "[walls]\nclass = PlaneLandmarksPlugin\nform = wall\n");
+  mapper.send(SIGUSR1);
+  waitFor([&] { return journal().find("p 1\n") != std::string::npos; });
+  writeFile(ini, settings + "[mapper]\nmeasurement_plugins = ceilings\n[ceilings]\nclass = CeilingPlugin\n");
+  mapper.send(SIGUSR1);
+  run.player->wait();
+  mapper.send(SIGINT);
+  const auto ended = mapper.wait();
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended, {"the plugins stay as they were", "CeilingPlugin"}));
+  EXPECT_GE(run.summary().at("landmarks").value("wall", 0), 3) << run.summary().at("landmarks");
+  EXPECT_EQ(journal().find("p 2\n"), std::string::npos);
+  const auto again = run.folder / "again";
+  ASSERT_TRUE(endedWith(ExitCode::ok, graphslam({"--replay", run.out(), "-o", again})));
+  EXPECT_EQ(readFile(again + "/map.omnimap"), readFile(run.out() + "/map.omnimap"));
+}
+
 void expectNear(const LiveRun& run) {
   EXPECT_LT(errorOf(run.out() + "/trajectory.tum", run.folder / "truth.tum"), 0.05);
 }

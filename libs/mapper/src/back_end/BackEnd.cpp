@@ -253,13 +253,23 @@ void BackEnd::judgeMap() {
 void BackEnd::resume() {
   estimator_.resume();
   kept_.posesChanged();
-  for (auto& [section, plugin] : plugins_.measurement) {
-    const std::string name = kPluginLayerPrefix + section;
-    const auto layer = state_.map.layers.find(name);
-    std::optional<map::MapSection> saved;
-    if (layer) saved = map::layerToSection(name, *layer);
-    plugin->restore(saved ? &*saved : nullptr, state_.view());
-  }
+  for (auto& [section, plugin] : plugins_.measurement) restore(section, *plugin);
+}
+
+void BackEnd::restore(const std::string& section, MeasurementPlugin& plugin) {
+  const std::string name = kPluginLayerPrefix + section;
+  const auto layer = state_.map.layers.find(name);
+  std::optional<map::MapSection> saved;
+  if (layer) saved = map::layerToSection(name, *layer);
+  plugin.restore(saved ? &*saved : nullptr, state_.view());
+}
+
+void BackEnd::pluginsChanged(const std::vector<std::string>& added) {
+  absolute_ = absoluteSections(plugins_);
+  kept_.keepAtLeast(imagesThatOutputsNeed(plugins_));
+  if (state_.map.key_frames.empty()) return;
+  for (auto& [section, plugin] : plugins_.measurement)
+    if (std::count(added.begin(), added.end(), section) > 0) restore(section, *plugin);
 }
 
 // The states of these plugins replace those that they saved before; all other layers are kept.

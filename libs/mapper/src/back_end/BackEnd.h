@@ -60,6 +60,9 @@ class BackEnd {
   void judgeMap();
   /// Evidence that judgeMap() adds to that of the plugins.
   void setInputEvidence(std::vector<Evidence> evidence) { input_evidence_ = std::move(evidence); }
+  /// Must be called after plugins were added or removed, while there are no jobs. `added`: sections of measurement
+  /// plugins that have not restored their saved data yet.
+  void pluginsChanged(const std::vector<std::string>& added);
   /// Puts the states that the plugins save for a later session into the layers of the map.
   void savePlugins();
 
@@ -78,6 +81,7 @@ class BackEnd {
   void commit(base::KeyFrameId id);
   void solve(const graph::SolveOptions& options);
   bool isConfirmed() const;
+  void restore(const std::string& section, MeasurementPlugin& plugin);
   void addEstimate(base::KeyFrameId id);
 
   const EngineSettings& settings_;

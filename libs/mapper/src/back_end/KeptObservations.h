@@ -5,6 +5,7 @@
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/plugin/OutputPlugin.h>
 
+#include <algorithm>
 #include <unordered_map>
 #include <vector>
 
@@ -18,6 +19,8 @@ class KeptObservations {
   KeptObservations(const CloudOptions& cloud, RawImages images, map::Map& map)
       : cloud_(cloud), images_(images), map_(map), cubes_(cloud.voxel) {}
 
+  /// From now on, at least these images are kept.
+  void keepAtLeast(RawImages images) { images_ = std::max(images_, images); }
   /// Must be called after a map was loaded or a solve moved poses: the occupied cubes are computed again if points may
   /// have moved to other cubes.
   void posesChanged();

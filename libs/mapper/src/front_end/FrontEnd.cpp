@@ -40,9 +40,15 @@ FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, Plu
       state_(state),
       queue_(base::durationFromSeconds(settings.engine.window)),
       trigger_(settings.trigger),
-      perception_(pointers(plugins.extractors), pointers(plugins.measurement), pool, settings.engine.cloud()),
-      watchers_(watchersOf(plugins.measurement)),
-      reference_sensor_(settings.engine.reference_sensor) {}
+      pool_(pool),
+      reference_sensor_(settings.engine.reference_sensor) {
+  pluginsChanged();
+}
+
+void FrontEnd::pluginsChanged() {
+  perception_.emplace(pointers(plugins_.extractors), pointers(plugins_.measurement), pool_, options_.cloud());
+  watchers_ = watchersOf(plugins_.measurement);
+}
 
 void FrontEnd::add(const Arrival& arrival) {
   const auto& observation = arrival.observation;
@@ -59,7 +65,7 @@ void FrontEnd::add(const Arrival& arrival) {
   state_.level_evidence.add(*placed);
   const bool is_watched = tellWatchers(*placed);
   // Without measurement plugins, the observations of the pose sources make the key frames.
-  if (is_watched || perception_.wants(*placed) || (is_taken && plugins_.measurement.empty())) {
+  if (is_watched || perception_->wants(*placed) || (is_taken && plugins_.measurement.empty())) {
     if (is_watched && arrival.generation > 0) generation_of_[placed.get()] = arrival.generation;
     if (!queue_.add(placed)) addLate(placed);
   } else if (!is_taken) {
@@ -129,6 +135,11 @@ void FrontEnd::close() {
 std::optional<FrameBundle> FrontEnd::next() {
   while (!isFull() && releaseNext()) continue;
   if (bundles_.empty() || !schedule_.takesBundle(bundles_.front(), bundles_.size())) return std::nullopt;
+  return nextOfAll();
+}
+
+std::optional<FrameBundle> FrontEnd::nextOfAll() {
+  if (bundles_.empty()) return std::nullopt;
   FrameBundle first = std::move(bundles_.front());
   bundles_.pop_front();
   return first;
@@ -169,7 +180,7 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     if (isWatched(*observation)) {
       const auto made = generation_of_.extract(observation.get());
       bundle.watched.push_back({observation, made ? made.mapped() : 0});
-      if (!perception_.wants(*observation)) continue;
+      if (!perception_->wants(*observation)) continue;
     }
     const auto usable = usablePart(observation);
     const bool fires = !usable ? false
@@ -183,7 +194,7 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     }
     bundle.reference = bundle.reference || observation->sensorLabel == reference_sensor_;
   }
-  for (const auto& raw : fired) bundle.observations.push_back(perception_.submit(raw, fired));
+  for (const auto& raw : fired) bundle.observations.push_back(perception_->submit(raw, fired));
   if (!bundle.observations.empty() || bundle.reference || !bundle.watched.empty())
     bundles_.push_back(std::move(bundle));
 }

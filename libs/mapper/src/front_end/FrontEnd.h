@@ -41,6 +41,11 @@ class FrontEnd {
   /// because the trigger needs the motion of the base up to it.
   std::optional<FrameBundle> next();
 
+  /// The oldest of the bundles whose perception was started, whatever the schedule says; none if there are none.
+  std::optional<FrameBundle> nextOfAll();
+  /// Must be called after plugins or extractors were added or removed, while no bundle is in perception.
+  void pluginsChanged();
+
   /// Whether enough bundles wait for their perception that no more should be started.
   bool isFull() const { return bundles_.size() > Schedule::kPipelineDepth; }
   /// Earliest stamp of the waiting bundles; late ones stand behind younger ones.
@@ -67,7 +72,8 @@ class FrontEnd {
   InputFilter filter_;
   ReleaseQueue queue_;
   Trigger trigger_;
-  Perception perception_;
+  std::optional<Perception> perception_;  // of the present plugins and extractors
+  base::WorkerPool& pool_;
   std::vector<WatchesObservations*> watchers_;
   std::unordered_map<const mrpt::obs::CObservation*, int> generation_of_;  // of the queued ones that watchers made
   std::string reference_sensor_;

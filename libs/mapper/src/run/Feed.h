@@ -47,6 +47,12 @@ class Feed {
   virtual void begin(const std::string& /*output_folder*/, const Stop& /*stop*/) {}
   /// Passes all observations to the engine. Returns true if `stop` ended it early.
   virtual bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) = 0;
+  /// Applies the plugins of an INI to the engine, and returns a sentence on what changed; empty if nothing did. Throws
+  /// base::Error if the INI does not allow it; nothing is changed then.
+  using ChangePlugins = std::function<std::string(const base::Config&)>;
+  /// Called before feed().
+  void setChangePlugins(ChangePlugins change) { change_plugins_ = std::move(change); }
+
   /// Called when the outputs are in their final places in this folder.
   virtual void published(const std::string& /*output_folder*/) {}
 
@@ -60,6 +66,9 @@ class Feed {
   virtual std::string checkHint() const { return "omnimapper-graphslam --check names the INIs that fit this log"; }
   /// Names of files and folders in the output folder that belong to the feed.
   virtual std::vector<std::string> files() const { return {}; }
+
+ protected:
+  ChangePlugins change_plugins_;
 };
 
 /// Makes the feed that the request names. Throws Error if the INI does not suit it.

@@ -1,6 +1,7 @@
 #include "run/LiveFeed.h"
 
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Exceptions.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/plugin/DecisionLog.h>
@@ -35,14 +36,16 @@ std::string keysForLogs(const base::Config& config) {
 
 }  // namespace
 
-LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config)
+LiveFeed::LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config,
+                   ChangedConfig changed_config)
     : options_(options),
       labels_(std::move(labels)),
       unused_keys_(keysForLogs(config)),
       sections_(live::readSensors(options, config)),
       title_(live::nameByTime()),
       ini_(base::kWrittenFromALog + ": how " + title_ + ".rawlog was mapped while it was recorded.\n" + config.text()),
-      name_("the sensors of " + config.file()) {}
+      name_("the sensors of " + config.file()),
+      changed_config_(std::move(changed_config)) {}
 
 void LiveFeed::begin(const std::string& output_folder, const Stop& stop) {
   checkpoints_.emplace(output_folder + "/" + kCheckpoint, options_.checkpoint);
@@ -136,9 +139,35 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
       engine.warn(problem);
     }
   }
+  if (!has_ended_) changePlugins(engine, progress);
   if (now >= next_judgement_ && !has_ended_) judge(engine);
   engine.setLive(metrics());
   progress.reportState(stateText(engine.view()));
+}
+
+// Lets plugins come and go if the user asks for it. A change is journalled with its INI, so that a replay changes the
+// same plugins at the same place. If it is not possible, the run goes on as it was.
+void LiveFeed::changePlugins(Engine& engine, base::Progress& progress) {
+  if (!changed_config_) return;
+  try {
+    const auto config = changed_config_();
+    if (!config) return;
+    const std::string changed = change_plugins_(*config);
+    if (changed.empty()) return progress.reportEvent("the INI was read again: no plugin of it has changed");
+    if (trace_->journal) {
+      const std::string journal = recording_ + "/" + title_ + ".journal";
+      base::writeFile(live::iniOf(journal, ++changes_), [&](std::ostream& out) {
+        out << base::kWrittenFromALog << ": change " << changes_ << " of the plugins during " << title_ << ".\n"
+            << config->text();
+      });
+      trace_->note(Kind::plugins, changes_);
+    }
+    progress.reportEvent(changed);
+  } catch (const base::Error& error) {
+    const std::string problem = "the plugins stay as they were: " + base::sentenceOf(error);
+    progress.reportEvent(problem);
+    engine.warn(problem);
+  }
 }
 
 // Judges the map. The engine waits meanwhile, and the time this takes grows with the map, so the interval does as well.

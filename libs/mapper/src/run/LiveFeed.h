@@ -16,8 +16,11 @@ namespace omnimapper::mapper {
 /// Maps live sensors until the run is stopped.
 class LiveFeed : public Feed {
  public:
-  /// Only observations with one of `labels` are mapped, or all if it is empty. Throws Error as live::readSensors().
-  LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config);
+  using ChangedConfig = std::function<std::optional<base::Config>()>;
+  /// Only observations with one of `labels` are mapped, or all if it is empty. `changed_config`: see RunRequest. Throws
+  /// Error as live::readSensors().
+  LiveFeed(const live::LiveOptions& options, std::vector<std::string> labels, const base::Config& config,
+           ChangedConfig changed_config = {});
 
   std::string title() const override { return title_; }
   std::string name() const override { return name_; }
@@ -41,6 +44,7 @@ class LiveFeed : public Feed {
   bool giveNext(Engine& engine, SensorSamples& samples, std::chrono::milliseconds patience);
   void attend(Engine& engine, base::Progress& progress);
   void judge(Engine& engine);
+  void changePlugins(Engine& engine, base::Progress& progress);
   void warnOfSensors(Engine& engine) const;
   LiveMetrics metrics() const;
   std::string stateText(const View& view) const;
@@ -54,6 +58,8 @@ class LiveFeed : public Feed {
   std::unique_ptr<live::LiveSource> sensors_;
   std::optional<Checkpoints> checkpoints_;
   Clock::time_point attended_ = Clock::now(), flushed_ = attended_, next_judgement_ = attended_;
+  ChangedConfig changed_config_;
+  std::uint64_t changes_ = 0;       // of the plugins
   std::uint64_t filtered_out_ = 0;  // observations left out by [source] labels
   bool has_ended_ = false, journal_has_failed_ = false;
 };

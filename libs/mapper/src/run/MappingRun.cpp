@@ -21,6 +21,7 @@
 #include "Engine.h"
 #include "run/Feed.h"
 #include "run/MissingExtractors.h"
+#include "run/PluginDifference.h"
 #include "run/RunWarnings.h"
 #include "run/SensorLabels.h"
 #include "sessions/MapLoader.h"
@@ -158,6 +159,7 @@ class Run {
 
  private:
   void makeEngine();
+  std::string changePlugins(const base::Config& next);
   void judgeInput();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
@@ -181,10 +183,9 @@ class Run {
   const SessionOptions session_ = config_.section("session").read<SessionOptions>();
   const std::unique_ptr<Feed> feed_ = makeFeed(request_, config_);
 
-  std::set<std::string> measuring_;  // sections of plugins that measure
-  std::vector<std::pair<std::string, const PosePlugin*>> pose_plugins_;
-  std::vector<std::pair<std::string, const perception::Extractor*>> extractors_;
-  std::vector<std::pair<std::string, const MeasurementPlugin*>> measurement_plugins_;
+  PluginContext context_;
+  std::optional<base::Config> changed_config_;  // the INI of the present plugins, if they were changed
+  std::set<std::string> measuring_;             // sections of plugins that measure
   SensorSamples samples_;
   std::optional<Engine> engine_;
   std::optional<base::InputsKept> kept_;
@@ -205,7 +206,7 @@ void Run::open() {
     engine_->warn(config_.placeOf("session") +
                   ": [session] gives the start of a log in a map that it continues or is localized in; without "
                   "--continue or --localize it has no effect");
-  if (measurement_plugins_.empty() && (localizes() || !request_.continue_map.empty())) {
+  if (engine_->plugins().measurement.empty() && (localizes() || !request_.continue_map.empty())) {
     throw base::Error(base::ExitCode::command_line,
                       config_.file() +
                           ": it has no plugin that can tie a log to a map: --continue and --localize need one of " +
@@ -216,6 +217,7 @@ void Run::open() {
   kept_.emplace(feed_->inputs());
   outputs_.open();
   refuseToReplaceRun();
+  feed_->setChangePlugins([this](const base::Config& next) { return changePlugins(next); });
   feed_->begin(outputs_.folder(), stop_);
 }
 
@@ -226,24 +228,39 @@ void Run::makeEngine() {
   auto outputs = options.output_plugins;
   outputs.insert(outputs.end(), request_.more_outputs.begin(), request_.more_outputs.end());
 
-  PluginContext context;
-  context.motion = options.motion;
-  context.map_is_held = localizes();
-  context.output_folder = outputs_.staging();
-  context.title = feed_->title();
-  context.config_text = config_.text();
+  context_.motion = options.motion;
+  context_.map_is_held = localizes();
+  context_.output_folder = outputs_.staging();
+  context_.title = feed_->title();
+  context_.config_text = config_.text();
   auto plugins = makePlugins({options.pose_plugins, perception_.extractors, options.measurement_plugins, outputs},
-                             config_, context);
+                             config_, context_);
   config_.refuseUnreadSections();
   measuring_.insert(options.measurement_plugins.begin(), options.measurement_plugins.end());
-  for (const auto& [section, plugin] : plugins.pose) {
-    pose_plugins_.emplace_back(section, plugin.get());
+  for (const auto& [section, plugin] : plugins.pose)
     if (!plugin->isFallback()) measuring_.insert(section);
-  }
-  for (const auto& [section, plugin] : plugins.extractors) extractors_.emplace_back(section, plugin.get());
-  for (const auto& [section, plugin] : plugins.measurement) measurement_plugins_.emplace_back(section, plugin.get());
-  engine_.emplace(settings_, context.title, std::move(sensor_poses), std::move(plugins), request_.threads,
+  engine_.emplace(settings_, context_.title, std::move(sensor_poses), std::move(plugins), request_.threads,
                   feed_->schedule());
+}
+
+// Settings of other sections than those of plugins hold until the run ends.
+std::string Run::changePlugins(const base::Config& next) {
+  const base::Config& present = changed_config_ ? *changed_config_ : config_;
+  auto difference = differenceOf(present, next, request_.more_outputs, context_);
+  if (!difference.unused.empty())
+    engine_->warn("a change of the INI during the run needs a new run to have an effect: " +
+                  base::option_text::format(difference.unused));
+  if (difference.isNone()) return "";
+  std::set<std::string> measuring(difference.change.order.measurement.begin(),
+                                  difference.change.order.measurement.end());
+  engine_->changePlugins(std::move(difference.change));
+  for (const auto& [section, plugin] : engine_->plugins().pose)
+    if (!plugin->isFallback()) measuring.insert(section);
+  measuring_ = std::move(measuring);
+  changed_config_ = next;
+  const std::string sentence = "the plugins were changed: " + difference.sentence();
+  engine_->note(sentence);
+  return sentence;
 }
 
 void Run::feed() {
@@ -278,8 +295,8 @@ std::vector<std::string> Run::warn(const RunResult& result) {
       for (const auto& sentence : plugin->warnings()) engine_->warn("[" + section + "] " + sentence);
     }
   };
-  warn_of(pose_plugins_);
-  warn_of(extractors_);
+  warn_of(engine_->plugins().pose);
+  warn_of(engine_->plugins().extractors);
   warnOfNothingMeasured(
       measuring_, [this](const std::string& section) { return missingFor(section); }, *engine_);
   warnOfCounts(engine_->view().counts, result.new_key_frames, *engine_);
@@ -293,8 +310,9 @@ std::vector<std::string> Run::warn(const RunResult& result) {
 
 // What would give the plugin observations to work on; empty if nothing is known to help.
 std::string Run::missingFor(const std::string& section) const {
-  for (const auto& [name, plugin] : measurement_plugins_) {
-    if (name != section || plugin->worksOnLandmarks() || samples_.isFedBy(extractors_, *plugin)) continue;
+  for (const auto& [name, plugin] : engine_->plugins().measurement) {
+    if (name != section || plugin->worksOnLandmarks() || samples_.isFedBy(engine_->plugins().extractors, *plugin))
+      continue;
     return samples_.extractorsFor(*plugin);
   }
   return "";
@@ -399,7 +417,7 @@ RunResult Run::report() {
   if (keep_old && failure_at_end_) std::rethrow_exception(failure_at_end_);
   if (outcome.new_key_frames == 0) {
     std::string missing;
-    for (const auto& [section, plugin] : measurement_plugins_) {
+    for (const auto& [section, plugin] : engine_->plugins().measurement) {
       if (const auto sentence = missingFor(section); !sentence.empty())
         missing += "[" + section + "]: " + sentence + ".\n";
     }

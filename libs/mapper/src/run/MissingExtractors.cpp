@@ -38,7 +38,7 @@ void SensorSamples::add(const mrpt::obs::CObservation::ConstPtr& observation) {
     samples_.try_emplace({observation->sensorLabel, observation->GetRuntimeClass()}, observation);
 }
 
-bool SensorSamples::isFedBy(const std::vector<std::pair<std::string, const perception::Extractor*>>& extractors,
+bool SensorSamples::isFedBy(const std::vector<Named<perception::Extractor>>& extractors,
                             const MeasurementPlugin& plugin) const {
   const auto feeds = [&](const perception::Extractor& extractor) {
     return std::any_of(samples_.begin(), samples_.end(), [&](const auto& sample) {
@@ -50,7 +50,7 @@ bool SensorSamples::isFedBy(const std::vector<std::pair<std::string, const perce
     });
   };
   return std::any_of(extractors.begin(), extractors.end(),
-                     [&](const auto& extractor) { return feeds(*extractor.second); });
+                     [&](const auto& extractor) { return feeds(*extractor.plugin); });
 }
 
 std::string SensorSamples::extractorsFor(const MeasurementPlugin& plugin) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
-#include <omnimapper/plugin/MeasurementPlugin.h>
+#include <omnimapper/mapper/PluginRegistry.h>
 
 #include <map>
 #include <string>
@@ -16,8 +16,7 @@ class SensorSamples {
   void add(const mrpt::obs::CObservation::ConstPtr& observation);
 
   /// Whether one of these extractors derives observations that `plugin` wants.
-  bool isFedBy(const std::vector<std::pair<std::string, const perception::Extractor*>>& extractors,
-               const MeasurementPlugin& plugin) const;
+  bool isFedBy(const std::vector<Named<perception::Extractor>>& extractors, const MeasurementPlugin& plugin) const;
   /// A sentence that names the extractor classes that would, with default options, derive observations that `plugin`
   /// wants; empty if there are none.
   std::string extractorsFor(const MeasurementPlugin& plugin) const;

@@ -93,7 +93,7 @@ void ReplayFeed::depart(Engine& engine) {
 }
 
 // Older recordings have no INI to compare with.
-void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
+void ReplayFeed::warnOfOtherSettings(Engine& engine) {
   constexpr std::size_t kMostNamed = 5;
   std::vector<std::string> differences;
   try {
@@ -103,6 +103,7 @@ void ReplayFeed::warnOfOtherSettings(Engine& engine) const {
     engine.warn("the settings cannot be compared with those of the live run: " + base::sentenceOf(error));
   }
   if (differences.empty()) return;
+  has_other_settings_ = true;
   std::string text;
   for (std::size_t i = 0; i < std::min(differences.size(), kMostNamed); ++i)
     text += (i > 0 ? ", " : "") + differences[i];
@@ -119,6 +120,10 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
     if (event.kind == EventKind::add || event.kind == EventKind::drop)
       first_unmentioned_ = std::max(first_unmentioned_, event.number + 1);
     if (event.kind == EventKind::drop) continue;
+    if (event.kind == EventKind::plugins) {
+      changePlugins(event.number, engine);
+      continue;
+    }
     // The run departs if the journal has an event that the engine did not cause, or lacks one: a live run adds no
     // observation while the engine is busy.
     if (event.kind != EventKind::add || engine.isBusy()) depart(engine);
@@ -142,6 +147,21 @@ bool ReplayFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& pr
                 ": the recording ends before its journal, as happens when the program was killed: the map contains "
                 "what was recorded");
   return stop();
+}
+
+// Changes the plugins as the live run did, unless this run has settings of its own.
+void ReplayFeed::changePlugins(std::uint64_t number, Engine& engine) {
+  const std::string which = "change " + std::to_string(number) + " of the plugins during the live run";
+  if (has_other_settings_) {
+    engine.warn(which + " is left out, because this run has other settings");
+    return depart(engine);
+  }
+  const auto ini = live::findIni(path_, number);
+  if (!ini) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      live::iniOf(path_, number) + ": the INI of " + which + " is missing beside the journal");
+  }
+  change_plugins_(base::Config::fromFile(*ini));
 }
 
 // Maps the observations after the end of a journal that was cut off.

@@ -55,7 +55,8 @@ class ReplayFeed : public Feed {
   mrpt::obs::CObservation::Ptr read(std::uint64_t number, const Stop& stop);
   void depart(Engine& engine);
   void mapWhatIsLeft(Engine& engine, SensorSamples& samples, const Stop& stop);
-  void warnOfOtherSettings(Engine& engine) const;
+  void changePlugins(std::uint64_t number, Engine& engine);
+  void warnOfOtherSettings(Engine& engine);
 
   std::string path_, ini_;
   std::shared_ptr<ReplayCursor> cursor_ = std::make_shared<ReplayCursor>();
@@ -66,7 +67,7 @@ class ReplayFeed : public Feed {
   std::shared_ptr<source::ObservationGate> gate_ = std::make_shared<source::ObservationGate>();
   std::optional<source::ReadAhead> log_;  // the rawlog file_
   source::SourceReport of_earlier_;       // report on the files before file_
-  bool ended_early_ = false;
+  bool ended_early_ = false, has_other_settings_ = false;
 };
 
 }  // namespace omnimapper::mapper

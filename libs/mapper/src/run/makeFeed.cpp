@@ -17,7 +17,7 @@ std::unique_ptr<Feed> makeFeed(const RunRequest& request, const base::Config& co
                           source.clock_offsets.begin()->first +
                           "' is for logs; for a live sensor set clock_offset_s in the section of its driver");
   }
-  if (request.live) return std::make_unique<LiveFeed>(live, source.labels, config);
+  if (request.live) return std::make_unique<LiveFeed>(live, source.labels, config, request.changed_config);
   if (!request.replay.empty()) return std::make_unique<ReplayFeed>(request.replay, config.text());
   return std::make_unique<LogFeed>(request, source);
 }

@@ -12,13 +12,15 @@ namespace omnimapper::live {
 /// actions in the same order makes the same map.
 struct JournalEvent {
   enum class Kind {
-    add,     ///< an observation was given to the mapper
-    drop,    ///< an observation was left out: a newer one of its camera came, or [source] labels excludes it
-    bundle,  ///< the mapper began to work on the oldest bundle whose perception was done
-    job      ///< the mapper took the oldest job
+    add,      ///< an observation was given to the mapper
+    drop,     ///< an observation was left out: a newer one of its camera came, or [source] labels excludes it
+    plugins,  ///< plugins were added or removed: INI number `number` of the run holds from here on
+    bundle,   ///< the mapper began to work on the oldest bundle whose perception was done
+    job       ///< the mapper took the oldest job
   };
   Kind kind = Kind::add;
-  std::uint64_t number = 0;  ///< for add and drop: index of the observation among the usable ones of the recording
+  /// For add and drop: index of the observation among the usable ones of the recording. For plugins: from 1.
+  std::uint64_t number = 0;
 
   bool operator==(const JournalEvent& other) const { return kind == other.kind && number == other.number; }
 };
@@ -54,12 +56,13 @@ struct Journal {
 /// message names the first.
 std::string findJournal(const std::string& path);
 
-/// The path of the INI of the live run that wrote this journal: TIME.ini in the folder of TIME.journal.
-std::string iniOf(const std::string& journal);
+/// The path of the INI of the live run that wrote this journal: TIME.ini in the folder of TIME.journal. If plugins were
+/// changed during the run, the INI after change number n is TIME.n.ini.
+std::string iniOf(const std::string& journal, std::uint64_t change = 0);
 
 /// The path of the INI of the live run, if the file exists. Throws Error(unreadable_input) if the INI does not begin
 /// with base::kWrittenFromALog: without this beginning, the plugin libraries that the INI names would be loaded, and a
 /// recording may come from anybody.
-std::optional<std::string> findIni(const std::string& journal);
+std::optional<std::string> findIni(const std::string& journal, std::uint64_t change = 0);
 
 }  // namespace omnimapper::live

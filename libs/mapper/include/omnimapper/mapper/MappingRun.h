@@ -71,7 +71,10 @@ struct RunRequest {
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   double speed = 0;                   ///< relative to the log's own speed; 0: as fast as possible
   std::shared_ptr<InputWatch> watch;  ///< of the observations of `logs`; none if null
-  bool strict = false;                ///< if the run's verdict on its map is suspicious, it ends with its own exit code
+  /// Called several times a second in a live run. If it returns an INI, the plugins that this INI adds, removes or
+  /// gives other settings come and go while the run goes on; its other settings are not used. May be empty.
+  std::function<std::optional<base::Config>()> changed_config;
+  bool strict = false;  ///< if the run's verdict on its map is suspicious, it ends with its own exit code
   /// Called with the result if the run did not break off and a window still shows the map: after all outputs are
   /// written and before the run waits for the window to close. May be empty. No progress is reported after this call.
   std::function<void(const RunResult&)> before_window_closes;

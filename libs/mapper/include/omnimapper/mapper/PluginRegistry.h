@@ -44,6 +44,13 @@ struct PluginSections {
   std::vector<std::string> pose, extractors, measurement, output;
 };
 
+/// A change of the plugins of a run while it goes on (thesis 5.3.2.1).
+struct PluginChange {
+  std::vector<std::string> removed;  ///< sections of plugins of any kind
+  PluginSet added;                   ///< a section that is also in `removed` is a plugin with new settings
+  PluginSections order;              ///< all plugins after the change, in their order
+};
+
 /// Makes every plugin from its section. Throws base::Error as findFactory() and the factories do.
 PluginSet makePlugins(const PluginSections& sections, const base::Config& config, PluginContext context);
 

@@ -1,0 +1,97 @@
+#include "run/PluginDifference.h"
+
+#include <omnimapper/base/IniDifferences.h>
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/mapper/EngineOptions.h>
+
+#include <algorithm>
+#include <set>
+
+namespace omnimapper::mapper {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+PluginSections sectionsOf(const base::Config& config, const Names& more_outputs) {
+  const auto engine = config.section("mapper").read<EngineOptions>();
+  PluginSections sections{engine.pose_plugins, config.section("perception").read<PerceptionOptions>().extractors,
+                          engine.measurement_plugins, engine.output_plugins};
+  for (const auto& more : more_outputs)
+    if (std::count(sections.output.begin(), sections.output.end(), more) == 0) sections.output.push_back(more);
+  return sections;
+}
+
+// "trigger" of "[trigger] distance_m (0.2, was 0.5)".
+std::string sectionOf(const std::string& difference) {
+  return difference.substr(1, difference.find(']') - 1);
+}
+
+bool isList(const std::string& difference) {
+  for (const char* key : {"[mapper] pose_plugins", "[mapper] measurement_plugins", "[mapper] output_plugins",
+                          "[mapper] plugin_libraries", "[perception] extractors"})
+    if (difference.rfind(std::string(key) + " ", 0) == 0) return true;
+  return false;
+}
+
+// Adds to `difference` what changes in one of the lists; returns the sections to make.
+Names compare(const Names& before, const Names& now, const std::set<std::string>& other_settings,
+              PluginDifference& difference) {
+  const auto has = [](const Names& list, const std::string& name) {
+    return std::count(list.begin(), list.end(), name) > 0;
+  };
+  for (const auto& section : before)
+    if (!has(now, section)) difference.removed.push_back(section);
+  Names to_make;
+  for (const auto& section : now) {
+    if (has(before, section) && other_settings.count(section) == 0) continue;
+    (has(before, section) ? difference.renewed : difference.added).push_back(section);
+    to_make.push_back(section);
+  }
+  return to_make;
+}
+
+void append(std::string& text, const std::string& what, const Names& sections) {
+  if (!sections.empty()) text += (text.empty() ? "" : "; ") + what + " " + base::option_text::format(sections);
+}
+
+}  // namespace
+
+std::string PluginDifference::sentence() const {
+  std::string text;
+  append(text, "added", added);
+  append(text, "removed", removed);
+  append(text, "gave other settings to", renewed);
+  return text;
+}
+
+PluginDifference differenceOf(const base::Config& before, const base::Config& now, const Names& more_outputs,
+                              const PluginContext& context) {
+  const auto of_before = sectionsOf(before, more_outputs), of_now = sectionsOf(now, more_outputs);
+  std::set<std::string> plugins, other_settings;
+  for (const auto* list : {&of_now.pose, &of_now.extractors, &of_now.measurement, &of_now.output, &of_before.pose,
+                           &of_before.extractors, &of_before.measurement, &of_before.output})
+    plugins.insert(list->begin(), list->end());
+  PluginDifference difference;
+  for (const auto& each : base::iniDifferences(now.text(), before.text())) {
+    if (plugins.count(sectionOf(each)) > 0) {
+      other_settings.insert(sectionOf(each));
+    } else if (!isList(each)) {
+      difference.unused.push_back(each);
+    }
+  }
+  PluginSections to_make;
+  to_make.pose = compare(of_before.pose, of_now.pose, other_settings, difference);
+  to_make.extractors = compare(of_before.extractors, of_now.extractors, other_settings, difference);
+  to_make.measurement = compare(of_before.measurement, of_now.measurement, other_settings, difference);
+  to_make.output = compare(of_before.output, of_now.output, other_settings, difference);
+  loadPluginLibraries(now);
+  difference.change.added = makePlugins(to_make, now, context);
+  difference.change.removed = difference.removed;
+  difference.change.removed.insert(difference.change.removed.end(), difference.renewed.begin(),
+                                   difference.renewed.end());
+  difference.change.order = of_now;
+  return difference;
+}
+
+}  // namespace omnimapper::mapper
