@@ -1,5 +1,6 @@
 // The offset between the clocks of two sensors that measure the same turns.
 #include <gtest/gtest.h>
+#include <omnimapper/check/judge.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
@@ -116,6 +117,22 @@ TEST(Clock, HeadingsAreNotKnownInPausesAndBeyondTheEnds) {
   EXPECT_TRUE(std::isnan(headings.turn(at(0.5), at(2))));
   EXPECT_TRUE(std::isnan(headings.turn(at(4.5), at(6))));
   EXPECT_NEAR(headings.turn(at(4.2), at(4.6)), 0.1, 1e-9);
+}
+
+TEST(ClockOffsets, ThatLaserOdometryMayCorrectItselfAreNotProposed) {
+  LogFacts facts;
+  auto& scans = facts.scans["laser"];
+  scans.scans = 100;
+  scans.valid_share = 1;
+  scans.aperture = 3;
+  MotionFacts motion;
+  motion.laser = "laser";
+  motion.odometry = "wheels";
+  motion.clock = ClockFacts{0.335, 0.032, 0, false};  // of a drive of a minute, whose true offset is 0.1 s
+  facts.motions = {motion};
+  EXPECT_TRUE(clockOffsets(facts).empty());
+  facts.motions.front().clock->sigma = 0.01;
+  EXPECT_EQ(clockOffsets(facts).count("wheels"), 1U);
 }
 
 }  // namespace

@@ -80,7 +80,8 @@ std::optional<Measured> constantRangeAhead(const std::vector<ScanPair>& pairs, c
   std::vector<double> errors;
   for (const double other : constant) errors.push_back(std::abs(other - range));
   constexpr double kNormal = 1.4826;  // standard deviation divided by the median error
-  return is_constant ? std::optional(Measured{range, kNormal * quantile(errors, 0.5)}) : std::nullopt;
+  constexpr double kLeast = 0.01;     // [m] of a laser
+  return is_constant ? std::optional(Measured{range, std::max(kLeast, kNormal * quantile(errors, 0.5))}) : std::nullopt;
 }
 
 }  // namespace omnimapper::check

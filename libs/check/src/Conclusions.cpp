@@ -211,6 +211,11 @@ std::optional<mrpt::poses::CPose3D> betterSensorPose(const LogFacts& facts, cons
          reported;
 }
 
+bool isBeyond(const ClockFacts& clock, double corrected) {
+  constexpr double kSigmas = 2;  // short drives show an offset badly
+  return corrected == 0 || std::abs(clock.offset) - kSigmas * clock.sigma > corrected;
+}
+
 double clockInIni(const LogFacts& facts, const std::string& label) {
   const auto found = facts.ini.clock_offsets.find(label);
   return found == facts.ini.clock_offsets.end() ? 0 : found->second;
@@ -231,7 +236,7 @@ std::map<std::string, double> clockOffsets(const LogFacts& facts, double least) 
   const auto add = [&](const std::string& label, const std::optional<ClockFacts>& clock, double corrected) {
     if (!clock) return;
     ++measured;
-    if (!clock->isWrong() || std::abs(clock->offset) < corrected) return;
+    if (!clock->isWrong() || !isBeyond(*clock, corrected)) return;
     offsets[label] = -clock->offset;
     wrong.push_back(clock->offset);
   };

@@ -21,6 +21,8 @@ bool isFrozen(const MotionFacts& motion);
 double clockInIni(const LogFacts& facts, const std::string& label);
 /// [s] Laser odometry finds smaller offsets between the clocks of the motion and of the laser by itself.
 constexpr double kCorrectedOffset = 0.3;
+/// Whether the offset of a clock is surely larger than what is corrected anyway [s].
+bool isBeyond(const ClockFacts& clock, double corrected);
 /// As clockOffsets() of judge.h, for offsets of odometries and gyroscopes of at least that many seconds.
 std::map<std::string, double> clockOffsets(const LogFacts& facts, double least);
 /// Which of the two is wrong where scans and odometry turn against each other: none if they do not, not_known if

@@ -35,7 +35,7 @@ class ClockJudge {
       constexpr double kMuch = 0.1;  // [s] in which a robot that turns is elsewhere by centimetres and degrees
       const auto& wrong = offsets_.count(sensor) > 0 ? sensor : other;
       const auto remedy = offsets_.find(wrong);
-      const bool is_corrected = !is_camera && std::abs(clock->offset) < kCorrectedOffset;
+      const bool is_corrected = !is_camera && !isBeyond(*clock, kCorrectedOffset);
       const std::string what = remedy == offsets_.end()
                                    ? "; set clock_offset_s for one of them in [mapper] sensors"
                                    : "; set clock_offset_s = " + fixed(remedy->second + clockInIni(facts_, wrong), 3) +
