@@ -1,8 +1,8 @@
-# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLE=... -D BEACON_LOG=... -D INI=... -D WALLS_INI=... -D SCRATCH=...
+# cmake -D BUILD_FOLDER=... -D FOREIGN_PROJECT=... -D EXAMPLES=... -D BEACON_LOG=... -D INI=... -D WALLS_INI=... -D SCRATCH=...
 #   -D GENERATOR=... -P PackageTest.cmake
 # Installs the build, moves the installed tree, and uses it as a stranger would: links against it, starts its programs,
-# has it miss a feature, and has one of them load plugins built outside: outputs of a foreign project, and the landmarks of
-# doc/examples/beacons.
+# has it miss a feature, and has one of them load plugins built outside: outputs of a foreign project, and those of
+# doc/examples.
 cmake_minimum_required(VERSION 3.22)
 set(stage "${SCRATCH}/stage")
 set(prefix "${SCRATCH}/moved")
@@ -21,16 +21,16 @@ endfunction()
 run("${CMAKE_COMMAND}" --install "${BUILD_FOLDER}" --prefix "${stage}")
 file(RENAME "${stage}" "${prefix}")
 
-# Configures and builds a project of somebody else's against the installed package.
+# Configures and builds a project of somebody else's against the installed package; more arguments are for CMake.
 function(build project folder)
   run("${CMAKE_COMMAND}" -S "${project}" -B "${folder}" -G "${GENERATOR}"
-    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER_LAUNCHER=")
+    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER_LAUNCHER=" ${ARGN})
   run("${CMAKE_COMMAND}" --build "${folder}")
 endfunction()
 
 build("${FOREIGN_PROJECT}" "${SCRATCH}/build")
 run("${SCRATCH}/build/foreign")
-build("${EXAMPLE}" "${SCRATCH}/beacons")
+build("${EXAMPLES}/beacons" "${SCRATCH}/beacons")
 
 # Every program starts from where the tree was moved to.
 file(GLOB programs "${prefix}/bin/*")
@@ -158,7 +158,7 @@ endif()
 
 # A landmark type from outside: the example's own INI, with the full path of its library and an output that checks.
 set(ini "${SCRATCH}/beacons.ini")
-file(READ "${EXAMPLE}/beacons.ini" text)
+file(READ "${EXAMPLES}/beacons/beacons.ini" text)
 string(REPLACE "build/libbeacons.so" "${SCRATCH}/beacons/libbeacons.so, ${SCRATCH}/build/libforeign-plugins.so" text "${text}")
 string(REPLACE "map, trajectory, report" "map, trajectory, report, check" text "${text}")
 file(WRITE "${ini}" "${text}
@@ -200,4 +200,56 @@ run("${BEACON_LOG}" "${SCRATCH}/second.rawlog" "${SCRATCH}/beacons.txt" 2)
 run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/second.rawlog" -o "${SCRATCH}/both" -q
   --continue "${SCRATCH}/once/map.omnimap")
 expect_beacons_in("${SCRATCH}/both")
+
+# An output from outside with an optional dependency. Without zlib the landmarks are written as they are.
+function(expect_mesh file)
+  if(NOT EXISTS "${SCRATCH}/mesh/${file}")
+    file(GLOB files RELATIVE "${SCRATCH}/mesh" "${SCRATCH}/mesh/*")
+    message(FATAL_ERROR "MeshOutput did not write ${file}, but the folder has: ${files}")
+  endif()
+endfunction()
+function(run_mesh)
+  run("${prefix}/bin/omnimapper-graphslam" -i home_planes.ini -r "${prefix}/share/omnimapper/rawlogs/home_30s/home_30s.rawlog"
+    -o "${SCRATCH}/mesh" -q --set "mapper.plugin_libraries=${SCRATCH}/mesh_output/libmesh_output.so"
+    --set mapper.output_plugins=trajectory,mesh --set mesh.class=MeshOutput)
+endfunction()
+build("${EXAMPLES}/mesh_output" "${SCRATCH}/mesh_output" -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON)
+run_mesh()
+expect_mesh(landmarks.obj)
+file(READ "${SCRATCH}/mesh/landmarks.obj" plain)
+if(NOT plain MATCHES "\no wall_0:[0-9]+\nv [-0-9. ]+\nv [-0-9. ]+\nv [-0-9. ]+\nf [0-9]+ [0-9]+ [0-9]+\n")
+  message(FATAL_ERROR "landmarks.obj has no wall")
+endif()
+build("${EXAMPLES}/mesh_output" "${SCRATCH}/mesh_output" -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=OFF)
+run_mesh()
+expect_mesh(landmarks.obj.gz)
+execute_process(COMMAND gzip -dc "${SCRATCH}/mesh/landmarks.obj.gz" OUTPUT_VARIABLE unpacked COMMAND_ERROR_IS_FATAL ANY)
+if(NOT unpacked STREQUAL plain)
+  message(FATAL_ERROR "landmarks.obj.gz is not landmarks.obj")
+endif()
+
+# A layer from outside: rooms that are named where their tags were read, and that a continued map still has.
+build("${EXAMPLES}/rooms_layer" "${SCRATCH}/rooms_layer")
+file(READ "${EXAMPLES}/rooms_layer/rooms.ini" text)
+string(REPLACE "build/librooms_layer.so" "${SCRATCH}/rooms_layer/librooms_layer.so" text "${text}")
+file(WRITE "${SCRATCH}/rooms.ini" "${text}")
+set(box "${prefix}/share/omnimapper/rawlogs/box/box.rawlog")
+run("${SCRATCH}/rooms_layer/tag-log" "${SCRATCH}/tags.rawlog" 1700000005.6 kitchen 1700000014.95 "living room, south")
+run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/rooms.ini" -r "${box}" -r "${SCRATCH}/tags.rawlog" -o "${SCRATCH}/named")
+file(READ "${SCRATCH}/named/rooms.csv" rooms)
+file(READ "${SCRATCH}/named/trajectory.tum" trajectory)
+# Compared in whole centimetres.
+string(REGEX MATCH "\n1700000005[.]60*,([-0-9]+)[.]([0-9][0-9])[0-9],.*,kitchen\n" room "${rooms}")
+set(room_at "${CMAKE_MATCH_1}.${CMAKE_MATCH_2}")
+string(REGEX MATCH "\n1700000005[.]60* ([-0-9]+)[.]([0-9][0-9])" pose "${trajectory}")
+if(NOT room OR NOT room_at STREQUAL "${CMAKE_MATCH_1}.${CMAKE_MATCH_2}" OR NOT rooms MATCHES ",living room, south\n$")
+  message(FATAL_ERROR "at 1700000005.6 the base was at '${pose}', and rooms.csv is:\n${rooms}")
+endif()
+run("${SCRATCH}/rooms_layer/tag-log" "${SCRATCH}/more_tags.rawlog" 1700000008 office)
+run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/rooms.ini" -r "${box}" -r "${SCRATCH}/more_tags.rawlog"
+  -o "${SCRATCH}/named" --continue "${SCRATCH}/named" --set session.start=origin)
+file(READ "${SCRATCH}/named/rooms.csv" rooms)
+if(NOT rooms MATCHES ",kitchen\n.*,living room, south\n.*,office\n$")
+  message(FATAL_ERROR "after the map was continued, rooms.csv is:\n${rooms}")
+endif()
 file(REMOVE_RECURSE "${SCRATCH}")

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <omnimapper/plugin/PluginFactory.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mesh_output {
+
+/// What a user can set; the table declares each key once.
+struct MeshOptions {
+  bool colours = true;  ///< the colour of its class is written with each vertex
+
+  static const omnimapper::base::OptionTable<MeshOptions>& table();
+};
+
+/// Writes landmarks.obj.gz, or landmarks.obj without zlib: the landmarks of the map as a mesh in the Wavefront format,
+/// one object for each, in the frame of the map [m]. Moved landmarks are left out.
+class MeshOutput : public omnimapper::mapper::OutputPlugin {
+ public:
+  MeshOutput(const MeshOptions& options, const omnimapper::mapper::PluginContext& context);
+  bool isOfMap() const override { return true; }
+  void finish(const omnimapper::mapper::View& view) override;
+
+ private:
+  MeshOptions options_;
+  std::string path_;  // without ".gz"
+};
+
+/// An MRPT run-time class without state, so that an INI can name the plugin: "class = MeshOutput".
+class MeshOutputFactory : public omnimapper::mapper::OutputPluginFactory {
+  DEFINE_MRPT_OBJECT(MeshOutputFactory, mesh_output)
+ public:
+  std::string name() const override { return "MeshOutput"; }
+  std::string summary() const override { return "Writes landmarks.obj.gz, the landmarks as a mesh."; }
+  const std::vector<omnimapper::base::OptionSpec>& options() const override { return MeshOptions::table().specs(); }
+  std::unique_ptr<omnimapper::mapper::OutputPlugin> make(
+      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
+};
+
+}  // namespace mesh_output
