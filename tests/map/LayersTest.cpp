@@ -52,7 +52,8 @@ TEST(Layers, ofACopyStayWhenTheOriginalChanges) {
 }
 
 TEST(Layers, haveNamesThatOtherSectionsOfAMapFileDoNotHave) {
-  for (const char* name : {"", "graph", "frames", "landmarks", "sessions"}) {
+  for (const std::string& name : {std::string(), std::string(257, 'a'), std::string("graph"), std::string("frames"),
+                                  std::string("landmarks"), std::string("sessions")}) {
     EXPECT_FALSE(isLayerName(name)) << name;
     EXPECT_THROW(Layers().set(Rooms{}, name), base::Error) << name;
     EXPECT_THROW(LayerRegistry().add<Rooms>(name), base::Error) << name;

@@ -8,15 +8,16 @@ namespace omnimapper::map {
 
 bool isLayerName(std::string_view name) {
   constexpr std::array<std::string_view, 4> kOthers{"graph", "frames", "landmarks", "sessions"};
-  return !name.empty() && std::find(kOthers.begin(), kOthers.end(), name) == kOthers.end();
+  constexpr std::size_t kLongest = 256;  // a map file with a longer one is refused
+  return !name.empty() && name.size() <= kLongest && std::find(kOthers.begin(), kOthers.end(), name) == kOthers.end();
 }
 
 namespace {
 
 void expectLayerName(const std::string& name) {
   if (!isLayerName(name)) {
-    throw base::Error(base::ExitCode::internal,
-                      "a layer cannot be called \"" + name + "\": the name is empty or that of another section");
+    throw base::Error(base::ExitCode::internal, "a layer cannot be called \"" + name +
+                                                    "\": the name is empty, too long or that of another section");
   }
 }
 

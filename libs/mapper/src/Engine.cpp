@@ -187,11 +187,14 @@ std::vector<std::string> Engine::idleSources() const {
 
 std::vector<base::Error> Engine::writeOutputs() {
   std::vector<base::Error> failures;
+  SharedResults shared;
+  View finished = view();
+  finished.shared = &shared;
   for (auto& [section, plugin] : plugins_.output) {
     if (state_.map_is_held && plugin->isOfMap()) continue;
     const auto timer = state_.times.measure(Stage::output, section);
     try {
-      plugin->finish(view());
+      plugin->finish(finished);
     } catch (const base::Error& error) {
       failures.push_back(error);
     } catch (const std::bad_alloc&) {

@@ -32,8 +32,9 @@ GridOutput::GridOutput(const GridOptions& options, const mapper::PluginContext& 
     : options_(options), path_(derived::outputPath(context, "grid")) {}
 
 void GridOutput::finish(const mapper::View& view) {
-  const auto grid = derived::buildScanGrid(
-      view.map, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
+  const auto shared = derived::scanGridOf(
+      view, {options_.resolution, options_.max_range, options_.margin, 1e6 * options_.max_megacells});
+  const auto& grid = *shared;
   if (!grid) return;
   constexpr double kCoarsest = 1;  // [m] in coarser cells walls cannot be distinguished
   if (grid->resolution > std::max(kCoarsest, options_.resolution)) {

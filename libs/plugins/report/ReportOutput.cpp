@@ -58,7 +58,9 @@ void ReportOutput::finish(const mapper::View& view) {
   const auto map = level(mapOnly(view));
   const auto places = placesOf(trajectory, landmarks);
   std::optional<derived::GridPicture> picture;
-  if (const auto grid = derived::buildScanGrid(map, grid_options)) {
+  // Where the map is drawn as it is, other outputs have the same grid.
+  const auto shared = level.isOfMap() && !view.map_is_held ? derived::scanGridOf(view, grid_options) : nullptr;
+  if (const auto grid = shared ? *shared : derived::buildScanGrid(map, grid_options)) {
     picture = derived::drawGridToSize(derived::focused(*grid, places), options_.picture_side);
   } else {
     picture = cloudPicture(map, places, options_.picture_side);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <omnimapper/map/Map.h>
+#include <omnimapper/plugin/View.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,5 +35,8 @@ struct ScanGrid {
 /// The grid of all 2D scans of the key frames, with free space traced along the beams; none if no scan has a valid
 /// beam. Scans tilted by more than 10 deg are left out. The resolution is doubled until the grid has at most max_cells.
 std::optional<ScanGrid> buildScanGrid(const map::Map& map, const ScanGridOptions& options);
+
+/// The grid of the whole map, as buildScanGrid(); outputs of one finished map share it (View::shared).
+std::shared_ptr<const std::optional<ScanGrid>> scanGridOf(const mapper::View& view, const ScanGridOptions& options);
 
 }  // namespace omnimapper::derived

@@ -73,7 +73,8 @@ struct LayerOf final : Layer {
   }
 };
 
-/// Whether a layer may have this name: it is not empty and is none of the names of the other sections of a map file.
+/// Whether a layer may have this name: it is not empty, at most 256 bytes long, and is none of the names of the other
+/// sections of a map file.
 bool isLayerName(std::string_view name);
 
 /// The layers of a map by name. Copies share the layers.

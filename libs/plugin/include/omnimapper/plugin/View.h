@@ -3,6 +3,7 @@
 #include <omnimapper/plugin/DecisionLog.h>
 #include <omnimapper/plugin/LiveMetrics.h>
 #include <omnimapper/plugin/LocalizationEstimate.h>
+#include <omnimapper/plugin/SharedResults.h>
 #include <omnimapper/plugin/StageTimes.h>
 #include <omnimapper/plugin/State.h>
 #include <omnimapper/plugin/Verdict.h>
@@ -56,6 +57,8 @@ struct View : State {
   const Verdict& verdict;
   /// The metrics of a run on live sensors; none for other runs.
   const std::optional<LiveMetrics>& live;
+  /// Results that outputs share while a finished map is written; null at other times.
+  SharedResults* shared = nullptr;
 };
 
 /// The data of a run that a View refers to: its map and everything recorded with it.
