@@ -37,7 +37,8 @@ CLI::Validator validatorOf(query::NumberOption::Range range) {
 
 void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bool& json) {
   CLI::App* added = app.add_subcommand(verb.name, verb.help);
-  added->add_option(verb.words, request.words, verb.words_help)->type_name("")->expected(0, verb.most_words);
+  if (!verb.words.empty())
+    added->add_option(verb.words, request.words, verb.words_help)->type_name("")->expected(0, verb.most_words);
   for (const auto& option : verb.options)
     added->add_option("--" + option.name, request.numbers[option.name], option.help)
         ->expected(option.count)

@@ -19,9 +19,11 @@ class HandMadeFolder : public ::testing::Test {
   HandMadeFolder() {
     map::Place women = signAt(1, 3.9, "WOMEN"), others = signAt(3, 3.9, "WOMEN");
     women.normal = others.normal = Eigen::Vector3d(0, -1, 0);
-    map_ = {folder_ / "map.omnimap", folder_.path(),
+    map_ = {folder_ / "map.omnimap",
+            folder_.path(),
             placesOf({signAt(2, 0.1, "213", "Ella Stone"), women, others, signAt(0.1, 2, "98"), wallFrom(0, 0, 4, 0),
-                      signAt(3, 2, "\x1b[2J")})};
+                      signAt(3, 2, "\x1b[2J")}),
+            {}};
     std::vector<std::string> rows(40, std::string(40, '.'));
     rows.front() = rows.back() = std::string(40, '#');
     for (auto& row : rows) row.front() = row.back() = '#';
@@ -142,6 +144,12 @@ TEST_F(HandMadeFolder, AMapIsOpenedByFolderOrFileAndEachDefectIsNamed) {
   file.write(map_.file);
   EXPECT_EQ(openMap(folder_.path()).places.places.size(), 6U);
   EXPECT_EQ(openMap(map_.file).folder, folder_.path());
+  map_ = openMap(folder_.path());
+  const auto layers = asked("layers", {})["layers"];
+  ASSERT_EQ(layers.size(), 1U) << "the graph is no layer";
+  EXPECT_EQ(layers[0]["name"], "places");
+  EXPECT_EQ(layers[0]["version"], 2);
+  EXPECT_GT(layers[0]["bytes"], 100);
   file.set({"places", 3, ""});
   file.write(map_.file);
   EXPECT_TRUE(says(refusal(), map_.file) && says(refusal(), "version 3"));

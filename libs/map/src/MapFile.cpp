@@ -92,10 +92,11 @@ class FileBytes {
   std::uint64_t left_;
 };
 
-using Wanted = std::function<bool(const std::string& name)>;
+using Wanted = std::function<bool(const MapFile::Entry& entry)>;
 
 // The bytes of a section that is not wanted are skipped.
-MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t number, const Wanted& is_wanted) {
+MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t number, const Wanted& is_wanted,
+                       bool& is_kept) {
   in.setWhat(path + ", section number " + std::to_string(number));
   const auto checksum = static_cast<std::uint32_t>(in.uint(4));
   MapSection section;
@@ -107,7 +108,8 @@ MapSection readSection(FileBytes& in, const std::string& path, std::uint32_t num
   in.setWhat(what);
   section.version = static_cast<std::uint32_t>(in.uint(4));
   const std::uint64_t size = in.uint(8);
-  if (!is_wanted(section.name)) {
+  is_kept = is_wanted({section.name, section.version, size});
+  if (!is_kept) {
     in.skip(size);
     return section;
   }
@@ -136,10 +138,11 @@ std::vector<MapSection> readSections(const std::string& path, const Wanted& is_w
   std::vector<MapSection> sections;
   std::set<std::string> names;
   for (std::uint64_t i = 0; i < count; ++i) {
-    MapSection section = readSection(in, path, static_cast<std::uint32_t>(i + 1), is_wanted);
+    bool is_kept = false;
+    MapSection section = readSection(in, path, static_cast<std::uint32_t>(i + 1), is_wanted, is_kept);
     if (!names.insert(section.name).second)
       refuseFile(path, "has two sections \"" + section.name + "\": the file is damaged.");
-    if (is_wanted(section.name)) sections.push_back(std::move(section));
+    if (is_kept) sections.push_back(std::move(section));
   }
   if (!in.atEnd()) {
     refuseFile(path, "goes on after the last of its " + std::to_string(count) + " sections: the file is damaged.");
@@ -151,15 +154,24 @@ std::vector<MapSection> readSections(const std::string& path, const Wanted& is_w
 
 MapFile MapFile::read(const std::string& path) {
   MapFile file;
-  file.sections_ = readSections(path, [](const std::string&) { return true; });
+  file.sections_ = readSections(path, [](const Entry&) { return true; });
   return file;
 }
 
 MapFile MapFile::readOnly(const std::string& path, const std::vector<std::string>& names) {
   MapFile file;
   file.sections_ = readSections(
-      path, [&](const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); });
+      path, [&](const Entry& entry) { return std::find(names.begin(), names.end(), entry.name) != names.end(); });
   return file;
+}
+
+std::vector<MapFile::Entry> MapFile::list(const std::string& path) {
+  std::vector<Entry> entries;
+  readSections(path, [&](const Entry& entry) {
+    entries.push_back(entry);
+    return false;
+  });
+  return entries;
 }
 
 void MapFile::write(const std::string& path) const {

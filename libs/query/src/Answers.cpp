@@ -170,4 +170,15 @@ Answer answerList(const MapToAsk& map, const Request& request) {
   return {said + tableOf(lines), textOf(document), base::ExitCode::ok};
 }
 
+Answer answerLayers(const MapToAsk& map, const Request&) {
+  Json document = answerTo("layers", map);
+  document["layers"] = Json::array();
+  Lines lines{{"layer", "version", "bytes"}};
+  for (const auto& layer : map.layers) {
+    lines.push_back({shownName(layer.name), std::to_string(layer.version), std::to_string(layer.size)});
+    document["layers"].push_back({{"name", layer.name}, {"version", layer.version}, {"bytes", layer.size}});
+  }
+  return {tableOf(lines), textOf(document), base::ExitCode::ok};
+}
+
 }  // namespace omnimapper::query

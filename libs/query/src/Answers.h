@@ -9,6 +9,7 @@ Answer answerFind(const MapToAsk& map, const Request& request);
 Answer answerNear(const MapToAsk& map, const Request& request);
 Answer answerGoal(const MapToAsk& map, const Request& request);
 Answer answerList(const MapToAsk& map, const Request& request);
+Answer answerLayers(const MapToAsk& map, const Request& request);
 
 /// The words of a request, separated by blanks.
 std::string textOf(const Request& request);

@@ -49,6 +49,8 @@ MapToAsk openMap(const std::string& path) {
   } catch (const base::Error& error) {
     throw base::Error(error.code(), opened.file + ": " + error.what());
   }
+  for (auto& entry : map::MapFile::list(opened.file))
+    if (map::isLayerName(entry.name)) opened.layers.push_back(std::move(entry));
   return opened;
 }
 

@@ -41,7 +41,8 @@ const std::vector<Verb>& verbs() {
        0,
        -1,
        {},
-       answerList}};
+       answerList},
+      {"layers", "what the map holds beside key frames and landmarks", "", "", 0, 0, {}, answerLayers}};
   return all;
 }
 

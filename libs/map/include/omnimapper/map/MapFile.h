@@ -18,6 +18,13 @@ class MapFile {
   /// Reads only the sections of these names, as far as the file has them. All other sections are skipped, so their size
   /// costs no time, and their checksums are not verified. Throws as read().
   static MapFile readOnly(const std::string& path, const std::vector<std::string>& names);
+  struct Entry {
+    std::string name;
+    std::uint32_t version = 1;
+    std::uint64_t size = 0;  ///< [bytes]
+  };
+  /// What sections the file has, in their order, without reading them. Throws as readOnly().
+  static std::vector<Entry> list(const std::string& path);
   /// Writes atomically: at any time `path` holds a complete map. Throws Error(disk_full).
   void write(const std::string& path) const;
 

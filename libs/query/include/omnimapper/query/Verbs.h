@@ -33,7 +33,7 @@ struct NumberOption {
 struct Verb {
   std::string name;   ///< "find"
   std::string help;   ///< one line
-  std::string words;  ///< name of its words in the help: "TEXT"
+  std::string words;  ///< name of its words in the help: "TEXT"; empty if it takes none
   std::string words_help;
   int least_words = 0, most_words = 0;  ///< -1: any number
   std::vector<NumberOption> options;
