@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -21,7 +20,8 @@ struct Stat {
 // Of a file /proc/PROCESS/stat or /proc/PROCESS/task/THREAD/stat; its name in parentheses may contain anything.
 Stat readStat(const std::filesystem::path& path) {
   std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  std::getline(file, text, '\0');  // empty if the process ends meanwhile
   const auto name_end = text.rfind(')');
   Stat stat;
   if (name_end == std::string::npos) return stat;
