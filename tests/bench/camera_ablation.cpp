@@ -46,8 +46,12 @@ constexpr const char* kNotes =
     "less than 20 m, over 1 s, or over 2 m if images are more than 0.2 s apart; processor: the whole run with the "
     "trajectory as its only output.";
 
-AblationVariant visual(const std::string& key, const std::string& title, std::vector<std::string> settings = {}) {
-  return {key, AblationVariant::Family::visual, title, std::move(settings)};
+const std::vector<std::string> kWithoutPlanes{"perception.extractors=", "mapper.measurement_plugins=view_links"};
+
+AblationVariant visual(const std::string& key, const std::string& title, const std::vector<std::string>& more = {}) {
+  AblationVariant variant{key, AblationVariant::Family::visual, title, kWithoutPlanes};
+  variant.settings.insert(variant.settings.end(), more.begin(), more.end());
+  return variant;
 }
 
 AblationVariant byClouds(const std::string& key, const std::string& title, const std::string& source,
@@ -55,23 +59,22 @@ AblationVariant byClouds(const std::string& key, const std::string& title, const
   return {key,
           AblationVariant::Family::clouds,
           title,
-          {"mapper.measurement_plugins=", "mapper.pose_plugins=cloud_odometry,no_motion",
+          {"perception.extractors=", "mapper.measurement_plugins=", "mapper.pose_plugins=cloud_odometry,no_motion",
            "cloud_odometry.class=CloudOdometryPlugin", "cloud_odometry.source=" + source,
            "cloud_odometry.method=" + method}};
 }
 
-AblationVariant withPlanes(AblationVariant variant, const std::string& measurement_plugins) {
-  variant.settings.insert(variant.settings.end(), {"perception.extractors=planes", "planes.class=PlaneExtractor",
-                                                   "mapper.measurement_plugins=" + measurement_plugins,
-                                                   "plane_landmarks.class=PlaneLandmarksPlugin"});
+AblationVariant withPlanesAlone(AblationVariant variant) {
+  variant.settings.insert(variant.settings.end(),
+                          {"perception.extractors=planes", "mapper.measurement_plugins=plane_landmarks"});
   return variant;
 }
 
-// The first variant is the default, with which the plot compares the others.
+// The first variant is the one with which the plot compares the others. The INI itself has planes.
 std::vector<AblationVariant> allVariants() {
-  return {visual("default", "depth and brightness (default)"),
+  return {visual("no_planes", "depth and brightness"),
           visual("no_links", "without links of key frames", {"mapper.measurement_plugins="}),
-          withPlanes(visual("planes", "depth and brightness, with planes"), "plane_landmarks,view_links"),
+          {"planes", AblationVariant::Family::visual, "depth and brightness, with planes (default)", {}},
           visual("depth", "depth alone", {"visual_odometry.use_brightness=false"}),
           visual("brightness", "brightness alone", {"visual_odometry.use_depth=false"}),
           byClouds("occluding_edges", "occluding edges", "occluding_edges"),
@@ -79,7 +82,7 @@ std::vector<AblationVariant> allVariants() {
           byClouds("high_curvature_edges", "high-curvature edges", "high_curvature_edges"),
           byClouds("voxels", "voxels of 2 cm", "voxels"),
           byClouds("all_points", "all points", "all_points"),
-          withPlanes(byClouds("all_points_planes", "all points, with planes", "all_points"), "plane_landmarks"),
+          withPlanesAlone(byClouds("all_points_planes", "all points, with planes", "all_points")),
           byClouds("point_to_plane", "all points, point to plane", "all_points", "point_to_plane"),
           byClouds("point_to_point", "all points, point to point", "all_points", "point_to_point")};
 }
@@ -322,7 +325,7 @@ int main(int argc, char** argv) {
   app.add_flag("--redraw", arguments.redraw, "map nothing, only make table and plot from the folder's ablation.csv");
   CLI11_PARSE(app, argc, argv);
   try {
-    tests::registerPlugins();
+    mapper::loadFeatures();
     arguments.redraw ? redraw(arguments.out) : runAll(arguments);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

@@ -12,8 +12,10 @@ using omnimapper::testing::sourceFile;
 
 class Cameras : public ::testing::Test {
  protected:
-  void mapIt(const std::string& ini, const std::string& log) {
-    ASSERT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_})));
+  void mapIt(const std::string& ini, const std::string& log, const Texts& more = {}) {
+    Texts words{"-i", sourceFile("ini/" + ini), "-r", log, "-o", folder_};
+    words.insert(words.end(), more.begin(), more.end());
+    ASSERT_TRUE(endedWith(ExitCode::ok, graphslam(words)));
   }
   omnimapper::eval::AbsoluteTrajectoryError errorFrom(const std::string& truth) const {
     omnimapper::eval::PairingOptions pairing;
@@ -45,6 +47,10 @@ TEST_F(Cameras, InTheHandInASimulatedHomeIsMappedByItsImagesAlone) {
                                 place, "--set", "simulation.duration_s=8"})));
   mapIt("rgbd_handheld.ini", place + "/home_handheld.rawlog");
   EXPECT_LT(errorFrom(place + "/truth.tum").translation.rmse, 0.02);
+  const auto level = loadSummary(folder_).at("level");
+  EXPECT_EQ(level.at("from"), "planes") << level;
+  EXPECT_NEAR(level.at("up").at(0).get<double>(), std::sin(0.13), 0.03) << "the first image looks down: " << level;
+  EXPECT_NE(readFile(folder_ + "/surfaces.json").find("\"floor\""), std::string::npos);
 }
 
 TEST_F(Cameras, OnARobotAreMappedWithItsWheels) {
@@ -86,7 +92,8 @@ TEST_F(Cameras, InASimulatedHandKnowWhichWayIsUpByAnAccelerometer) {
                        "--set",
                        "imu.rate_hz=100"};
   ASSERT_TRUE(endedWith(ExitCode::ok, runProgram(simulate, patient)));
-  mapIt("rgbd_handheld.ini", place + "/home_handheld.rawlog");
+  mapIt("rgbd_handheld.ini", place + "/home_handheld.rawlog",
+        {"--set", "perception.extractors=", "--set", "mapper.measurement_plugins=view_links"});
   const auto level = loadSummary(folder_).at("level");
   ASSERT_EQ(level.at("from"), "imu") << level;
   EXPECT_GT(level.at("up").at(2).get<double>(), 0.97) << level;
