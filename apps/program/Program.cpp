@@ -73,13 +73,16 @@ void listenForInterrupts() {
 }
 
 void listenForRereads() {
-  answer(SIGUSR1, [](int) { g_reread = 1; });
+  struct sigaction action {};
+  action.sa_handler = [](int) { g_reread = 1; };
+  action.sa_flags = SA_RESTART;  // sensors need not notice
+  sigaction(SIGUSR1, &action, nullptr);
 }
 
 bool takeReread() {
-  const bool is_asked = g_reread != 0;
+  if (g_reread == 0) return false;
   g_reread = 0;
-  return is_asked;
+  return true;
 }
 
 bool isInterrupted() {

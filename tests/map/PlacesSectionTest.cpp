@@ -104,9 +104,15 @@ TEST(PlacesSection, PropertiesOfVersionOneGetTheirKinds) {
   places.places.emplace_back();
   std::string bytes = toSection(places).bytes;
   base::ByteWriter old;
-  const std::vector<std::pair<std::string, std::string>> texts{
-      {"number", "213"},          {"words", "a, b"},     {"area_m2", "8.000"},          {"repeated_elsewhere", "yes"},
-      {"place_1_last_seen", "5"}, {"count_of_seen", ""}, {"place_1_measurements", "12"}};
+  const std::vector<std::pair<std::string, std::string>> texts{{"number", "213"},
+                                                               {"words", "a, b"},
+                                                               {"area_m2", "8.000"},
+                                                               {"repeated_elsewhere", "yes"},
+                                                               {"place_2_measurements", "1e300"},
+                                                               {"place_2_last_seen", "1e15"},
+                                                               {"place_1_last_seen", "5"},
+                                                               {"count_of_seen", ""},
+                                                               {"place_1_measurements", "12"}};
   old.uint(texts.size(), 4);
   for (const auto& [name, text] : texts) {
     old.block(name);
@@ -122,9 +128,11 @@ TEST(PlacesSection, PropertiesOfVersionOneGetTheirKinds) {
   EXPECT_EQ(std::get<Measure>(read[2].value).value, 8);
   EXPECT_EQ(keyOf(read[2]), "area_m2");
   EXPECT_TRUE(std::get<bool>(read[3].value));
-  EXPECT_EQ(std::get<base::Stamp>(read[4].value), base::stampFromUnix(5));
-  EXPECT_EQ(std::get<std::string>(read[5].value), "");
-  EXPECT_EQ(std::get<std::uint64_t>(read[6].value), 12u);
+  EXPECT_EQ(std::get<base::Stamp>(read[6].value), base::stampFromUnix(5));
+  EXPECT_EQ(std::get<std::string>(read[4].value), "1e300") << "no count";
+  EXPECT_EQ(std::get<std::string>(read[5].value), "1e15") << "no time";
+  EXPECT_EQ(std::get<std::string>(read[7].value), "");
+  EXPECT_EQ(std::get<std::uint64_t>(read[8].value), 12u);
 }
 
 TEST(PlacesSection, AnyCutIsNoticedAndNoByteDoesHarm) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/live/Journal.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/source/RawlogWriter.h>
@@ -60,7 +61,7 @@ TEST(ChangedPlugins, whatOneMadeStaysAndOneThatReturnsGoesOnFromIt) {
   const auto change = [&](const base::Config& before, const base::Config& now) {
     auto difference = differenceOf(before, now, {}, {});
     EXPECT_FALSE(difference.isNone());
-    engine->changePlugins(std::move(difference.change));
+    EXPECT_EQ(engine->changePlugins(std::move(difference.change)), "");
     return difference.sentence();
   };
   feed(0, 0.25);
@@ -116,11 +117,54 @@ TEST(ChangedPlugins, theLastPosePluginCannotGo) {
   const auto engine = testing::makeEngine(testing::kLaserIni);
   PluginChange change;
   change.removed = {"scan_odometry", "odometry", "no_motion"};
-  EXPECT_THROW(engine->changePlugins(std::move(change)), base::Error);
+  for (const auto& observation : drive()) {
+    engine->add(observation);
+    if (engine->view().map.key_frames.size() > 2) break;
+  }
+  EXPECT_NE(engine->changePlugins(std::move(change)).find("pose plugin"), std::string::npos);
   EXPECT_EQ(engine->plugins().pose.size(), 3u);
   auto wrong = withWalls();
   wrong.set("mapper.measurement_plugins=nobody");
   EXPECT_THROW(differenceOf(withWalls(), wrong, {}, {}), base::Error);
+}
+
+// The new settings do not fit what the plugin made: it stays, with all that it knows.
+TEST(ChangedPlugins, whatDoesNotFitTheMapChangesNothing) {
+  const auto log = drive();
+  auto config = withWalls();
+  const auto engine = testing::makeEngine(config.text());
+  for (std::size_t i = 0; i < log.size() / 2; ++i) engine->add(log[i]);
+  ASSERT_GE(wallsOf(*engine), 3u);
+  auto other = withWalls();
+  other.set("walls.form=plane");
+  const auto evidence = evidenceOf(*engine);
+  EXPECT_NE(engine->changePlugins(differenceOf(config, other, {}, {}).change).find("[walls]"), std::string::npos);
+  EXPECT_EQ(engine->plugins().measurement.size(), 2u);
+  for (std::size_t i = log.size() / 2; i < log.size(); ++i) engine->add(log[i]);
+  engine->finish();
+  EXPECT_GT(evidenceOf(*engine), evidence);
+}
+
+// Perception of a bundle that does not become part of the map still runs when the bundle has been processed.
+TEST(ChangedPlugins, perceptionIsFinishedBeforeItsPluginsGo) {
+  const auto log = drive();
+  const auto engine = testing::makeEngine(testing::kLaserIni, {"mapper.pose_plugins=odometry"}, 4);
+  for (std::size_t i = 0; i < log.size() / 4; ++i) {
+    if (dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(log[i].get())) engine->add(log[i]);
+    if (i % 20 != 0) continue;
+    engine->changePlugins(
+        differenceOf(i % 40 == 0 ? withoutWalls() : withWalls(), i % 40 == 0 ? withWalls() : withoutWalls(), {}, {})
+            .change);
+  }
+  engine->finish();
+  EXPECT_LE(engine->view().map.key_frames.size(), 1u) << "nothing measured the motion";
+}
+
+TEST(ChangedPlugins, anotherOrderIsAChange) {
+  loadFeatures();
+  auto now = withWalls();
+  now.set("mapper.measurement_plugins=loop_closure, walls");
+  EXPECT_EQ(differenceOf(withWalls(), now, {}, {}).sentence(), "changed the order");
 }
 
 // A journal says where the plugins of a live run were changed; their INIs are beside it.

@@ -117,8 +117,18 @@ TEST(Batch, KeepsWhatLayersReferTo) {
   removing.removeFactor(two.link);
   removing.removeVariable(two.b);
   EXPECT_NE(whyUnfit(removing, two.graph, two.map).find("anchor"), std::string::npos);
+  Batch both = removing;
+  both.setLayer(Anchor{two.b});
+  EXPECT_NE(whyUnfit(both, two.graph, two.map), "") << "it is removed and referred to in the same batch";
   removing.setLayer(Anchor{two.a});
   EXPECT_EQ(whyUnfit(removing, two.graph, two.map), "");
+  map::Landmark a, b;
+  a.variables = {two.a};
+  b.variables = {two.b};
+  const auto kept = two.map.landmarks.add(0, a), gone = two.map.landmarks.add(0, b);
+  Batch merging;
+  merging.mergeLandmarks(gone, kept);
+  EXPECT_NE(whyUnfit(merging, two.graph, two.map).find("anchor"), std::string::npos) << "a merge removes variables";
 }
 
 TEST(Batch, RemovesFactorsAndSetsWeights) {

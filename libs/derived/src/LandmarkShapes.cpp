@@ -23,7 +23,8 @@ bool isBox(const map::Box& box) {
 
 bool isMesh(const map::Mesh& mesh) {
   const auto is_corner = [&](std::uint32_t index) { return index < mesh.vertices.size(); };
-  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& v) { return v.allFinite(); }) &&
+  return !mesh.vertices.empty() && !mesh.triangles.empty() &&
+         std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& v) { return v.allFinite(); }) &&
          std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                      [&](const auto& t) { return std::all_of(t.begin(), t.end(), is_corner); });
 }

@@ -2,6 +2,9 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/map/Level.h>
 
+#include <memory>
+#include <utility>
+
 namespace omnimapper::derived {
 
 LevelFrame::LevelFrame(const map::Map& map) {
@@ -25,6 +28,15 @@ std::vector<ShapedLandmark> LevelFrame::operator()(std::vector<ShapedLandmark> l
       to = level_from_map_ * to;
     }
     for (auto& point : shape.points) point = level_from_map_ * point;
+    if (shape.box) {
+      shape.box->middle = level_from_map_ * shape.box->middle;
+      shape.box->map_from_box = level_from_map_.rotation * shape.box->map_from_box;
+    }
+    if (shape.mesh) {
+      map::Mesh turned = *shape.mesh;
+      for (auto& vertex : turned.vertices) vertex = level_from_map_ * vertex;
+      shape.mesh = std::make_shared<const map::Mesh>(std::move(turned));
+    }
     if (shape.normal) shape.normal = level_from_map_.rotation * *shape.normal;
   }
   return landmarks;

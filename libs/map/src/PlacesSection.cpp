@@ -1,8 +1,7 @@
 #include <omnimapper/map/Places.h>
 
-#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "SectionBytes.h"
 
@@ -139,13 +138,15 @@ Property readOldProperty(ByteReader& in) {
   if (text == "yes" || text == "no") return {name, text == "yes"};
   const auto underscore = name.rfind('_');
   const std::string end = underscore == std::string::npos ? "" : name.substr(underscore + 1);
-  char* rest = nullptr;
-  const double number = std::strtod(text.c_str(), &rest);
-  if (text.empty() || *rest != '\0' || !std::isfinite(number)) return {name, text};
-  if (end == "measurements" || end == "sightings") return {name, static_cast<std::uint64_t>(std::max(0.0, number))};
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !std::isfinite(number)) return {name, text};
+  constexpr double kMost = 1e15, kLatest = 9e9;  // a larger count, and a later second of Unix time, stays a text
+  if ((end == "measurements" || end == "sightings") && number >= 0 && number < kMost)
+    return {name, static_cast<std::uint64_t>(number)};
   for (const char* unit : {"m", "m2", "m3", "deg", "s", "kg"})
     if (end == unit) return {name.substr(0, underscore), Measure{number, unit}};
-  if (end == "seen") return {name, base::stampFromUnix(number)};
+  if (end == "seen" && number >= 0 && number < kLatest) return {name, base::stampFromUnix(number)};
   return {name, text};
 }
 

@@ -17,7 +17,7 @@ struct Text {
 
 std::string keyOf(const Property& property) {
   const auto* measure = std::get_if<Measure>(&property.value);
-  return measure ? property.name + "_" + measure->unit : property.name;
+  return measure && !measure->unit.empty() ? property.name + "_" + measure->unit : property.name;
 }
 
 std::string textOf(const Property& property) {

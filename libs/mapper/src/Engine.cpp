@@ -75,42 +75,80 @@ void Engine::forget() {
   back_end_.retireBefore(*kept);
 }
 
-void Engine::changePlugins(PluginChange change) {
+namespace {
+
+bool isRemoved(const PluginChange& change, const std::string& section) {
+  return std::count(change.removed.begin(), change.removed.end(), section) > 0;
+}
+
+// Replaces the removed plugins of a kind by the added ones.
+template <class Plugin>
+void exchange(std::vector<Named<Plugin>>& plugins, std::vector<Named<Plugin>>& added, const PluginChange& change,
+              const std::vector<std::string>& order) {
+  const auto is_removed = [&](const auto& named) { return isRemoved(change, named.section); };
+  plugins.erase(std::remove_if(plugins.begin(), plugins.end(), is_removed), plugins.end());
+  std::move(added.begin(), added.end(), std::back_inserter(plugins));
+  const auto rank = [&](const auto& named) { return std::find(order.begin(), order.end(), named.section); };
+  std::stable_sort(plugins.begin(), plugins.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+}
+
+}  // namespace
+
+std::string Engine::changePlugins(PluginChange change) {
   const auto timer = state_.times.measure(Stage::engine);
-  const auto is_removed = [&](const std::string& section) {
-    return std::count(change.removed.begin(), change.removed.end(), section) > 0;
-  };
-  const auto stays = [&](const auto& named) { return !is_removed(named.section); };
-  if (change.added.pose.empty() && std::none_of(plugins_.pose.begin(), plugins_.pose.end(), stays)) {
-    throw base::Error(base::ExitCode::unknown_plugin,
-                      "no pose plugin would be left, and a map needs at least one: name one in [mapper] pose_plugins");
-  }
-  while (auto bundle = front_end_.nextOfAll()) process(*bundle);
-  while (back_end_.hasJobs()) back_end_.applyAllJobs();
-  for (const auto& [section, plugin] : plugins_.pose) {
-    if (!is_removed(section)) continue;
-    for (const auto& sentence : plugin->warnings()) warn("[" + section + "] " + sentence);
-  }
-  for (const auto& [section, plugin] : plugins_.extractors) {
-    if (!is_removed(section)) continue;
-    for (const auto& sentence : plugin->warnings()) warn("[" + section + "] " + sentence);
-  }
+  drain();
   back_end_.savePlugins();
-  const auto exchange = [&](auto& plugins, auto& added, const std::vector<std::string>& order) {
-    plugins.erase(std::remove_if(plugins.begin(), plugins.end(), [&](const auto& named) { return !stays(named); }),
-                  plugins.end());
-    std::move(added.begin(), added.end(), std::back_inserter(plugins));
-    const auto rank = [&](const auto& named) { return std::find(order.begin(), order.end(), named.section); };
-    std::stable_sort(plugins.begin(), plugins.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  if (change.layers) back_end_.readLayersAgain(*change.layers);
+  const std::string problem = whyNotChanged(change);
+  if (problem.empty()) exchangePlugins(change);
+  return problem;
+}
+
+// Finishes everything in perception and every job. A bundle may not become part of the map, and its perception, which
+// uses the plugins, still runs then.
+void Engine::drain() {
+  schedule_->setDraining(true);
+  while (auto bundle = front_end_.nextOfAll()) {
+    for (const auto& made : bundle->observations) made.wait();
+    process(*bundle);
+  }
+  while (back_end_.hasJobs()) back_end_.applyAllJobs();
+  schedule_->setDraining(false);
+}
+
+std::string Engine::whyNotChanged(const PluginChange& change) {
+  const auto stays = [&](const auto& named) { return !isRemoved(change, named.section); };
+  if (!state_.map.key_frames.empty() && std::none_of(plugins_.pose.begin(), plugins_.pose.end(), stays)) {
+    return "no pose plugin would stay as it is, and a new one does not know how the base moved since the last key "
+           "frame";
+  }
+  for (const auto& [section, plugin] : change.added.measurement) {
+    try {
+      if (!state_.map.key_frames.empty()) back_end_.restore(section, *plugin);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      return "[" + section + "] cannot go on in this map: " + error.what();
+    }
+  }
+  return "";
+}
+
+void Engine::exchangePlugins(PluginChange& change) {
+  const auto keep = [&](const auto& plugins) {
+    for (const auto& [section, plugin] : plugins)
+      if (isRemoved(change, section))
+        for (const auto& sentence : plugin->warnings()) warn("[" + section + "] " + sentence);
   };
-  std::vector<std::string> new_sections;
-  for (const auto& named : change.added.measurement) new_sections.push_back(named.section);
-  exchange(plugins_.pose, change.added.pose, change.order.pose);
-  exchange(plugins_.extractors, change.added.extractors, change.order.extractors);
-  exchange(plugins_.measurement, change.added.measurement, change.order.measurement);
-  exchange(plugins_.output, change.added.output, change.order.output);
+  keep(plugins_.pose);
+  keep(plugins_.extractors);
+  back_end_.evidence().keep([&](const std::string& section) { return isRemoved(change, section); });
+  exchange(plugins_.pose, change.added.pose, change, change.order.pose);
+  exchange(plugins_.extractors, change.added.extractors, change, change.order.extractors);
+  exchange(plugins_.measurement, change.added.measurement, change, change.order.measurement);
+  exchange(plugins_.output, change.added.output, change, change.order.output);
   front_end_.pluginsChanged();
-  back_end_.pluginsChanged(new_sections);
+  back_end_.pluginsChanged();
 }
 
 void Engine::finish() {
@@ -139,14 +177,14 @@ void Engine::finish() {
     tried([&] { back_end_.conclude(); });
   }
   tried([&] { back_end_.savePlugins(); });
-  if (!state_.map_is_held) tried([&] { back_end_.judgeMap(); });
+  if (!state_.map_is_held) tried([&] { back_end_.evidence().judge(); });
   if (state_.extraction_errors.count() > 0) warn(state_.extraction_errors.sentence());
   if (failed) std::rethrow_exception(failed);
 }
 
 void Engine::judge() {
   const auto timer = state_.times.measure(Stage::engine);
-  if (!state_.map_is_held && !state_.map.key_frames.empty()) back_end_.judgeMap();
+  if (!state_.map_is_held && !state_.map.key_frames.empty()) back_end_.evidence().judge();
 }
 
 void Engine::note(const std::string& what) {

@@ -40,11 +40,13 @@ class Engine {
   /// Whether new observations should wait until the workers have caught up.
   bool isBusy() const { return front_end_.isFull(); }
   /// Removes and adds plugins between two bundles. Everything in perception, and every job, is finished first, so the
-  /// result depends only on the observations before the call. What a removed plugin made stays; its state is saved as
-  /// if the map were written, and a plugin of the same section that is added later, in this run or in one that
-  /// continues the map, goes on from it. Throws Error(unknown_plugin) if no pose plugin would be left; nothing is
-  /// changed then.
-  void changePlugins(PluginChange change);
+  /// result depends only on the observations before the call. What a removed plugin made stays, and so does its
+  /// evidence; its state is saved as if the map were written, and a plugin of the same section that is added later, in
+  /// this run or in one that continues the map, goes on from it. Returns why the new plugins cannot be used, and all
+  /// plugins stay as they were then; empty if they changed. Throws what the work that was to be finished throws. A pose
+  /// plugin must stay that is neither removed nor made anew, because a new one does not know the motion since the last
+  /// key frame.
+  std::string changePlugins(PluginChange change);
   /// The plugins of the run as they are now.
   const PluginSet& plugins() const { return plugins_; }
   /// Called at the end of the log: processes everything that is still queued, applies the jobs in order, solves the
@@ -53,7 +55,7 @@ class Engine {
   /// Collects the evidence for and against the map as it is now; finish() does this for the whole map.
   void judge();
   /// Evidence on the observations, which counts for the verdict.
-  void setInputEvidence(std::vector<Evidence> evidence) { back_end_.setInputEvidence(std::move(evidence)); }
+  void setInputEvidence(std::vector<Evidence> evidence) { back_end_.evidence().setOfInput(std::move(evidence)); }
   /// Calls finish() of every output plugin and returns the errors of those that could not write their output.
   std::vector<base::Error> writeOutputs();
   /// Whether a window still shows the map to the user.
@@ -85,6 +87,9 @@ class Engine {
  private:
   void process(FrameBundle& bundle);
   void takeAnswers(const FrameBundle& bundle);
+  void drain();
+  std::string whyNotChanged(const PluginChange& change);
+  void exchangePlugins(PluginChange& change);
   void forget();
 
   EngineSettings settings_;

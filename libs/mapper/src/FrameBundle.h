@@ -40,6 +40,9 @@ struct FrameBundle {
   bool reference = false;  ///< an observation of that stamp, triggered or not, is of the reference sensor
   std::vector<std::future<PerceivedParts>> observations;  ///< results of perception, one for each observation
   std::vector<Arrival> watched;                           ///< what watchers see, in the order of arrival
+
+  /// Whether nothing of it waits for perception or becomes part of the trajectory.
+  bool isOnlyWatched() const { return observations.empty() && !reference; }
 };
 
 }  // namespace omnimapper::mapper

@@ -26,10 +26,15 @@ class Schedule {
   }
   /// Whether the batch of the oldest job is to be applied now. `is_due`: enough key frames have been added since;
   /// `is_done`: its worker has finished. After a result of true the caller must apply it.
-  bool takesJob(bool is_due, bool is_done) { return has_ended_ ? is_due : takesJobBeforeEnd(is_due, is_done); }
+  bool takesJob(bool is_due, bool is_done) {
+    return has_ended_ || is_draining_ ? is_due : takesJobBeforeEnd(is_due, is_done);
+  }
   /// Called when no more observations will come: from then on all bundles are processed, and jobs are waited for as on
   /// a log.
   void end() { has_ended_ = true; }
+
+  /// While set, all bundles are processed as at the end, and nothing is noted.
+  void setDraining(bool is_draining) { is_draining_ = is_draining; }
 
   /// Called when the bundle of that stamp has become part of the map.
   virtual void mapped(base::Stamp /*stamp*/) {}
@@ -40,7 +45,7 @@ class Schedule {
   }
   virtual bool takesJobBeforeEnd(bool is_due, bool /*is_done*/) { return is_due; }
 
-  bool has_ended_ = false;
+  bool has_ended_ = false, is_draining_ = false;
 };
 
 }  // namespace omnimapper::mapper

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace omnimapper::mapper {
@@ -20,6 +21,7 @@ class Check {
   Check(const Batch& batch, const graph::Graph& graph, const map::Map& map) : batch_(batch), graph_(graph), map_(map) {}
 
   std::string whyUnfit() {
+    collectWhatLayersNeed();
     for (const auto id : batch_.removedFactors()) checkRemoved(id);
     for (const auto& [id, weight] : batch_.weights()) {
       need(graph_.contains(id), "weight of factor " + toString(id), "the graph has no such factor");
@@ -69,6 +71,22 @@ class Check {
       }
     }
   }
+  // The variables that the layers of the map refer to when the batch has been applied.
+  void collectWhatLayersNeed() {
+    const auto collect = [&](const std::string& name, const map::Layer& layer) {
+      for (const auto id : layer.references().variables) needed_by_.emplace(id, name);
+    };
+    for (const auto& [name, layer] : map_.layers) {
+      const auto is_set = [&name = name](const auto& other) { return other.first == name; };
+      if (std::none_of(batch_.layers().begin(), batch_.layers().end(), is_set)) collect(name, *layer);
+    }
+    for (const auto& [name, layer] : batch_.layers())
+      if (layer) collect(name, *layer);
+  }
+  void checkNoLayerNeeds(base::VariableId id, const std::string& edit) {
+    const auto layer = needed_by_.find(id);
+    if (layer != needed_by_.end()) need(false, edit, "the layer \"" + layer->second + "\" refers to " + toString(id));
+  }
   void checkLayer(const std::string& name, const map::Layer* layer) {
     const std::string edit = "layer \"" + name + "\"";
     need(map::isLayerName(name), edit, "a layer cannot have this name");
@@ -102,12 +120,7 @@ class Check {
       const bool held = std::count(landmark.variables.begin(), landmark.variables.end(), id) > 0;
       need(!held, edit, "belongs to landmark " + toString(landmark_id));
     }
-    for (const auto& [name, layer] : map_.layers) {
-      const auto is_set = [&name = name](const auto& other) { return other.first == name; };
-      if (std::any_of(batch_.layers().begin(), batch_.layers().end(), is_set)) continue;
-      const auto bound = layer->references().variables;
-      need(std::count(bound.begin(), bound.end(), id) == 0, edit, "the layer \"" + name + "\" refers to it");
-    }
+    checkNoLayerNeeds(id, edit);
   }
   void checkMerge(base::LandmarkId from, base::LandmarkId into) {
     const std::string edit = "merge of landmark " + toString(from) + " into " + toString(into);
@@ -120,6 +133,7 @@ class Check {
     needLandmark(from, edit);
     needLandmark(into, edit);
     if (!problem_.empty()) return;
+    for (const auto id : map_.landmarks.find(from)->variables) checkNoLayerNeeds(id, edit);
     const auto &a = map_.landmarks.find(from)->variables, &b = map_.landmarks.find(into)->variables;
     const bool alike = a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [&](auto x, auto y) {
                          return graph_.variable(x).kind->kind() == graph_.variable(y).kind->kind();
@@ -138,6 +152,7 @@ class Check {
   const Batch& batch_;
   const graph::Graph& graph_;
   const map::Map& map_;
+  std::map<base::VariableId, std::string> needed_by_;  // the name of a layer
   std::set<base::FactorId> removed_;
   std::set<base::VariableId> removed_variables_;
   std::set<base::LandmarkId> gone_, kept_;

@@ -1,5 +1,6 @@
 #include <mrpt/topography/conversions.h>
 #include <omnimapper/graph/ByteIo.h>
+#include <omnimapper/graph/VariableKinds.h>
 #include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SavedVariable.h>
@@ -17,6 +18,17 @@ constexpr std::size_t kBytes = 6 + 3 * 8;                // id, latitude, longit
 
 bool heldPlace(const std::string& bytes) {
   return bytes.size() == kBytes + kOldMark.size() && std::string_view(bytes).substr(kBytes) == kOldMark;
+}
+
+bool isOnEarth(const Geodetic& place) {
+  return std::abs(place.latitude) <= 90 && std::abs(place.longitude) <= 180 && std::isfinite(place.altitude);
+}
+
+// Whether the graph has the variable, and it is a pose.
+bool isPose(base::VariableId id, const graph::Graph& graph) {
+  if (!graph.contains(id)) return false;
+  const auto kind = graph.variable(id).kind->kind();
+  return kind == graph::se2()->kind() || kind == graph::se3()->kind();
 }
 
 PlaceOnEarth placeFrom(const std::string& bytes) {
@@ -40,9 +52,7 @@ std::string PlaceOnEarth::toBytes() const {
 PlaceOnEarth PlaceOnEarth::fromSection(const map::MapSection& section) {
   expectVersion(section, kLayerVersion);
   const auto place = section.bytes.size() == kBytes ? placeFrom(section.bytes) : PlaceOnEarth{};
-  const auto& origin = place.origin;
-  const bool is_whole = section.bytes.size() == kBytes && std::abs(origin.latitude) <= 90 &&
-                        std::abs(origin.longitude) <= 180 && std::isfinite(origin.altitude);
+  const bool is_whole = section.bytes.size() == kBytes && isOnEarth(place.origin);
   if (!is_whole) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "map file, section \"" + section.name + "\": it holds no place on earth: the file is damaged");
@@ -52,7 +62,7 @@ PlaceOnEarth PlaceOnEarth::fromSection(const map::MapSection& section) {
 
 const PlaceOnEarth* placeOnEarth(const State& state) {
   const auto* place = state.map.layers.find<PlaceOnEarth>();
-  return place && state.graph.contains(place->map_from_enu) ? place : nullptr;
+  return place && isPose(place->map_from_enu, state.graph) ? place : nullptr;
 }
 
 void adoptPlaceOnEarth(map::Layers& layers, const graph::Graph& graph) {
@@ -62,7 +72,7 @@ void adoptPlaceOnEarth(map::Layers& layers, const graph::Graph& graph) {
     const std::string bytes = layer->bytes();
     if (!heldPlace(bytes)) continue;
     const auto place = placeFrom(bytes);
-    if (!graph.contains(place.map_from_enu)) continue;
+    if (!isPose(place.map_from_enu, graph) || !isOnEarth(place.origin)) continue;
     layers.set(place);
     return;
   }

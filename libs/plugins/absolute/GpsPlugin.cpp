@@ -80,6 +80,8 @@ std::optional<GpsPlugin::Fix> GpsPlugin::read(const mrpt::obs::CObservationGPS& 
   } else if (!std::isfinite(gga.latitude_degrees) || !std::isfinite(gga.longitude_degrees) ||
              !std::isfinite(altitude)) {
     decision.reason = "not finite";
+  } else if (std::abs(gga.latitude_degrees) > 90 || std::abs(gga.longitude_degrees) > 180) {
+    decision.reason = "not a place on the earth";
   } else {
     if (!origin_) origin_ = {gga.latitude_degrees, gga.longitude_degrees, altitude};
     const mrpt::topography::TGeodeticCoords here(gga.latitude_degrees, gga.longitude_degrees, altitude);

@@ -276,7 +276,10 @@ void LoopClosurePlugin::restore(const map::MapSection*, const mapper::View& view
   if (view.map.key_frames.empty()) return;
   std::map<std::string, std::vector<LoopSearch::KeyScan>> key_scans;
   for (const auto& [label, history] : histories_) {
-    for (const auto& stamped : history) key_scans[label].push_back(stamped.key_scan);
+    // A plugin that is added during a session does not search for that session in its own scans.
+    for (const auto& stamped : history)
+      if (stamped.key_scan.frame.session != view.map.sessions.back().number)
+        key_scans[label].push_back(stamped.key_scan);
   }
   auto places = std::make_shared<const ScanDatabase>(view.map, key_scans, matcher_);
   if (!places->empty()) places_ = std::move(places);

@@ -5,7 +5,9 @@
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/CText.h>
 #include <omnimapper/derived/LandmarkShapes.h>
+#include <omnimapper/derived/LevelFrame.h>
 #include <omnimapper/derived/PlanShape.h>
+#include <omnimapper/map/Level.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/ShapedRun.h>
@@ -63,6 +65,13 @@ TEST(LandmarkShapes, boxesAndMeshesHaveExtentsPlansAndTriangles) {
   EXPECT_NEAR(derived::doubledArea(plan.areas[0]), 2 * 2, 1e-12);
   mesh.mesh = std::make_shared<const map::Mesh>(map::Mesh{{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{{0, 1, 2}}}});
   EXPECT_EQ(derived::referencePoint(mesh), Vector3d(1, 1, 0));
+  map::Map lying;
+  lying.layers.set(map::Level{map::Level::Source::planes, Vector3d::UnitX(), Eigen::Matrix3d::Zero(), ""});
+  const derived::LevelFrame level(lying);
+  const auto turned = level(std::vector<derived::ShapedLandmark>{{nullptr, box}, {nullptr, mesh}});
+  EXPECT_LT((derived::referencePoint(turned[0].shape) - level(Vector3d(5, 6, 7))).norm(), 1e-12);
+  EXPECT_NEAR(derived::boxOf(turned[0].shape).sizes().z(), extent.sizes().x(), 1e-9) << "x of the map is up";
+  EXPECT_LT((turned[1].shape.mesh->vertices[1] - level(Vector3d(3, 0, 0))).norm(), 1e-12);
   RunRecord run = shapedRun();
   const auto before = derived::landmarkTriangles(derived::shapesOf(run.view())).size();
   add(run, "thing", box);

@@ -12,7 +12,6 @@
 
 #include "OneSensor.h"
 #include "back_end/estimateLevel.h"
-#include "back_end/judgeTilt.h"
 
 namespace omnimapper::mapper {
 
@@ -57,7 +56,8 @@ BackEnd::BackEnd(const EngineSettings& settings, PluginSet& plugins, base::Worke
       estimator_(settings, state),
       applier_(plugins.measurement, state, estimator_, pool, schedule,
                static_cast<std::size_t>(settings.engine.job_delay)),
-      kept_(settings.engine.cloud(), imagesThatOutputsNeed(plugins), state.map) {}
+      kept_(settings.engine.cloud(), imagesThatOutputsNeed(plugins), state.map),
+      evidence_(settings.engine.motion, plugins, state) {}
 
 void BackEnd::beginSession(const map::Session& session, const std::optional<SessionStart>& start) {
   chain_.beginSession(session, start, !absolute_.empty());
@@ -218,38 +218,6 @@ void BackEnd::conclude() {
   }
 }
 
-void BackEnd::judgeMap() {
-  auto evidence = input_evidence_;
-  const auto collect = [&](const auto& plugins, const auto& evidence_of) {
-    for (const auto& [section, plugin] : plugins) {
-      const auto timer = state_.times.measure(Stage::plugin, section);
-      auto some = evidence_of(*plugin);
-      evidence.insert(evidence.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
-    }
-  };
-  collect(plugins_.pose, [](const PosePlugin& plugin) { return plugin.evidence(); });
-  collect(plugins_.measurement, [this](const MeasurementPlugin& plugin) { return plugin.evidence(state_.view()); });
-  if (!state_.map_is_held) {
-    for (const auto& session : state_.map.sessions) {
-      const std::string name = "session_" + std::to_string(session.number);
-      const auto ties = derived::testedTies(state_.graph, session.number);
-      if (!session.aligned) {
-        evidence.push_back({name + "_not_aligned", 1, Evidence::Says::against_it,
-                            derived::alignedText(session) + " with the map and lies at its assumed start"});
-      } else if (ties.areMostlyRefused()) {
-        evidence.push_back({name + "_ties_refused", static_cast<double>(ties.refused), Evidence::Says::against_it,
-                            std::to_string(ties.refused) + " of the " + std::to_string(ties.refused + ties.accepted) +
-                                " measurements that tie session " + std::to_string(session.number) +
-                                " to the map do not fit, or were not confirmed"});
-      }
-    }
-  }
-  if (settings_.engine.motion == Motion::planar) {
-    if (auto tilted = judgeTilt(state_.map)) evidence.push_back(std::move(*tilted));
-  }
-  state_.verdict = mapper::conclude(std::move(evidence));
-}
-
 void BackEnd::resume() {
   estimator_.resume();
   kept_.posesChanged();
@@ -264,12 +232,20 @@ void BackEnd::restore(const std::string& section, MeasurementPlugin& plugin) {
   plugin.restore(saved ? &*saved : nullptr, state_.view());
 }
 
-void BackEnd::pluginsChanged(const std::vector<std::string>& added) {
+void BackEnd::pluginsChanged() {
   absolute_ = absoluteSections(plugins_);
   kept_.keepAtLeast(imagesThatOutputsNeed(plugins_));
-  if (state_.map.key_frames.empty()) return;
-  for (auto& [section, plugin] : plugins_.measurement)
-    if (std::count(added.begin(), added.end(), section) > 0) restore(section, *plugin);
+}
+
+void BackEnd::readLayersAgain(const map::LayerRegistry& readers) {
+  for (const auto& [name, layer] : map::Layers(state_.map.layers)) {
+    if (!dynamic_cast<const map::RawLayer*>(layer.get())) continue;
+    try {
+      state_.map.layers.set(name, readers.read(map::layerToSection(name, *layer)));
+    } catch (const base::Error& error) {
+      state_.warnings.push_back("the layer \"" + name + "\" of the map cannot be read: " + error.what());
+    }
+  }
 }
 
 // The states of these plugins replace those that they saved before; all other layers are kept.

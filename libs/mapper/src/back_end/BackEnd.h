@@ -15,6 +15,7 @@
 #include "back_end/BatchApplier.h"
 #include "back_end/Estimator.h"
 #include "back_end/KeptObservations.h"
+#include "back_end/MapEvidence.h"
 #include "back_end/PoseChain.h"
 #include "back_end/SlidingWindow.h"
 
@@ -56,13 +57,15 @@ class BackEnd {
   void findLevel();
   /// Applies the edits that plugins make at the end of the log (MeasurementPlugin::atEnd()).
   void conclude();
-  /// Collects the evidence of the plugins for and against the map into a verdict.
-  void judgeMap();
-  /// Evidence that judgeMap() adds to that of the plugins.
-  void setInputEvidence(std::vector<Evidence> evidence) { input_evidence_ = std::move(evidence); }
-  /// Must be called after plugins were added or removed, while there are no jobs. `added`: sections of measurement
-  /// plugins that have not restored their saved data yet.
-  void pluginsChanged(const std::vector<std::string>& added);
+  /// The evidence for and against the map, of which judge() makes the verdict.
+  MapEvidence& evidence() { return evidence_; }
+  /// Lets a plugin restore its saved data, and what it needs of the map.
+  void restore(const std::string& section, MeasurementPlugin& plugin);
+  /// Must be called after plugins were added or removed, while there are no jobs.
+  void pluginsChanged();
+  /// Reads the layers that were kept as bytes with these readers. One that cannot be read stays as it is, with a
+  /// warning.
+  void readLayersAgain(const map::LayerRegistry& readers);
   /// Puts the states that the plugins save for a later session into the layers of the map.
   void savePlugins();
 
@@ -71,7 +74,6 @@ class BackEnd {
   PoseChain& chain() { return chain_; }
 
  private:
-  std::vector<Evidence> input_evidence_;
   struct Gathered {
     std::vector<Perceived> perceived;
     std::vector<map::CloudPoint> cloud;
@@ -81,7 +83,6 @@ class BackEnd {
   void commit(base::KeyFrameId id);
   void solve(const graph::SolveOptions& options);
   bool isConfirmed() const;
-  void restore(const std::string& section, MeasurementPlugin& plugin);
   void addEstimate(base::KeyFrameId id);
 
   const EngineSettings& settings_;
@@ -93,6 +94,7 @@ class BackEnd {
   std::optional<SlidingWindow> window_;  // only in a run that localizes
   BatchApplier applier_;
   KeptObservations kept_;
+  MapEvidence evidence_;
 };
 
 }  // namespace omnimapper::mapper

@@ -66,6 +66,7 @@ void FrontEnd::add(const Arrival& arrival) {
   const bool is_watched = tellWatchers(*placed);
   // Without measurement plugins, the observations of the pose sources make the key frames.
   if (is_watched || perception_->wants(*placed) || (is_taken && plugins_.measurement.empty())) {
+    generation_of_.erase(placed.get());
     if (is_watched && arrival.generation > 0) generation_of_[placed.get()] = arrival.generation;
     if (!queue_.add(placed)) addLate(placed);
   } else if (!is_taken) {
@@ -121,6 +122,7 @@ void FrontEnd::addLate(const mrpt::obs::CObservation::Ptr& observation) {
   const auto newest = chain_.newest();
   if (newest && observation->timestamp + base::durationFromSeconds(options_.horizon) < *newest) {
     ++state_.counts.too_late;
+    generation_of_.erase(observation.get());
     return;
   }
   ++state_.counts.late;
@@ -134,14 +136,17 @@ void FrontEnd::close() {
 
 std::optional<FrameBundle> FrontEnd::next() {
   while (!isFull() && releaseNext()) continue;
-  if (bundles_.empty() || !schedule_.takesBundle(bundles_.front(), bundles_.size())) return std::nullopt;
-  return nextOfAll();
+  if (bundles_.empty()) return std::nullopt;
+  // What is only watched waits for nothing but its turn, so that it does not change when the other bundles are taken.
+  const bool is_taken = bundles_.front().isOnlyWatched() || schedule_.takesBundle(bundles_.front(), in_perception_);
+  return is_taken ? nextOfAll() : std::nullopt;
 }
 
 std::optional<FrameBundle> FrontEnd::nextOfAll() {
   if (bundles_.empty()) return std::nullopt;
   FrameBundle first = std::move(bundles_.front());
   bundles_.pop_front();
+  in_perception_ -= first.isOnlyWatched() ? 0 : 1;
   return first;
 }
 
@@ -177,11 +182,10 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
   FrameBundle bundle{group.stamp, false, {}, {}};
   std::vector<mrpt::obs::CObservation::ConstPtr> fired;
   for (const auto& observation : group.observations) {
-    if (isWatched(*observation)) {
-      const auto made = generation_of_.extract(observation.get());
-      bundle.watched.push_back({observation, made ? made.mapped() : 0});
-      if (!perception_->wants(*observation)) continue;
-    }
+    const auto made = generation_of_.extract(observation.get());
+    if (isWatched(*observation)) bundle.watched.push_back({observation, made ? made.mapped() : 0});
+    // Others were queued for watchers or for a plugin that has been removed since.
+    if (!plugins_.measurement.empty() && !perception_->wants(*observation)) continue;
     const auto usable = usablePart(observation);
     const bool fires = !usable ? false
                        : late  ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)

@@ -47,7 +47,7 @@ class FrontEnd {
   void pluginsChanged();
 
   /// Whether enough bundles wait for their perception that no more should be started.
-  bool isFull() const { return bundles_.size() > Schedule::kPipelineDepth; }
+  bool isFull() const { return in_perception_ > Schedule::kPipelineDepth; }
   /// Earliest stamp of the waiting bundles; late ones stand behind younger ones.
   std::optional<base::Stamp> oldestWaiting() const;
   /// Lets pose sources and trigger drop their data from before `stamp`.
@@ -78,6 +78,7 @@ class FrontEnd {
   std::unordered_map<const mrpt::obs::CObservation*, int> generation_of_;  // of the queued ones that watchers made
   std::string reference_sensor_;
   std::deque<FrameBundle> bundles_;
+  std::size_t in_perception_ = 0;  // of the bundles: all but those that are only watched
   bool closed_ = false;
 };
 

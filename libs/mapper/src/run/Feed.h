@@ -13,6 +13,7 @@
 
 #include "Engine.h"
 #include "run/MissingExtractors.h"
+#include "run/PluginDifference.h"
 
 namespace omnimapper::mapper {
 
@@ -47,11 +48,16 @@ class Feed {
   virtual void begin(const std::string& /*output_folder*/, const Stop& /*stop*/) {}
   /// Passes all observations to the engine. Returns true if `stop` ended it early.
   virtual bool feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) = 0;
-  /// Applies the plugins of an INI to the engine, and returns a sentence on what changed; empty if nothing did. Throws
-  /// base::Error if the INI does not allow it; nothing is changed then.
-  using ChangePlugins = std::function<std::string(const base::Config&)>;
+  /// How the plugins of the engine become those of another INI.
+  struct PluginChanger {
+    /// Makes the new plugins. Throws base::Error if the INI does not allow it; the run is as before then.
+    std::function<PluginDifference(const base::Config&)> prepare;
+    /// Changes the plugins and returns a sentence on what changed, or on why they could not be changed. Throws what the
+    /// work throws that is finished before.
+    std::function<std::string(PluginDifference, const base::Config&)> apply;
+  };
   /// Called before feed().
-  void setChangePlugins(ChangePlugins change) { change_plugins_ = std::move(change); }
+  void setPluginChanger(PluginChanger changer) { plugin_changer_ = std::move(changer); }
 
   /// Called when the outputs are in their final places in this folder.
   virtual void published(const std::string& /*output_folder*/) {}
@@ -68,7 +74,7 @@ class Feed {
   virtual std::vector<std::string> files() const { return {}; }
 
  protected:
-  ChangePlugins change_plugins_;
+  PluginChanger plugin_changer_;
 };
 
 /// Makes the feed that the request names. Throws Error if the INI does not suit it.

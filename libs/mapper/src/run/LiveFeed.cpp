@@ -145,29 +145,34 @@ void LiveFeed::attend(Engine& engine, base::Progress& progress) {
   progress.reportState(stateText(engine.view()));
 }
 
-// Lets plugins come and go if the user asks for it. A change is journalled with its INI, so that a replay changes the
-// same plugins at the same place. If it is not possible, the run goes on as it was.
+// Lets plugins come and go if the user asks for it. The change is journalled with its INI before it is made, so that a
+// replay does the same at the same place, even if the new plugins turn out not to fit the map.
 void LiveFeed::changePlugins(Engine& engine, base::Progress& progress) {
   if (!changed_config_) return;
+  std::optional<base::Config> config;
+  PluginDifference difference;
   try {
-    const auto config = changed_config_();
+    config = changed_config_();
     if (!config) return;
-    const std::string changed = change_plugins_(*config);
-    if (changed.empty()) return progress.reportEvent("the INI was read again: no plugin of it has changed");
-    if (trace_->journal) {
-      const std::string journal = recording_ + "/" + title_ + ".journal";
-      base::writeFile(live::iniOf(journal, ++changes_), [&](std::ostream& out) {
-        out << base::kWrittenFromALog << ": change " << changes_ << " of the plugins during " << title_ << ".\n"
-            << config->text();
-      });
-      trace_->note(Kind::plugins, changes_);
-    }
-    progress.reportEvent(changed);
+    difference = plugin_changer_.prepare(*config);
+    if (difference.isNone()) return progress.reportEvent("the INI was read again: no plugin of it has changed");
+    if (trace_->journal) writeChange(*config);
   } catch (const base::Error& error) {
     const std::string problem = "the plugins stay as they were: " + base::sentenceOf(error);
     progress.reportEvent(problem);
     engine.warn(problem);
+    return;
   }
+  trace_->note(Kind::plugins, ++changes_);
+  progress.reportEvent(plugin_changer_.apply(std::move(difference), *config));
+}
+
+void LiveFeed::writeChange(const base::Config& config) const {
+  const std::string journal = recording_ + "/" + title_ + ".journal";
+  base::writeFile(live::iniOf(journal, changes_ + 1), [&](std::ostream& out) {
+    out << base::kWrittenFromALog << ": change " << changes_ + 1 << " of the plugins during " << title_ << ".\n"
+        << config.text();
+  });
 }
 
 // Judges the map. The engine waits meanwhile, and the time this takes grows with the map, so the interval does as well.

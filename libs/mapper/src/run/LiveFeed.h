@@ -45,6 +45,7 @@ class LiveFeed : public Feed {
   void attend(Engine& engine, base::Progress& progress);
   void judge(Engine& engine);
   void changePlugins(Engine& engine, base::Progress& progress);
+  void writeChange(const base::Config& config) const;
   void warnOfSensors(Engine& engine) const;
   LiveMetrics metrics() const;
   std::string stateText(const View& view) const;

@@ -22,6 +22,7 @@
 #include "run/Feed.h"
 #include "run/MissingExtractors.h"
 #include "run/PluginDifference.h"
+#include "run/RunFailures.h"
 #include "run/RunWarnings.h"
 #include "run/SensorLabels.h"
 #include "sessions/MapLoader.h"
@@ -49,73 +50,6 @@ std::vector<std::string> labelledSections(const EngineOptions& options, const Pe
     sections.insert(sections.end(), names->begin(), names->end());
   }
   return sections;
-}
-
-// An empty map is not written, because it would replace a good one.
-[[noreturn]] void failWithNothingToMap(const Feed& feed, const std::string& ini, const RunResult& result,
-                                       const std::vector<std::string>& unknown_labels,
-                                       const std::string& missing_extractors) {
-  std::string labels;
-  for (const auto& sentence : unknown_labels) labels += sentence + "\n";
-  const bool is_whole = result.code == base::ExitCode::ok || result.code == base::ExitCode::mostly_left_out;
-  if (is_whole && result.source.sensors.empty() && result.source.unusable.empty()) {
-    throw base::Error(base::ExitCode::nothing_to_map, feed.name() + ": nothing to map: no observation was received; " +
-                                                          feed.whatStays() + ". " + feed.checkHint() + ".");
-  }
-  if (2 * result.source.zeroStamps() > result.source.observations()) {
-    labels +=
-        std::to_string(result.source.zeroStamps()) + " of " +
-        base::counted(static_cast<std::size_t>(result.source.observations()), "observation") +
-        " have no stamp and were left out; set [source] step_s to the period of the sensor that is read most often.\n";
-  }
-  const std::string how = result.code == base::ExitCode::interrupted ? "interrupted before the first" : "no";
-  throw base::Error(
-      is_whole ? base::ExitCode::nothing_to_map : result.code,
-      feed.name() + ": nothing to map: " + how + " observation that a measurement plugin of " + ini + " wants" +
-          (is_whole ? " (see its [source], [perception] extractors and [mapper] measurement_plugins)" : "") + "; " +
-          feed.whatStays() + ". " + feed.checkHint() + ".\n" + missing_extractors + labels + "What was read:\n" +
-          result.source.text());
-}
-
-// Without measured motion the map is refused: all key frames would get the same pose.
-[[noreturn]] void failWithNoMotion(const Feed& feed, const std::string& ini, const RunResult& result,
-                                   const std::vector<std::string>& idle) {
-  throw base::Error(
-      result.code == base::ExitCode::ok ? base::ExitCode::nothing_to_map : result.code,
-      feed.name() +
-          ": nothing to map: the motion of the sensors cannot be determined, because there are no observations for " +
-          base::option_text::format(idle) + " of " + ini + "; " + feed.whatStays() +
-          ". omnimapper-graphslam --check names the INIs that fit this log.\n" + "What was read:\n" +
-          result.source.text());
-}
-
-// Fails after the trajectory was written: its place in the map is only that of [session] start.
-[[noreturn]] void failWithNoPlace(const RunRequest& request, const RunResult& result, SessionOptions::Start start) {
-  const bool was_sought = start == SessionOptions::Start::anywhere;
-  const bool was_compared = result.closures + result.refused_closures > 0;
-  const std::string report = result.output_folder + "/report.html";
-  if (result.code == base::ExitCode::interrupted)
-    throw base::Error(result.code,
-                      request.localize_map + ": the run was interrupted before the log was located in the map");
-  const auto code = result.code == base::ExitCode::ok ? base::ExitCode::not_located : result.code;
-  if (result.awaits_confirmation) {
-    throw base::Error(code,
-                      request.localize_map +
-                          ": the log was located nowhere in the map: one place fits, but the log ends before a second "
-                          "match confirms it; drive some metres further. The place is among the decisions in " +
-                          report);
-  }
-  throw base::Error(
-      code,
-      request.localize_map +
-          ": the log was located nowhere in the map: was it recorded in another place? If not, set " +
-          (was_sought ? "" : "[session] start = anywhere, which searches the whole map, or ") +
-          "another start (origin, pose). " +
-          (was_compared
-               ? "The refused closures with their reasons are in " + report
-               : "No loop closure with the map was considered; what was tried is among the decisions in " + report +
-                     ". To compare laser scans, use an INI with a LoopClosurePlugin; without scans the "
-                     "map needs landmarks of the kinds that the INI measures"));
 }
 
 RunResult resultOf(const View& view) {
@@ -159,7 +93,8 @@ class Run {
 
  private:
   void makeEngine();
-  std::string changePlugins(const base::Config& next);
+  PluginDifference prepareChange(const base::Config& next);
+  std::string applyChange(PluginDifference difference, const base::Config& next);
   void judgeInput();
   std::vector<std::string> warn(const RunResult& result);
   void publish(const std::vector<base::Error>& failures, RunResult& result);
@@ -207,17 +142,17 @@ void Run::open() {
                   ": [session] gives the start of a log in a map that it continues or is localized in; without "
                   "--continue or --localize it has no effect");
   if (engine_->plugins().measurement.empty() && (localizes() || !request_.continue_map.empty())) {
-    throw base::Error(base::ExitCode::command_line,
-                      config_.file() +
-                          ": it has no plugin that can tie a log to a map: --continue and --localize need one of " +
-                          "[mapper] measurement_plugins, such as loop_closure for a laser, or landmarks");
+    failWithNoTie(config_.file());
   }
   loadMapInto(request_, session_, config_, settings_.engine.motion, *engine_);
   feed_->open(stop_);
   kept_.emplace(feed_->inputs());
   outputs_.open();
   refuseToReplaceRun();
-  feed_->setChangePlugins([this](const base::Config& next) { return changePlugins(next); });
+  feed_->setPluginChanger({[this](const base::Config& next) { return prepareChange(next); },
+                           [this](PluginDifference difference, const base::Config& next) {
+                             return applyChange(std::move(difference), next);
+                           }});
   feed_->begin(outputs_.folder(), stop_);
 }
 
@@ -244,23 +179,35 @@ void Run::makeEngine() {
 }
 
 // Settings of other sections than those of plugins hold until the run ends.
-std::string Run::changePlugins(const base::Config& next) {
-  const base::Config& present = changed_config_ ? *changed_config_ : config_;
-  auto difference = differenceOf(present, next, request_.more_outputs, context_);
+PluginDifference Run::prepareChange(const base::Config& next) {
+  std::vector<std::string> looked_at;
+  for (const auto& [section, plugin] : engine_->plugins().output)
+    if (plugin->isLookedAt()) looked_at.push_back(section);
+  auto difference =
+      differenceOf(changed_config_ ? *changed_config_ : config_, next, request_.more_outputs, context_, looked_at);
   if (!difference.unused.empty())
     engine_->warn("a change of the INI during the run needs a new run to have an effect: " +
                   base::option_text::format(difference.unused));
-  if (difference.isNone()) return "";
-  std::set<std::string> measuring(difference.change.order.measurement.begin(),
-                                  difference.change.order.measurement.end());
-  engine_->changePlugins(std::move(difference.change));
+  if (difference.change.order.measurement.empty() && (localizes() || !request_.continue_map.empty()))
+    failWithNoTie(next.file());
+  return difference;
+}
+
+std::string Run::applyChange(PluginDifference difference, const base::Config& next) {
+  const std::string changed = "the plugins were changed: " + difference.sentence();
+  const auto order = difference.change.order;
+  const std::string problem = engine_->changePlugins(std::move(difference.change));
+  if (!problem.empty()) {
+    engine_->warn("the plugins stay as they were: " + problem);
+    return "the plugins stay as they were: " + problem;
+  }
+  measuring_.insert(order.measurement.begin(), order.measurement.end());
   for (const auto& [section, plugin] : engine_->plugins().pose)
-    if (!plugin->isFallback()) measuring.insert(section);
-  measuring_ = std::move(measuring);
+    if (!plugin->isFallback()) measuring_.insert(section);
   changed_config_ = next;
-  const std::string sentence = "the plugins were changed: " + difference.sentence();
-  engine_->note(sentence);
-  return sentence;
+  context_.config_text = next.text();
+  engine_->note(changed);
+  return changed;
 }
 
 void Run::feed() {

@@ -34,6 +34,12 @@ bool isList(const std::string& difference) {
   return false;
 }
 
+// Whether it is about a plugin that no list names.
+bool isOfUnlisted(const std::string& section, const base::Config& config) {
+  std::string name;
+  return config.section(section).find("class", name);
+}
+
 // Adds to `difference` what changes in one of the lists; returns the sections to make.
 Names compare(const Names& before, const Names& now, const std::set<std::string>& other_settings,
               PluginDifference& difference) {
@@ -48,6 +54,8 @@ Names compare(const Names& before, const Names& now, const std::set<std::string>
     (has(before, section) ? difference.renewed : difference.added).push_back(section);
     to_make.push_back(section);
   }
+  const bool has_same = std::is_permutation(before.begin(), before.end(), now.begin(), now.end());
+  difference.is_reordered = difference.is_reordered || (has_same && before != now);
   return to_make;
 }
 
@@ -62,21 +70,25 @@ std::string PluginDifference::sentence() const {
   append(text, "added", added);
   append(text, "removed", removed);
   append(text, "gave other settings to", renewed);
+  if (is_reordered) text += std::string(text.empty() ? "" : "; ") + "changed the order";
   return text;
 }
 
 PluginDifference differenceOf(const base::Config& before, const base::Config& now, const Names& more_outputs,
-                              const PluginContext& context) {
-  const auto of_before = sectionsOf(before, more_outputs), of_now = sectionsOf(now, more_outputs);
+                              PluginContext context, const Names& kept) {
+  Names more = more_outputs;
+  more.insert(more.end(), kept.begin(), kept.end());
+  const auto of_before = sectionsOf(before, more_outputs), of_now = sectionsOf(now, more);
   std::set<std::string> plugins, other_settings;
   for (const auto* list : {&of_now.pose, &of_now.extractors, &of_now.measurement, &of_now.output, &of_before.pose,
                            &of_before.extractors, &of_before.measurement, &of_before.output})
     plugins.insert(list->begin(), list->end());
   PluginDifference difference;
   for (const auto& each : base::iniDifferences(now.text(), before.text())) {
-    if (plugins.count(sectionOf(each)) > 0) {
-      other_settings.insert(sectionOf(each));
-    } else if (!isList(each)) {
+    const std::string section = sectionOf(each);
+    if (plugins.count(section) > 0 && std::count(kept.begin(), kept.end(), section) == 0) {
+      other_settings.insert(section);
+    } else if (!isList(each) && (plugins.count(section) > 0 || !isOfUnlisted(section, now))) {
       difference.unused.push_back(each);
     }
   }
@@ -85,7 +97,14 @@ PluginDifference differenceOf(const base::Config& before, const base::Config& no
   to_make.extractors = compare(of_before.extractors, of_now.extractors, other_settings, difference);
   to_make.measurement = compare(of_before.measurement, of_now.measurement, other_settings, difference);
   to_make.output = compare(of_before.output, of_now.output, other_settings, difference);
-  loadPluginLibraries(now);
+  const auto libraries = [](const base::Config& config) {
+    return config.section("mapper").read<EngineOptions>().plugin_libraries;
+  };
+  if (libraries(now) != libraries(before)) {
+    loadPluginLibraries(now);
+    difference.change.layers = registeredKinds().layers;
+  }
+  context.config_text = now.text();
   difference.change.added = makePlugins(to_make, now, context);
   difference.change.removed = difference.removed;
   difference.change.removed.insert(difference.change.removed.end(), difference.renewed.begin(),

@@ -112,6 +112,12 @@ void makeAll(const std::vector<std::string>& names, PluginKind kind, const base:
                                                           "] is named twice; name it once, or give the second a " +
                                                           "section of its own");
     }
+    constexpr std::size_t kLongest = 200;  // with more a map file could not hold the plugin's state
+    if (name.size() > kLongest) {
+      throw base::Error(base::ExitCode::out_of_range, config.file() + ": the name of a " + toString(kind) + " is " +
+                                                          std::to_string(name.size()) + " bytes long; give it one of " +
+                                                          "at most " + std::to_string(kLongest));
+    }
     if (!config.has(name)) failWithoutSection(name, kind, config);
     const std::string place = config.placeOf(name, "class") + ": [" + name + "]";
     const auto section = config.section(name);

@@ -161,7 +161,14 @@ void ReplayFeed::changePlugins(std::uint64_t number, Engine& engine) {
     throw base::Error(base::ExitCode::unreadable_input,
                       live::iniOf(path_, number) + ": the INI of " + which + " is missing beside the journal");
   }
-  change_plugins_(base::Config::fromFile(*ini));
+  try {
+    const auto config = base::Config::fromFile(*ini);
+    auto difference = plugin_changer_.prepare(config);
+    plugin_changer_.apply(std::move(difference), config);
+  } catch (const base::Error& error) {
+    engine.warn(which + " is left out: " + base::sentenceOf(error));
+    depart(engine);
+  }
 }
 
 // Maps the observations after the end of a journal that was cut off.

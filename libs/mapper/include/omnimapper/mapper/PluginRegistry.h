@@ -3,6 +3,7 @@
 #include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct PluginChange {
   std::vector<std::string> removed;  ///< sections of plugins of any kind
   PluginSet added;                   ///< a section that is also in `removed` is a plugin with new settings
   PluginSections order;              ///< all plugins after the change, in their order
+  /// Readers of layers that were kept as bytes so far, if libraries of plugins were loaded for the change.
+  std::optional<map::LayerRegistry> layers;
 };
 
 /// Makes every plugin from its section. Throws base::Error as findFactory() and the factories do.

@@ -55,7 +55,8 @@ class Batch {
     merges_.push_back({from, into, std::move(payload)});
   }
 
-  /// Adds the layer of the map or replaces that of the same name (map/Layers.h).
+  /// Adds the layer of the map or replaces that of the same name (map/Layers.h). A layer may not refer to what this
+  /// batch adds or removes: provisional ids are not replaced in it.
   template <class T>
   void setLayer(T value, const std::string& name = T::kLayer) {
     setLayer(name, std::make_shared<const map::LayerOf<T>>(std::move(value)));

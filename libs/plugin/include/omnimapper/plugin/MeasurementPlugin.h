@@ -67,9 +67,9 @@ class MeasurementPlugin {
   /// the layer. None if frames, landmarks and graph suffice. What other plugins, outputs or queries read is a layer of
   /// its own (Batch::setLayer()).
   virtual std::optional<map::MapSection> save() const { return std::nullopt; }
-  /// Called once, before the first observation, when a map is continued: restores what save() returned and what the
-  /// plugin needs of earlier sessions. `saved` is null if the file has no section of the plugin. Throws
-  /// Error(unreadable_input).
+  /// Called once, before the first observation that the plugin gets, when a map is continued or the plugin is added to
+  /// a run that goes on: restores what save() returned and what the plugin needs of the map. `saved` is null if the
+  /// file has no section of the plugin. Throws Error(unreadable_input).
   virtual void restore(const map::MapSection* /*saved*/, const View& /*view*/) {}
 };
 

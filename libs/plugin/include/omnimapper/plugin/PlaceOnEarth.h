@@ -29,7 +29,7 @@ struct PlaceOnEarth {
   map::LayerReferences references() const { return {{}, {}, {map_from_enu}}; }
 };
 
-/// The place on earth of a map; null if it is not known, or if its variable is no longer in the graph.
+/// The place on earth of a map; null if it is not known, or if its variable is no longer in the graph or no pose.
 const PlaceOnEarth* placeOnEarth(const State& state);
 
 /// Earlier programs wrote the place into the state of the plugin that knew it. If `layers` have no place on earth, this

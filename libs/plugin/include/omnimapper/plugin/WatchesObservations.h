@@ -42,10 +42,11 @@ class WatchesObservations {
   /// Depends only on the observation and the options.
   virtual bool watches(const mrpt::obs::CObservation& observation) const = 0;
   /// Called on arrival, in the order of arrival and before the observation waits for those of slower sensors. It must
-  /// not take long.
+  /// not take long. If the observation is too late for the map, or the plugin is removed meanwhile, watch() does not
+  /// follow; for a plugin that was added meanwhile, watch() comes without this.
   virtual void arrived(const mrpt::obs::CObservation& /*observation*/) {}
   /// Called in the order of stamps, except for late observations, and after the observations of the same stamp became
-  /// part of the map.
+  /// part of the map. What the answer adds to the graph is solved with the next key frame.
   virtual WatchResult watch(const Watched& watched, const View& view) = 0;
 };
 
