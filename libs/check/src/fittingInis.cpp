@@ -67,8 +67,8 @@ std::vector<FittingIni> fittingInis(const LogFacts& facts) {
   }
   if (holds<mrpt::obs::CObservation3DRangeScan>(facts) && !has_laser && !has_odometry) {
     inis.push_back({"ini/rgbd_handheld.ini",
-                    "trajectory and points of a range camera, from its images alone",
-                    {{"visual_odometry", "no_motion"}, {}, {"view_links"}, false}});
+                    "trajectory, planes and points of a range camera, from its images alone",
+                    {{"visual_odometry", "no_motion"}, {"planes"}, {"view_links", "plane_landmarks"}, false}});
   }
   if (has_odometry && holds<mrpt::obs::CObservationBearingRange>(facts)) {
     inis.push_back({"ini/landmarks.ini",
