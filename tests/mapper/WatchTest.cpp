@@ -155,6 +155,18 @@ TEST_F(Watch, anAnswerIsTakenLikeAnyObservation) {
   EXPECT_NEAR(view.map.key_frames[2].map_from_base.x(), 1.5, 1e-9);
 }
 
+TEST_F(Watch, manyObservationsBesideARobotThatRestsKeepNobodyWaiting) {
+  auto* watcher = add("watcher", {"person"});
+  engine_ = std::make_unique<Engine>(settings_, "watched", SensorPoses(), std::move(set_), 1);
+  engine_->add(comment("frame", 0));
+  for (int i = 1; i <= 100; ++i) {
+    engine_->add(comment("person", 0.01 * i, "."));
+    EXPECT_FALSE(engine_->isBusy());
+  }
+  engine_->finish();
+  EXPECT_EQ(watcher->seen.size(), 100u);
+}
+
 TEST_F(Watch, pluginsThatAnswerEachOtherEnd) {
   auto* one = add("one", {"ping"});
   auto* other = add("other", {"pong"});

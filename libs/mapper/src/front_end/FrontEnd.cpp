@@ -199,8 +199,9 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     bundle.reference = bundle.reference || observation->sensorLabel == reference_sensor_;
   }
   for (const auto& raw : fired) bundle.observations.push_back(perception_->submit(raw, fired));
-  if (!bundle.observations.empty() || bundle.reference || !bundle.watched.empty())
-    bundles_.push_back(std::move(bundle));
+  if (bundle.isOnlyWatched() && bundle.watched.empty()) return;
+  in_perception_ += bundle.isOnlyWatched() ? 0 : 1;
+  bundles_.push_back(std::move(bundle));
 }
 
 std::optional<base::Stamp> FrontEnd::oldestWaiting() const {
