@@ -55,11 +55,11 @@ void expectAbsent(const std::string& folder, const std::string& pattern, const s
 void expectAbsentFromText(const std::string& pattern, const std::string& why) {
   const std::regex regex(pattern);
   std::vector<path> all;
-  for (const char* folder : {"libs", "apps", "tests", "scripts", "cmake", "ini", "doc", ".ci"}) {
+  for (const char* folder : {"libs", "apps", "tests", "scripts", "cmake", "ini", "doc", ".ci", ".github"}) {
     const auto below = files(folder, {".h", ".cpp", ".txt", ".cmake", ".in", ".ini", ".md", ".sh", ""});
     all.insert(all.end(), below.begin(), below.end());
   }
-  for (const char* file : {"CMakeLists.txt", "README.md", "CONTRIBUTING.md", "CHANGELOG.md"}) {
+  for (const char* file : {"CMakeLists.txt", "README.md", "CONTRIBUTING.md", "CHANGELOG.md", "AGENTS.md"}) {
     all.emplace_back(omnimapper::testing::sourceFile(file));
   }
   for (const path& file : all) {

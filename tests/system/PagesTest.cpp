@@ -22,7 +22,7 @@ std::vector<path> pages() {
     const auto more = files(folder, {".md"});
     all.insert(all.end(), more.begin(), more.end());
   }
-  for (const char* page : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"})
+  for (const char* page : {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "AGENTS.md"})
     all.emplace_back(omnimapper::testing::sourceFile(page));
   return all;
 }
