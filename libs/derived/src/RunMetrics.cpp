@@ -1,3 +1,4 @@
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/derived/RunMetrics.h>
 #include <omnimapper/map/SessionMetrics.h>
 
@@ -30,8 +31,14 @@ RunMetrics metricsOf(const mapper::View& view, const std::vector<map::StampedPos
   metrics.refused_closures = closures.refused;
   metrics.localized = view.localization.size();
   for (const auto& estimate : view.localization) metrics.located += estimate.located();
-  for (const auto& [stage, total] : view.times.totals()) metrics.wall_seconds += total.seconds;
+  metrics.mapping_seconds = view.times.mappingSeconds();
   return metrics;
+}
+
+std::string paceText(double run_seconds, double mapping_seconds) {
+  if (run_seconds <= 0 || mapping_seconds <= 0) return {};
+  const double pace = run_seconds / mapping_seconds;
+  return base::fixed(pace, pace < 10 ? 1 : 0);
 }
 
 std::vector<map::StampedPose> trajectoryOf(const mapper::View& view) {

@@ -1,5 +1,6 @@
 #include <mrpt/opengl/stock_objects.h>
 #include <omnimapper/derived/SceneParts.h>
+#include <omnimapper/derived/SessionColours.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,18 +42,27 @@ CGridPlaneXY::Ptr groundOf(const map::Map& map) {
   return ground;
 }
 
-CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory) {
-  auto lines = CSetOfLines::Create();
-  lines->setName("trajectory");
-  lines->setColor_u8(TColor(37, 99, 235));
-  lines->setLineWidth(3);
-  lines->reserve(trajectory.size());
+CSetOfObjects::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory) {
+  const auto linesOf = [](const char* name, const draw::Rgb& colour) {
+    auto lines = CSetOfLines::Create();
+    lines->setName(name);
+    lines->setColor_u8(TColor(colour.r, colour.g, colour.b));
+    lines->setLineWidth(3);
+    return lines;
+  };
+  const auto newest = linesOf("newest session", kNewestSession),
+             earlier = linesOf("earlier sessions", kEarlierSessions);
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     if (trajectory[i].session != trajectory[i - 1].session) continue;
-    appendLine(*lines, trajectory[i - 1].map_from_base.translation(), trajectory[i].map_from_base.translation(),
+    appendLine(trajectory[i].session == trajectory.back().session ? *newest : *earlier,
+               trajectory[i - 1].map_from_base.translation(), trajectory[i].map_from_base.translation(),
                kTrajectoryHeight);
   }
-  return lines;
+  auto group = CSetOfObjects::Create();
+  group->setName("trajectory");
+  if (earlier->size() > 0) group->insert(earlier);
+  group->insert(newest);
+  return group;
 }
 
 CSetOfObjects::Ptr keyFrameCorners(const map::Map& map, double spacing) {

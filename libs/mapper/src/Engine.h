@@ -71,6 +71,8 @@ class Engine {
   void setLeftOut(std::size_t observations) { state_.counts.left_out = observations; }
   /// Sets the metrics of a live run that the summary shows.
   void setLive(LiveMetrics metrics) { state_.live = std::move(metrics); }
+  /// Sets the wall time that the map took, for the outputs.
+  void setMappingSeconds(double seconds) { state_.times.setMappingSeconds(seconds); }
   /// Measures time spent outside the engine, such as reading the log.
   StageTimes::Timer measure(Stage stage) { return state_.times.measure(stage); }
 

@@ -3,6 +3,7 @@
 #include <omnimapper/derived/LandmarkColours.h>
 #include <omnimapper/derived/PlanShape.h>
 #include <omnimapper/derived/ScaleBar.h>
+#include <omnimapper/derived/SessionColours.h>
 #include <omnimapper/draw/Legend.h>
 #include <omnimapper/geometry/Simplify.h>
 
@@ -16,7 +17,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr draw::Rgb kPaper{255, 255, 255}, kTrack{37, 99, 235}, kClosure{22, 163, 74};
+constexpr draw::Rgb kPaper{255, 255, 255}, kClosure{22, 163, 74};
 
 draw::PixelPoint pixelOf(const derived::GridPicture& grid, const mrpt::math::TPoint3D& point) {
   return grid.pixelOf(point.x, point.y);
@@ -35,8 +36,8 @@ void drawBroken(draw::Image& image, draw::PixelPoint from, draw::PixelPoint to, 
   }
 }
 
-void drawAreas(draw::Image& image, const derived::GridPicture& grid, const std::vector<derived::ShapedLandmark>& landmarks,
-               double width) {
+void drawAreas(draw::Image& image, const derived::GridPicture& grid,
+               const std::vector<derived::ShapedLandmark>& landmarks, double width) {
   for (const auto& landmark : landmarks) {
     const auto& label = landmark.shape.label;
     if (derived::coversThePlan(label)) continue;
@@ -73,8 +74,8 @@ void drawLinesAndPoints(draw::Image& image, const derived::GridPicture& grid,
 }
 
 // Draws the texts of signs beside their dots. The font has ASCII letters only.
-void drawCaptions(draw::Image& image, const derived::GridPicture& grid, const std::vector<derived::ShapedLandmark>& landmarks,
-                  double width) {
+void drawCaptions(draw::Image& image, const derived::GridPicture& grid,
+                  const std::vector<derived::ShapedLandmark>& landmarks, double width) {
   for (const auto& landmark : landmarks) {
     const derived::PlanShape plan = derived::fromAbove(landmark.shape);
     if (landmark.shape.caption.empty() || landmark.isFaint() || plan.points.empty()) continue;
@@ -88,8 +89,21 @@ void drawCaptions(draw::Image& image, const derived::GridPicture& grid, const st
   }
 }
 
-// The legend of landmark colours with counts, the most frequent first.
-std::vector<draw::LegendRow> legendOf(const std::vector<derived::ShapedLandmark>& landmarks) {
+void drawTracks(draw::Image& image, const std::vector<SessionPath>& paths, double width) {
+  const auto colourOf = [](const SessionPath& path) {
+    return path.is_newest ? derived::kNewestSession : derived::kEarlierSessions;
+  };
+  for (const auto& path : paths) drawPath(image, path.points, {colourOf(path), width, 0.9});
+  for (const auto& path : paths) {
+    drawDot(image, path.points.front(), {colourOf(path), 7 * width});
+    drawDot(image, path.points.front(), {kPaper, 4 * width});
+    drawDot(image, path.points.back(), {kPaper, 8 * width});
+    drawDot(image, path.points.back(), {colourOf(path), 6 * width});
+  }
+}
+
+// The legend of the colours of sessions, if there are several, and of landmarks with counts, the most frequent first.
+std::vector<draw::LegendRow> legendOf(const std::vector<derived::ShapedLandmark>& landmarks, std::size_t sessions) {
   std::map<std::string, int> counts;
   for (const auto& landmark : landmarks)
     if (landmark.isSomewhere() && !derived::coversThePlan(landmark.shape.label)) ++counts[landmark.shape.label];
@@ -97,6 +111,9 @@ std::vector<draw::LegendRow> legendOf(const std::vector<derived::ShapedLandmark>
   for (const auto& [label, count] : counts) by_count.emplace_back(-count, label);
   std::sort(by_count.begin(), by_count.end());
   std::vector<draw::LegendRow> rows;
+  if (sessions > 1)
+    rows = {{derived::kNewestSession, "newest session"},
+            {derived::kEarlierSessions, "earlier: " + std::to_string(sessions - 1)}};
   for (const auto& [count, label] : by_count)
     rows.push_back({derived::colourOfLabel(label), label + ": " + std::to_string(-count)});
   return rows;
@@ -117,18 +134,12 @@ draw::Image drawMap(const derived::GridPicture& grid, const std::vector<derived:
     drawLine(image, pixelOf(grid, closure.from), pixelOf(grid, closure.to), {kClosure, width, 0.6});
   }
   const auto paths = simplifiedPaths(grid, trajectory, 0.25);
-  for (const auto& path : paths) drawPath(image, path, {kTrack, width, 0.9});
-  for (const auto& path : paths) {
-    drawDot(image, path.front(), {kTrack, 7 * width});
-    drawDot(image, path.front(), {kPaper, 4 * width});
-    drawDot(image, path.back(), {kPaper, 8 * width});
-    drawDot(image, path.back(), {kTrack, 6 * width});
-  }
+  drawTracks(image, paths, width);
   drawCaptions(image, grid, landmarks, width);
   derived::drawScaleBar(image, grid);
   constexpr int kColumns = 6,
                 kSideOfALetter = 800;  // [px] length of the longer side for which letters grow by 6 by 13 px
-  draw::drawLegend(image, legendOf(landmarks), kColumns,
+  draw::drawLegend(image, legendOf(landmarks, paths.size()), kColumns,
                    std::max(1, std::max(image.width, image.height) / kSideOfALetter));
   return image;
 }
@@ -148,7 +159,8 @@ std::vector<mrpt::math::TPoint3D> placesOf(const std::vector<map::StampedPose>& 
 }
 
 std::optional<derived::GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory,
-                                        const std::vector<derived::ShapedLandmark>& landmarks, double margin, int side) {
+                                                 const std::vector<derived::ShapedLandmark>& landmarks, double margin,
+                                                 int side) {
   const auto places = placesOf(trajectory, landmarks);
   if (places.empty()) return std::nullopt;
   double min_x = places.front().x, max_x = min_x, min_y = places.front().y, max_y = min_y;
@@ -168,20 +180,20 @@ std::optional<derived::GridPicture> emptyPicture(const std::vector<map::StampedP
   return picture;
 }
 
-std::vector<std::vector<draw::PixelPoint>> simplifiedPaths(const derived::GridPicture& grid,
-                                                           const std::vector<map::StampedPose>& trajectory,
-                                                           double tolerance) {
+std::vector<SessionPath> simplifiedPaths(const derived::GridPicture& grid,
+                                         const std::vector<map::StampedPose>& trajectory, double tolerance) {
   std::vector<std::vector<Eigen::Vector2d>> sessions;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     if (i == 0 || trajectory[i].session != trajectory[i - 1].session) sessions.emplace_back();
     const draw::PixelPoint pixel = pixelOf(grid, trajectory[i].map_from_base.translation());
     sessions.back().emplace_back(pixel.x, pixel.y);
   }
-  std::vector<std::vector<draw::PixelPoint>> paths;
+  std::vector<SessionPath> paths;
   for (const auto& session : sessions) {
     auto& path = paths.emplace_back();
+    path.is_newest = paths.size() == sessions.size();
     for (const std::size_t i : geometry::keptOfLine(session, tolerance))
-      path.push_back({session[i].x(), session[i].y()});
+      path.points.push_back({session[i].x(), session[i].y()});
   }
   return paths;
 }

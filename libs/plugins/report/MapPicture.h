@@ -12,7 +12,7 @@ namespace omnimapper::plugins {
 
 /// The map from above as a picture: the grid; landmarks in the colours of LandmarkColours.h, upright ones as thick
 /// lines (thin if they were rarely measured), all others but floors and ceilings as areas, moved ones dashed; the
-/// trajectory with its start (ring) and end (dot); accepted closures; a scale bar.
+/// trajectory with its start (ring) and end (dot) in the colours of SessionColours.h; accepted closures; a scale bar.
 draw::Image drawMap(const derived::GridPicture& grid, const std::vector<derived::ShapedLandmark>& landmarks,
                     const std::vector<map::StampedPose>& trajectory, const std::vector<derived::Closure>& closures);
 
@@ -23,12 +23,16 @@ std::vector<mrpt::math::TPoint3D> placesOf(const std::vector<map::StampedPose>& 
 /// An empty picture that covers the trajectory and the landmarks with a margin of `margin` [m], at most `side` pixels
 /// long: the background for a map without scans. None if there are neither.
 std::optional<derived::GridPicture> emptyPicture(const std::vector<map::StampedPose>& trajectory,
-                                        const std::vector<derived::ShapedLandmark>& landmarks, double margin, int side);
+                                                 const std::vector<derived::ShapedLandmark>& landmarks, double margin,
+                                                 int side);
 
-/// The trajectory in pixels, one path for each session, without points that change it by less than `tolerance`
-/// [pixels].
-std::vector<std::vector<draw::PixelPoint>> simplifiedPaths(const derived::GridPicture& grid,
-                                                           const std::vector<map::StampedPose>& trajectory,
-                                                           double tolerance);
+/// The trajectory of a session in pixels.
+struct SessionPath {
+  std::vector<draw::PixelPoint> points;
+  bool is_newest = true;
+};
+/// One path for each session, without points that change it by less than `tolerance` [pixels].
+std::vector<SessionPath> simplifiedPaths(const derived::GridPicture& grid,
+                                         const std::vector<map::StampedPose>& trajectory, double tolerance);
 
 }  // namespace omnimapper::plugins

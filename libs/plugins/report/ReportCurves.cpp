@@ -16,9 +16,13 @@ namespace {
 constexpr std::size_t kMostNumberCharts = 6;
 
 std::string drawCost(const std::vector<mapper::SolveRecord>& solves) {
-  Chart chart{"Cost of the graph", "key frames at the solve", "half the weighted square error", true, {}};
-  ChartSeries before{"before the solve", 2, ChartSeries::Form::dots, {}, {}};
-  ChartSeries after{"after the solve", 1, ChartSeries::Form::line, {}, {}};
+  Chart chart{"Disagreement of the measurements",
+              "key frames when it was optimized",
+              "half the weighted square error",
+              true,
+              {}};
+  ChartSeries before{"before optimizing", 2, ChartSeries::Form::dots, {}, {}};
+  ChartSeries after{"after optimizing", 1, ChartSeries::Form::line, {}, {}};
   constexpr double kNone = 1e-3;  // smaller values are rounding errors and would stretch the axis
   for (const mapper::SolveRecord& solve : solves) {
     const auto at = static_cast<double>(solve.key_frames);
@@ -45,7 +49,7 @@ std::string drawNumbers(const mapper::View& view) {
       if (added) {
         names.push_back(name);
         entry->second = {
-            "Matches: " + name,
+            "Accepted and refused: " + name,
             "key frame",
             "",
             false,
@@ -61,6 +65,24 @@ std::string drawNumbers(const mapper::View& view) {
   return html;
 }
 
+// What a stage of StageTimes is called for users.
+std::string activityOf(const std::string& stage) {
+  static const std::map<std::string, std::string> names{{"source", "reading the log"},
+                                                        {"perception wait", "waiting for what is found in sensor data"},
+                                                        {"job wait", "waiting for searches in the background"},
+                                                        {"solve", "optimizing the map"},
+                                                        {"engine", "keeping observations and map in order"}};
+  if (const auto known = names.find(stage); known != names.end()) return known->second;
+  std::string words = stage;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  const auto afterPrefix = [&](const std::string& prefix) {
+    return words.rfind(prefix, 0) == 0 ? words.substr(prefix.size()) : "";
+  };
+  if (const auto output = afterPrefix("output "); !output.empty()) return "writing " + output;
+  if (const auto plugin = afterPrefix("plugin "); !plugin.empty()) return "measuring by " + plugin;
+  return words;
+}
+
 }  // namespace
 
 std::string drawErrorCurves(const mapper::View& view) {
@@ -68,10 +90,10 @@ std::string drawErrorCurves(const mapper::View& view) {
 }
 
 std::string drawTimeCurves(const mapper::View& view) {
-  Chart chart{"Time per key frame", "key frame", "[ms]", false, {}};
-  ChartSeries plugins{"plugins", 1, ChartSeries::Form::line, {}, {}};
-  ChartSeries solve{"solving", 2, ChartSeries::Form::line, {}, {}};
-  ChartSeries engine{"engine", 3, ChartSeries::Form::line, {}, {}};
+  Chart chart{"Computing time of each key frame", "key frame", "[ms]", false, {}};
+  ChartSeries plugins{"measuring", 1, ChartSeries::Form::line, {}, {}};
+  ChartSeries solve{"optimizing the map", 2, ChartSeries::Form::line, {}, {}};
+  ChartSeries engine{"all else", 3, ChartSeries::Form::line, {}, {}};
   const auto& frames = view.times.keyFrames();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     for (auto* series : {&plugins, &solve, &engine}) series->x.push_back(static_cast<double>(i));
@@ -82,9 +104,9 @@ std::string drawTimeCurves(const mapper::View& view) {
   chart.series = {solve, plugins, engine};
   std::vector<Bar> bars;
   for (const auto& [stage, total] : view.times.totals()) {
-    bars.push_back({stage, total.seconds, base::fixed(total.seconds, total.seconds < 1 ? 3 : 2) + " s"});
+    bars.push_back({activityOf(stage), total.seconds, base::fixed(total.seconds, total.seconds < 1 ? 3 : 2) + " s"});
   }
-  return drawChart(chart) + drawBars("Time by stage", bars);
+  return drawChart(chart) + drawBars("Where the computing time went", bars);
 }
 
 }  // namespace omnimapper::plugins

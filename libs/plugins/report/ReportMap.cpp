@@ -38,9 +38,26 @@ std::string closureGroup(const derived::GridPicture& grid, const std::vector<der
   return "<g class=\"" + std::string(accepted ? "accepted" : "refused") + "\">\n" + lines + "</g>\n";
 }
 
-std::string dot(const char* kind, draw::PixelPoint at, double radius) {
-  return "<circle class=\"" + std::string(kind) + "\" cx=\"" + base::fixed(at.x, 1) + "\" cy=\"" +
+std::string dot(const std::string& group, const char* kind, draw::PixelPoint at, double radius) {
+  return "<circle class=\"" + group + " " + kind + "\" cx=\"" + base::fixed(at.x, 1) + "\" cy=\"" +
          base::fixed(at.y, 1) + "\" r=\"" + base::fixed(radius, 1) + "\"><title>" + kind + "</title></circle>\n";
+}
+
+/// The tracks of all sessions, those before the newest in a colour of their own.
+std::string tracks(const std::vector<SessionPath>& paths, double radius) {
+  std::string svg;
+  for (const bool is_newest : {false, true}) {
+    const std::string group = is_newest ? "track" : "earlier";
+    std::string data, dots;
+    for (const auto& path : paths) {
+      if (path.is_newest != is_newest) continue;
+      data += svgPath(path.points);
+      dots += dot(group, "start", path.points.front(), radius) + dot(group, "end", path.points.back(), radius);
+    }
+    if (data.empty()) continue;
+    svg += "<g class=\"" + group + "\"><path class=\"" + group + "\" d=\"" + data + "\"/>\n" + dots + "</g>\n";
+  }
+  return svg;
 }
 
 /// A scale bar of a round length in the lower left corner, about a sixth of the picture wide.
@@ -61,7 +78,7 @@ std::string toggle(const std::string& layer, const std::string& key, const std::
 }
 
 std::string legend(const std::vector<LandmarkLayer>& landmarks, const std::vector<derived::Closure>& closures,
-                   std::size_t max_refused) {
+                   std::size_t max_refused, std::size_t sessions) {
   const auto accepted = static_cast<std::size_t>(
       std::count_if(closures.begin(), closures.end(), [](const derived::Closure& c) { return c.decision->accepted; }));
   const std::size_t refused = closures.size() - accepted;
@@ -72,7 +89,9 @@ std::string legend(const std::vector<LandmarkLayer>& landmarks, const std::vecto
     layers += toggle(layer.name, "style=\"color:" + layer.colour + "\"",
                      draw::escapeMarkup(layer.label) + ": " + grouped(layer.count), layer.shown);
   }
-  return "<div class=\"toggles\">" + toggle("track", "class=\"kt\"", "trajectory", true) +
+  return "<div class=\"toggles\">" +
+         toggle("track", "class=\"kt\"", sessions > 1 ? "trajectory of the newest session" : "trajectory", true) +
+         (sessions > 1 ? toggle("earlier", "class=\"ke\"", "earlier sessions: " + grouped(sessions - 1), true) : "") +
          toggle("accepted", "class=\"ka\"", "closures accepted: " + grouped(accepted), true) +
          toggle("refused", "class=\"kr\"", refused_label, true) + layers +
          "<span class=\"zoom\"><button data-zoom=\"0.7\" aria-label=\"closer\">+</button><button data-zoom=\"1.43\" "
@@ -82,8 +101,8 @@ std::string legend(const std::vector<LandmarkLayer>& landmarks, const std::vecto
 }  // namespace
 
 std::string drawReportMap(const derived::GridPicture& grid, const std::vector<derived::ShapedLandmark>& landmarks,
-                          const std::vector<map::StampedPose>& trajectory, const std::vector<derived::Closure>& closures,
-                          std::size_t max_refused) {
+                          const std::vector<map::StampedPose>& trajectory,
+                          const std::vector<derived::Closure>& closures, std::size_t max_refused) {
   const auto layers = landmarkLayers(grid, landmarks);
   const std::string width = std::to_string(grid.image.width), height = std::to_string(grid.image.height);
   const auto paths = simplifiedPaths(grid, trajectory, 0.3);
@@ -95,12 +114,8 @@ std::string drawReportMap(const derived::GridPicture& grid, const std::vector<de
                     height + "\" href=\"" + draw::pngAddress(draw::encodePng(grid.image)) + "\"/>\n";
   for (const auto& layer : layers) svg += layer.svg;
   svg += closureGroup(grid, closures, false, max_refused) + closureGroup(grid, closures, true, closures.size());
-  std::string data;
-  for (const auto& path : paths) data += svgPath(path);
-  svg += "<g class=\"track\"><path class=\"track\" d=\"" + data + "\"/>\n";
-  for (const auto& path : paths) svg += dot("start", path.front(), radius) + dot("end", path.back(), radius);
-  svg += "</g>\n" + scaleBar(grid) + "</svg>\n";
-  return "<section class=\"card map\">" + legend(layers, closures, max_refused) + svg +
+  svg += tracks(paths, radius) + scaleBar(grid) + "</svg>\n";
+  return "<section class=\"card map\">" + legend(layers, closures, max_refused, paths.size()) + svg +
          "<p class=\"note\">x points right, y up. Ring: start; dot: end. Hold the pointer over a closure to see its "
          "reason, or over a landmark to see its properties. To zoom, use the buttons, or Ctrl and the mouse wheel; "
          "then drag.</p></section>\n";

@@ -52,11 +52,10 @@ std::string drawMetrics(const ReportInput& input, const derived::RunMetrics& met
   html += metricTile(grouped(metrics.closures), "loop closures") +
           metricTile(grouped(metrics.refused_closures), "closures refused") +
           metricTile(grouped(view.graph.factors().size()), "factors") +
-          metricTile(large(view.graph.chi2()), "chi-square") + metricTile(duration(metrics.wall_seconds), "computed");
-  if (metrics.wall_seconds > 0 && metrics.run_seconds > 0) {
-    const double speed = metrics.run_seconds / metrics.wall_seconds;
-    html += metricTile(base::fixed(speed, speed < 10 ? 1 : 0) + " &#215;", "of real time");
-  }
+          metricTile(large(view.graph.chi2()), "chi-square") +
+          metricTile(duration(metrics.mapping_seconds), "of mapping");
+  if (const auto pace = derived::paceText(metrics.run_seconds, metrics.mapping_seconds); !pace.empty())
+    html += metricTile(pace + " &#215;", "the log's own pace");
   return "<div class=\"figures\">" + html + "</div>\n";
 }
 

@@ -29,9 +29,10 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 .map { padding: 12px; }
 #map { display: block; width: 100%; max-height: 82vh; background: #e2e7ed; border-radius: 6px; touch-action: pan-y; cursor: grab; }
 #map.close image { image-rendering: pixelated; }
-#map path.track { fill: none; stroke: #2563eb; stroke-width: 2; stroke-linejoin: round; vector-effect: non-scaling-stroke; }
+#map path.track, #map path.earlier { fill: none; stroke: #2563eb; stroke-width: 2; stroke-linejoin: round; vector-effect: non-scaling-stroke; }
 #map circle { stroke: #2563eb; stroke-width: 2.5; vector-effect: non-scaling-stroke; }
 #map circle.start { fill: #ffffff; } #map circle.end { fill: #2563eb; }
+#map path.earlier, #map circle.earlier { stroke: #db2777; } #map circle.earlier.end { fill: #db2777; }
 #map g.accepted line { stroke: #16a34a; stroke-width: 2; vector-effect: non-scaling-stroke; }
 #map g.refused line { stroke: #dc2626; stroke-opacity: 0.35; stroke-width: 1.2; stroke-dasharray: 5 4; vector-effect: non-scaling-stroke; }
 #map g.landmarks path { stroke: currentColor; stroke-width: 4; stroke-linecap: round; fill: none; vector-effect: non-scaling-stroke; }
@@ -50,7 +51,7 @@ header p, .note { color: var(--soft); margin: 4px 0 0; font-size: 13.5px; }
 .toggles i { width: 22px; height: 0; border-top: 3px solid; }
 img.photograph { display: block; max-width: 120px; max-height: 40px; }
 .swatch { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 6px; }
-.kt { color: #2563eb; } .ka { color: #16a34a; } .toggles .kr { color: #dc2626; border-top-style: dashed; border-top-width: 2px; }
+.kt { color: #2563eb; } .ke { color: #db2777; } .ka { color: #16a34a; } .toggles .kr { color: #dc2626; border-top-style: dashed; border-top-width: 2px; }
 .zoom { margin-left: auto; display: inline-flex; gap: 6px; }
 button, select, input[type=search] { font: inherit; font-size: 14px; color: inherit; background: var(--card); border: 1px solid var(--line); border-radius: 6px; padding: 4px 10px; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 0 18px; align-items: start; }

@@ -4,6 +4,7 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <omnimapper/derived/SceneParts.h>
 #include <omnimapper/graph/G2o.h>
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/map/MapFile.h>
@@ -196,6 +197,19 @@ TEST(PointsOutput, aMapWithoutPointsGivesNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(SceneOutput, sessionsHaveTwoColours) {
+  const auto lines =
+      derived::trajectoryLines({{at(0), {}, 0}, {at(1), {}, 0}, {at(2), {}, 1}, {at(3), {}, 2}, {at(4), {}, 2}});
+  const auto of = [&](const char* name) {
+    return std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(lines->getByName(name));
+  };
+  ASSERT_TRUE(of("newest session") && of("earlier sessions"));
+  EXPECT_EQ(of("newest session")->size(), 1u);
+  EXPECT_EQ(of("earlier sessions")->size(), 1u) << "no line leads from one session to another";
+  EXPECT_EQ(of("newest session")->getColor_u8(), mrpt::img::TColor(37, 99, 235));
+  EXPECT_NE(of("earlier sessions")->getColor_u8(), of("newest session")->getColor_u8());
+}
+
 TEST(SceneOutput, loadsBackWithTrajectoryPointsAndClosures) {
   ScratchFolder folder;
   plugins::SceneOptions options;
@@ -207,7 +221,8 @@ TEST(SceneOutput, loadsBackWithTrajectoryPointsAndClosures) {
     const auto lines = std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(scene.getByName(name));
     return lines ? lines->size() : 0;
   };
-  EXPECT_EQ(linesNamed("trajectory"), 3u);
+  EXPECT_EQ(linesNamed("newest session"), 3u);
+  EXPECT_EQ(linesNamed("earlier sessions"), 0u);
   EXPECT_EQ(linesNamed("closures"), 1u);
   EXPECT_EQ(linesNamed("refused closures"), 1u);
   const auto cloud = std::dynamic_pointer_cast<mrpt::opengl::CPointCloudColoured>(scene.getByName("points"));

@@ -118,6 +118,68 @@ TEST(Report, thePictureOfTheMapShowsWallsTrackAndClosureWhereTheyAre) {
   EXPECT_GT(closure.g, closure.r + 60);
 }
 
+// The box, whose first two key frames are of an earlier session.
+RunRecord continuedRun() {
+  RunRecord run = boxRun();
+  map::Map map;
+  map.sessions.resize(2);
+  map.sessions[1].number = 1;
+  for (std::size_t i = 0; i < run.map.key_frames.size(); ++i) {
+    map::KeyFrame frame = run.map.key_frames[i];
+    frame.id.session = i < 2 ? 0 : 1;
+    map.key_frames.insert(frame);
+  }
+  run.map = map;
+  run.decisions.clear();
+  return run;
+}
+
+TEST(Report, sessionsHaveTwoColoursAndALegend) {
+  ScratchFolder folder;
+  plugins::ReportOutput({}, contextFor(folder.path())).finish(continuedRun().view());
+  const std::string html = contentOf(folder / "report.html");
+  EXPECT_NE(html.find("<path class=\"earlier\" d=\"M"), std::string::npos);
+  EXPECT_NE(html.find("<path class=\"track\" d=\"M"), std::string::npos);
+  EXPECT_NE(html.find("earlier sessions: 1"), std::string::npos);
+  EXPECT_EQ(reportOf(boxRun()).find("earlier sessions"), std::string::npos) << "there is one session";
+  mrpt::img::CImage picture;
+  ASSERT_TRUE(picture.loadFromFile(folder / "map.png"));
+  int earlier = 0, newest = 0;
+  for (unsigned row = 0; row < picture.getHeight(); ++row) {
+    for (unsigned column = 0; column < picture.getWidth(); ++column) {
+      const int red = picture.at<std::uint8_t>(column, row, 2), green = picture.at<std::uint8_t>(column, row, 1),
+                blue = picture.at<std::uint8_t>(column, row, 0);
+      earlier += red > green + 100 && red > blue;
+      newest += blue > red + 100 && blue > green + 60;
+    }
+  }
+  EXPECT_GT(earlier, 50);
+  EXPECT_GT(newest, 50);
+}
+
+TEST(Report, chartsSayWhatTheyShowInWordsOfUsers) {
+  RunRecord run = boxRun();
+  run.times.add(mapper::Stage::engine, "", 0.03);
+  run.times.add(mapper::Stage::perception_wait, "", 0.04);
+  run.times.add(mapper::Stage::job_wait, "", 0.04);
+  run.times.add(mapper::Stage::source, "", 0.04);
+  run.times.add(mapper::Stage::plugin, "loop_closure", 0.02);
+  run.times.add(mapper::Stage::output, "map", 0.02);
+  const std::string html = reportOf(run);
+  for (const auto& [stage, total] : run.times.totals())
+    EXPECT_EQ(html.find(">" + stage + "<"), std::string::npos) << stage << " is a name from the code";
+  for (const char* words : {"optimizing the map", "reading the log", "measuring by loop closure", "writing map"})
+    EXPECT_NE(html.find(words), std::string::npos) << words;
+}
+
+TEST(Report, thePaceIsThatOfTheMappingBeforeTheOutputs) {
+  RunRecord run = boxRun();
+  EXPECT_EQ(reportOf(run).find("own pace"), std::string::npos) << "it is not known";
+  const double seconds = base::secondsBetween(run.map.key_frames.front().stamp, run.map.key_frames.back().stamp);
+  run.times.setMappingSeconds(seconds / 6.3);
+  EXPECT_NE(reportOf(run).find("6.3 &#215;"), std::string::npos);
+}
+
 TEST(Report, closuresStateTheirReasons) {
   const std::string html = reportOf(boxRun());
   const std::size_t refused = html.find("<g class=\"refused\">"), accepted = html.find("<g class=\"accepted\">");

@@ -161,4 +161,15 @@ TEST_F(CommandLine, QuietPrintsNothingAndVerboseWhatTheLogHolds) {
   EXPECT_NE(verbose.out.find("mrpt::obs::CObservation2DRangeScan"), std::string::npos) << verbose.out;
 }
 
+// A pace is a duration of the log by one of mapping, and is the same wherever it is told.
+TEST_F(CommandLine, ScreenAndReportTellOnePace) {
+  const omnimapper::testing::ScratchFolder scratch;
+  const auto ended = map({omnimapper::testing::sourceFile("rawlogs/box/box.rawlog")}, scratch / "map");
+  ASSERT_TRUE(endedWith(ExitCode::ok, ended));
+  std::smatch pace;
+  ASSERT_TRUE(std::regex_search(ended.out, pace, std::regex(R"(mapped in .* s, ([0-9.]+) times the log's own pace)")))
+      << ended.out;
+  EXPECT_NE(readFile(scratch / "map/report.html").find(">" + pace[1].str() + " &#215;<"), std::string::npos) << pace[1];
+}
+
 }  // namespace

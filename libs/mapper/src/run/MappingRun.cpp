@@ -372,6 +372,8 @@ RunResult Run::report() {
   }
   if (const auto idle = engine_->idleSources(); !idle.empty() && !localizes() && outcome.new_key_frames > 1)
     failWithNoMotion(*feed_, config_.file(), outcome, idle);
+  outcome.mapping_seconds = watch_.seconds();
+  engine_->setMappingSeconds(outcome.mapping_seconds);
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
   feed_->published(outcome.output_folder);

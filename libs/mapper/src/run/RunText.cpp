@@ -1,4 +1,5 @@
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/derived/RunMetrics.h>
 #include <omnimapper/derived/SessionAlignment.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
@@ -85,16 +86,17 @@ std::string toText(const RunResult& result) {
   // nothing.
   const std::string factors = result.localized > 0 ? "" : "factors           " + std::to_string(result.factors) + "\n";
   const char* scope = result.localized == 0 && result.sessions.size() > 1 ? " in the new session" : "";
+  std::string pace = derived::paceText(result.log_seconds, result.mapping_seconds);
+  if (!pace.empty()) pace = ", " + pace + " times the log's own pace";
   char text[512];
   std::snprintf(text, sizeof text,
                 "key frames        %zu%s\n"
                 "%s"
                 "%s"
                 "travelled         %.1f m in %.1f s%s\n"
-                "wall time         %.2f s (%.0f times the log's own pace)\n",
+                "mapped in         %.2f s%s; %.2f s with the outputs\n",
                 result.key_frames - of_map, held.c_str(), factors.c_str(), closureLine(result, scope).c_str(),
-                result.travel, result.log_seconds, scope, result.wall_seconds,
-                result.wall_seconds > 0 ? result.log_seconds / result.wall_seconds : 0.0);
+                result.travel, result.log_seconds, scope, result.mapping_seconds, pace.c_str(), result.wall_seconds);
   const std::string verdict =
       result.verdict.evidence.empty() ? "" : "verdict           " + sentenceOf(result.verdict) + "\n";
   const std::string level = result.level ? "level             " + sentenceOf(*result.level) + "\n" : "";

@@ -19,9 +19,12 @@ struct RunMetrics {
   double min_x = 0, max_x = 0, min_y = 0, max_y = 0, min_z = 0, max_z = 0;  ///< [m] of the key frames
   std::size_t closures = 0, refused_closures = 0;
   std::size_t localized = 0, located = 0;  ///< in a run that localizes: key frames, and those with a known pose
-  double wall_seconds = 0;                 ///< sum of all stages
+  double mapping_seconds = 0;              ///< wall time until the map was finished, before the outputs
 };
 RunMetrics metricsOf(const mapper::View& view, const std::vector<map::StampedPose>& trajectory);
+
+/// How many times the log's own pace the mapping was, such as "55" or "6.3"; empty if either time is not known.
+std::string paceText(double run_seconds, double mapping_seconds);
 
 /// The dense trajectory of the map, or only of this run if it localizes in a map.
 std::vector<map::StampedPose> trajectoryOf(const mapper::View& view);

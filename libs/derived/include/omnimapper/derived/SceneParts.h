@@ -16,7 +16,9 @@ namespace omnimapper::derived {
 
 /// A grid of lines on the ground under the trajectory and 5 m around it, with a round spacing.
 mrpt::opengl::CGridPlaneXY::Ptr groundOf(const map::Map& map);
-mrpt::opengl::CSetOfLines::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory);
+/// The trajectory as lines, in the colours of SessionColours.h: "newest session", and "earlier sessions" if there are
+/// any.
+mrpt::opengl::CSetOfObjects::Ptr trajectoryLines(const std::vector<map::StampedPose>& trajectory);
 /// Axes of key frames that are at least `spacing` [m] of travel apart, and of the newest one.
 mrpt::opengl::CSetOfObjects::Ptr keyFrameCorners(const map::Map& map, double spacing);
 /// Lines of the accepted closures, or of the refused ones.

@@ -40,6 +40,7 @@ struct RunResult {
   std::optional<map::Level> level;               ///< of the whole map; none if the run only localizes
   std::optional<LiveMetrics> live;               ///< only of a live run on sensors
   double log_seconds = 0;                        ///< from first to last stamp
+  double mapping_seconds = 0;                    ///< wall time until the map was finished, before the outputs
   double wall_seconds = 0;                       ///< of the whole run
   double travel = 0;                             ///< [m] distance travelled in this run
 };

@@ -81,12 +81,17 @@ class StageTimes {
   const std::map<std::string, Total>& totals() const { return totals_; }
   const std::vector<PerKeyFrame>& keyFrames() const { return key_frames_; }
 
+  /// [s] of wall time from the start of the run until the map was finished, before the outputs; 0 until then.
+  double mappingSeconds() const { return mapping_seconds_; }
+  void setMappingSeconds(double seconds) { mapping_seconds_ = seconds; }
+
  private:
   double seconds(Stage stage) const { return seconds_[static_cast<std::size_t>(stage)]; }
 
   std::map<std::string, Total> totals_;
   std::array<double, static_cast<std::size_t>(Stage::engine) + 1> seconds_{};
   std::vector<PerKeyFrame> key_frames_;
+  double mapping_seconds_ = 0;
   /// The innermost running timer. It is not copied: a copy of these times has no running timer.
   struct Running {
     Running() = default;
