@@ -29,7 +29,7 @@ struct ThreeSessions {
   base::FactorId bind(base::KeyFrameId from, base::KeyFrameId to, const std::string& owner) {
     graph.setSession(std::max(from.session, to.session));
     return graph.addFactor(mapper::betweenPoses(mapper::Motion::planar, map.keyFrame(from).pose, map.keyFrame(to).pose,
-                                        {{}, Eigen::Matrix<double, 6, 6>::Identity()}, owner));
+                                                {{}, Eigen::Matrix<double, 6, 6>::Identity()}, owner));
   }
   std::vector<base::VariableId> pointsOf(const std::vector<std::uint16_t>& sessions) {
     std::vector<base::VariableId> points;
@@ -96,8 +96,8 @@ TEST(SessionAlignment, APlaceInTheMapJoinsIfItsPluginGivesAbsolutePoses) {
   ThreeSessions world;
   const auto prior = [&](base::KeyFrameId id, const std::string& owner) {
     world.graph.setSession(id.session);
-    world.graph.addFactor(
-        mapper::posePrior(mapper::Motion::planar, world.map.keyFrame(id).pose, {}, Eigen::Matrix<double, 6, 6>::Identity(), owner));
+    world.graph.addFactor(mapper::posePrior(mapper::Motion::planar, world.map.keyFrame(id).pose, {},
+                                            Eigen::Matrix<double, 6, 6>::Identity(), owner));
   };
   prior({1, 0}, "engine");
   EXPECT_FALSE(world.aligned(1)) << "a guess of the start is no measurement";

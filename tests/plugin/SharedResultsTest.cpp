@@ -7,9 +7,7 @@ namespace {
 TEST(SharedResults, eachKeyOfATypeIsComputedOnce) {
   SharedResults shared;
   int computed = 0;
-  const auto get = [&](const std::string& key) {
-    return *shared.get<int>(key, [&] { return 10 * ++computed; });
-  };
+  const auto get = [&](const std::string& key) { return *shared.get<int>(key, [&] { return 10 * ++computed; }); };
   EXPECT_EQ(get("fine"), 10);
   EXPECT_EQ(get("fine"), 10);
   EXPECT_EQ(get("coarse"), 20);

@@ -90,7 +90,7 @@ draw::Image drawLaserPicture(const mrpt::obs::CObservation2DRangeScan& scan,
   draw::Image picture(kSide, kSide, kGround);
   const double side = drawSquares(picture, view);
   std::vector<draw::LegendRow> legend{{kSquares, "squares of " + base::brief(side) + " m, the sensor in black"},
-                                {kPoints, "scan"}};
+                                      {kPoints, "scan"}};
   for (const auto& point : points) drawDot(picture, view(point), {kPoints, 4});
   drawDot(picture, view({0, 0}), {kSensor, 9});
   for (const auto& observation : derived) {

@@ -63,7 +63,7 @@ std::vector<derived::ColouredPoint> belowCeilings(const map::Map& map, double cu
 }  // namespace
 
 std::optional<derived::GridPicture> cloudPicture(const map::Map& map, const std::vector<mrpt::math::TPoint3D>& places,
-                                        int side) {
+                                                 int side) {
   constexpr double kCube = 0.05, kCut = 0.005;  // [m], share
   if (!derived::hasDepthClouds(map)) return std::nullopt;
   const auto points = belowCeilings(map, kCube);

@@ -14,7 +14,7 @@ namespace omnimapper::plugins {
 /// closures over it. Landmarks show their properties under the pointer, and closures their reasons. At most
 /// `max_refused` refused closures are drawn; if there are more, the legend says so.
 std::string drawReportMap(const derived::GridPicture& grid, const std::vector<derived::ShapedLandmark>& landmarks,
-                          const std::vector<map::StampedPose>& trajectory, const std::vector<derived::Closure>& closures,
-                          std::size_t max_refused);
+                          const std::vector<map::StampedPose>& trajectory,
+                          const std::vector<derived::Closure>& closures, std::size_t max_refused);
 
 }  // namespace omnimapper::plugins
