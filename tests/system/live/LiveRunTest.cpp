@@ -119,6 +119,7 @@ TEST(LiveRun, pluginsComeWhileTheRunGoesOnAndAReplayBringsThemAgain) {
   waitFor([&] { return journal().find("p 1\n") != std::string::npos; });
   writeFile(ini, settings + "[mapper]\nmeasurement_plugins = ceilings\n[ceilings]\nclass = CeilingPlugin\n");
   mapper.send(SIGUSR1);
+  waitFor([&] { return mapper.saidSoFar().find("stay as they were") != std::string::npos; });
   run.player->wait();
   mapper.send(SIGINT);
   const auto ended = mapper.wait();

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,7 +33,9 @@ int memoryFile(const char* name) {
 }
 
 std::string contentOf(int fd) {
-  std::string content(static_cast<std::size_t>(::lseek(fd, 0, SEEK_END)), '\0');
+  struct stat file {};
+  ::fstat(fd, &file);  // the offset is the program's
+  std::string content(static_cast<std::size_t>(file.st_size), '\0');
   const ssize_t read = ::pread(fd, content.data(), content.size(), 0);
   content.resize(read < 0 ? 0 : static_cast<std::size_t>(read));
   return content;
@@ -102,6 +105,10 @@ bool Program::reap(bool block) {
 
 bool Program::isRunning() {
   return !reap(false);
+}
+
+std::string Program::saidSoFar() const {
+  return contentOf(err_);
 }
 
 bool Program::hasOpen(const std::string& path) const {

@@ -37,6 +37,8 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   bool isRunning();
+  /// What the program has written to its standard error until now.
+  std::string saidSoFar() const;
   /// Whether the program has that file open now.
   bool hasOpen(const std::string& path) const;
   /// Waits until neither the program nor one that it started has had anything to do for half a second. Returns false if
