@@ -30,7 +30,8 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
                  "may be one that comes with the program, such as laser2d.ini");
   auto* rawlogs = app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
   auto* live = app.add_flag("--live", arguments.run.live,
-                            "map the sensors of [live] until Ctrl-C, and record them in the subfolder recording of -o");
+                            "map the sensors of [live] until Ctrl-C, and record them in the subfolder recording of -o; "
+                            "after the signal USR1 the plugins become those of the INI as it is then");
   auto* record =
       app.add_flag("--record-only", arguments.record_only, "record the sensors of [live] into -o without mapping");
   auto* replay = app.add_option("--replay", arguments.run.replay,
