@@ -73,7 +73,8 @@ TEST(SensorCorrections, OneForTheRunFindsHowTheSensorIsMounted) {
 TEST(SensorCorrections, TakenAsGivenTheSameErrorDistortsTheMap) {
   const auto options = panTilt();
   const SimulatedLog log(options);
-  const auto engine = testing::makeEngine(kBeaconIni, {"beacons.confidence=1"});
+  const auto engine = testing::makeEngine(
+      kBeaconIni, {"beacons.association_confidence=0.999999999", "beacons.association_inflation=100"});
   testing::run(*engine, log.observations());
   EXPECT_TRUE(corrections(engine->view()).empty());
   EXPECT_GT(worstBeacon(engine->view(), log, options), 1);

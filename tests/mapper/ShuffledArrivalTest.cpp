@@ -67,8 +67,10 @@ class = RobotPosePlugin
 reference_is_map = false
 loss_scale       = 1000
 [beacons]
-class      = BeaconPlugin
-confidence = 1
+class                  = BeaconPlugin
+height_m               = 1.4
+association_confidence = 0.999999999
+association_inflation  = 100
 )";
 
 TEST(ShuffledArrival, WithKnownIdentitiesTheGraphIsThatOfTheOrderedRun) {

@@ -14,10 +14,9 @@ const OptionTable<BeaconOptions>& BeaconOptions::table() {
             .number("height_m", &Options::height, {}, "Height of all beacons in the map.")
             .number("sigma_range_m", &Options::sigma_range, Range::positive(), "Standard deviation of a range.")
             .number("sigma_yaw_deg", &Options::sigma_yaw, Range::positive(), "Standard deviation of a yaw.")
-            .number("sigma_pitch_deg", &Options::sigma_pitch, Range::positive(), "Standard deviation of a pitch.")
-            .number("confidence", &Options::confidence, Range{0.5, 1},
-                    "A true measurement passes the gate with this probability; 1 for no gate.");
-    return declareIn(own);  // the keys of SensorPoseTrust
+            .number("sigma_pitch_deg", &Options::sigma_pitch, Range::positive(), "Standard deviation of a pitch.");
+    omnimapper::mapper::AssociationOptions::declareIn(own);
+    return omnimapper::mapper::SensorPoseTrust::declareIn(own);
   }();
   return table;
 }

@@ -3,7 +3,7 @@
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Solver.h>
-#include <omnimapper/landmarks/Merging.h>
+#include <omnimapper/landmarks/Fit.h>
 #include <omnimapper/landmarks/PlaneParametrization.h>
 
 #include <Eigen/Eigenvalues>

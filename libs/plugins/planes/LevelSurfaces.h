@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "PlaneLandmarksPlugin.h"
+#include "PlaneLandmarksOptions.h"
 
 namespace omnimapper::plugins {
 

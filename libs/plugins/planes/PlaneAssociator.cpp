@@ -2,7 +2,6 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
-#include <omnimapper/landmarks/InterSessionHypothesis.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
@@ -15,17 +14,13 @@
 
 namespace omnimapper::plugins {
 
-using geometry::Plane3;
-
-PlaneAssociator::PlaneAssociator(const PlaneLandmarksOptions& options, const mapper::PluginContext& context,
+PlaneAssociator::PlaneAssociator(const PlaneLandmarksOptions& options, const std::string& section,
                                  const PlaneLandmarkIndex& known, const map::KeyFrame& frame, const mapper::View& view,
                                  bool others_seek)
-    : options_(options),
-      context_(context),
+    : LandmarkAssociator(options, section, frame, view, mapper::Repeats::yes),
+      options_(options),
       known_(known),
       form_(known.form()),
-      frame_(frame),
-      view_(view),
       others_seek_(others_seek),
       map_from_base_(geometry::fromMrpt(mapper::poseOf(view.graph, frame.pose))) {
   const auto pose = view.jointCovariance({frame.pose});
@@ -36,72 +31,42 @@ namespace {
 
 constexpr double kSigmas = 4;  // of the pose of the base, within which landmarks are considered
 
-PlaneLandmarkIndex::Heights heightsKnownBy(const PlaneMeasurement& measurement) {
-  return measurement.is_line ? PlaneLandmarkIndex::Heights::unknown : PlaneLandmarkIndex::Heights::known;
+LandmarkSurface::Heights heightsKnownBy(const PlaneMeasurement& measurement) {
+  return measurement.is_line ? LandmarkSurface::Heights::unknown : LandmarkSurface::Heights::known;
 }
 
 }  // namespace
 
-mapper::Batch PlaneAssociator::take(const std::vector<PlaneMeasurement>& all) {
-  std::vector<PlaneMeasurement> measurements;
-  for (const auto& measurement : all) {
-    if (measurement.why_useless.empty()) {
-      measurements.push_back(measurement);
-    } else {
-      logUseless(measurement);
-    }
-  }
-  const auto pairings = pairingsOf(measurements);
-  const auto found = mapper::associate(measurements.size(), pairings, view_, options_, mapper::Repeats::yes);
-  for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const auto& match = found.matches[i];
-    mapper::Decision decision = decisionOf(measurements[i]);
-    found.describe(i, decision);
-    if (match.pairing) decision.numbers.emplace_back("landmark", pairings[*match.pairing].landmark.index);
-    const bool spans_two = spansTwo(match, pairings);
-    if (spans_two) decision.reason = "matched: it spans two landmarks on one plane";
-    if (match.kind == mapper::Match::Kind::matched || spans_two) {
-      decision.accepted = true;
-      addToKnown(measurements[i], pairings[*match.pairing], std::move(decision));
-    } else if (match.kind == mapper::Match::Kind::unknown) {
-      addNew(measurements[i], std::move(decision));
-    } else {
-      batch_.log(std::move(decision));
-    }
-  }
-  return std::move(batch_);
+void PlaneAssociator::describe(const PlaneMeasurement& measurement, mapper::Decision& decision) const {
+  decision.kind = measurement.is_line ? "line of a wall" : "plane";
+  decision.numbers = {{measurement.is_line ? "length [m]" : "area [m^2]", measurement.size}};
 }
 
-std::vector<mapper::Pairing> PlaneAssociator::pairingsOf(const std::vector<PlaneMeasurement>& measurements) {
-  std::vector<mapper::Pairing> pairings;
-  // A run that only localizes does not update landmarks, so candidates, which may be noise, must not constrain a pose.
-  const auto isOf = [&](const PlaneLandmarkIndex::Surface& surface) {
-    if (others_seek_ && !view_.areAligned(frame_.id.session, surface.id.session)) return false;
-    return !view_.map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
-  };
-  for (std::size_t i = 0; i < measurements.size(); ++i) {
-    const auto points = inMap(measurements[i].outline_in_base);
-    double range = 0;
-    for (const auto& corner : measurements[i].outline_in_base) range = std::max(range, corner.norm());
-    for (const auto& [id, surface] : known_.all()) {
-      if (!isOf(surface)) continue;
-      const auto miss = missIfAlike(surface, measurements[i], points);
-      // Beyond the gate, landmarks are considered if drift since their last measurement may explain the distance.
-      if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
-      pairings.push_back({i, surface.id, record(measurements[i], surface.variable, surface.id)});
-    }
+std::vector<base::LandmarkId> PlaneAssociator::candidates(const PlaneMeasurement& measurement) {
+  std::vector<base::LandmarkId> near;
+  const auto points = inMap(measurement.outline_in_base);
+  double range = 0;
+  for (const auto& corner : measurement.outline_in_base) range = std::max(range, corner.norm());
+  for (const auto& [id, surface] : known_.all()) {
+    if (!mayConstrain(surface)) continue;
+    const auto miss = missIfAlike(surface, measurement, points);
+    // Beyond the gate, landmarks are considered if drift since their last measurement may explain the distance.
+    if (!miss || (*miss > 0 && *miss > kSigmas * sigmaSince(surface.last_seen_from, range))) continue;
+    near.push_back(id);
   }
-  return pairings;
+  return near;
 }
 
-bool PlaneAssociator::spansTwo(const mapper::Match& match, const std::vector<mapper::Pairing>& pairings) const {
-  if (match.kind != mapper::Match::Kind::ambiguous) return false;
-  const auto& all = known_.all();
-  return onOnePlane(all.at(pairings[*match.pairing].landmark), all.at(*match.rival));
+bool PlaneAssociator::mayConstrain(const LandmarkSurface& surface) const {
+  if (others_seek_ && !view().areAligned(frame().id.session, surface.id.session)) return false;
+  return !view().map_is_held || !dynamic_cast<const PlanePayload&>(*surface.payload).is_candidate;
 }
 
-std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Surface& surface,
-                                                   const PlaneMeasurement& measurement,
+std::string PlaneAssociator::whyEither(base::LandmarkId a, base::LandmarkId b) const {
+  return onOnePlane(known_.at(a), known_.at(b)) ? "it spans two landmarks on one plane" : "";
+}
+
+std::optional<double> PlaneAssociator::missIfAlike(const LandmarkSurface& surface, const PlaneMeasurement& measurement,
                                                    const std::vector<Eigen::Vector3d>& points) const {
   constexpr double kAlong = 0.8, kFarthest = 0.5;  // cosine of the turn, [m]
   const Eigen::Vector3d normal = map_from_base_.rotation * measurement.plane_in_base.normal;
@@ -117,10 +82,10 @@ std::optional<double> PlaneAssociator::missIfAlike(const PlaneLandmarkIndex::Sur
   return std::max(off, gap);
 }
 
-double PlaneAssociator::sigmaSince(base::KeyFrameId frame, double range) {
-  const auto [found, is_new] = variances_since_.try_emplace(frame, pose_sigma_ * pose_sigma_, 0);
+double PlaneAssociator::sigmaSince(base::KeyFrameId since, double range) {
+  const auto [found, is_new] = variances_since_.try_emplace(since, pose_sigma_ * pose_sigma_, 0);
   if (is_new) {
-    const auto motion = view_.covarianceBetween(frame, frame_.id);
+    const auto motion = view().covarianceBetween(since, frame().id);
     if (motion) found->second = {motion->topLeftCorner<3, 3>().trace(), motion->bottomRightCorner<3, 3>().trace()};
   }
   return std::sqrt(found->second.first + range * range * found->second.second);
@@ -132,47 +97,29 @@ std::vector<Eigen::Vector3d> PlaneAssociator::inMap(const std::vector<Eigen::Vec
   return points;
 }
 
-graph::FactorRecord PlaneAssociator::record(const PlaneMeasurement& measurement, base::VariableId plane,
-                                            base::LandmarkId landmark) const {
-  graph::FactorRecord record{{frame_.pose, plane}, measurement.factor, measurement.noise};
+graph::FactorRecord PlaneAssociator::record(const PlaneMeasurement& measurement, base::VariableId plane) const {
+  graph::FactorRecord record{{frame().pose, plane}, measurement.factor, measurement.noise};
   record.loss = graph::Loss::huber(options_.loss_scale);
-  record.tags.owner = context_.section;
-  record.tags.landmark = landmark;
   record.tags.note = measurement.is_line ? "line of a laser" : "plane";
   return record;
 }
 
-mapper::Decision PlaneAssociator::decisionOf(const PlaneMeasurement& measurement) const {
-  mapper::Decision decision;
-  decision.stamp = frame_.stamp;
-  decision.plugin = context_.section;
-  decision.kind = measurement.is_line ? "line of a wall" : "plane";
-  decision.from = frame_.id;
-  decision.numbers = {{measurement.is_line ? "length [m]" : "area [m^2]", measurement.size}};
-  return decision;
-}
-
-void PlaneAssociator::addToKnown(const PlaneMeasurement& measurement, const mapper::Pairing& pairing,
-                                 mapper::Decision decision) {
-  const base::LandmarkId id = pairing.landmark;
-  if (landmarks::addInterSessionHypothesis(view_, frame_.id, pairing, decision, batch_)) return;
-  batch_.log(std::move(decision));
-  batch_.addFactor(pairing.record);
+std::shared_ptr<const map::LandmarkPayload> PlaneAssociator::learned(const PlaneMeasurement& measurement,
+                                                                     const landmarks::LandmarkIds& known) {
   // One observation may measure a landmark twice: the second measurement continues from the payload of the first.
-  auto& payload = payloads_[id];
-  if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view_.map.landmark(id).payload);
-  const PlaneLandmarkIndex::Surface& surface = known_.all().at(id);
+  auto& payload = payloads_[known.landmark];
+  if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view().map.landmark(known.landmark).payload);
+  const LandmarkSurface& surface = known_.at(known.landmark);
   const auto points = inMap(measurement.outline_in_base);
   if (determinesTilt(measurement, points, surface, *payload)) {
-    const auto upright = uprightFactor(view_.graph, surface.variable);
-    if (upright && removed_priors_.insert(*upright).second) batch_.removeFactor(*upright);
+    const auto upright = uprightFactor(view().graph, surface.variable);
+    if (upright && removed_priors_.insert(*upright).second) batch().removeFactor(*upright);
   }
-  payload = payload->with(frame_.id, measurement, newsOf(measurement, points, surface, *payload));
-  batch_.addEvidence(id, payload);
+  return payload = payload->with(frame().id, measurement, newsOf(measurement, points, surface, *payload));
 }
 
 bool PlaneAssociator::determinesTilt(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
-                                     const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) {
+                                     const LandmarkSurface& surface, const PlanePayload& payload) {
   constexpr double kSecondHeight = 0.4;  // [m]
   if (payload.wasSeenAsPlane()) return false;
   if (!measurement.is_line) return true;
@@ -182,8 +129,7 @@ bool PlaneAssociator::determinesTilt(const PlaneMeasurement& measurement, const 
   return before < kSecondHeight && now >= kSecondHeight;
 }
 
-bool PlaneAssociator::reachesOver(const PlaneLandmarkIndex::Surface& surface,
-                                  const std::vector<Eigen::Vector3d>& points) {
+bool PlaneAssociator::reachesOver(const LandmarkSurface& surface, const std::vector<Eigen::Vector3d>& points) {
   constexpr double kEdge = 0.05;  // [m]
   const landmarks::PlaneAxes axes(surface.plane);
   return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
@@ -216,7 +162,7 @@ bool showsMore(const surfaces::FlatPart& part, const geometry::Plane3& plane, co
 }  // namespace
 
 News PlaneAssociator::newsOf(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
-                             const PlaneLandmarkIndex::Surface& surface, const PlanePayload& payload) const {
+                             const LandmarkSurface& surface, const PlanePayload& payload) const {
   News news{reachesOver(surface, points), false};
   if (payload.boundary != PlanePayload::Boundary::seen || measurement.is_line) return news;
   const auto partInMap = [&](const std::vector<Eigen::Vector3d>& outline,
@@ -235,69 +181,63 @@ News PlaneAssociator::newsOf(const PlaneMeasurement& measurement, const std::vec
   return news;
 }
 
-double PlaneAssociator::maxGap(const PlaneLandmarkIndex::Surface& surface, const PlaneMeasurement& measurement,
+double PlaneAssociator::maxGap(const LandmarkSurface& surface, const PlaneMeasurement& measurement,
                                const std::vector<Eigen::Vector3d>& points) const {
   // Surfaces that reach this high on both sides of a bookcase or a door are one wall.
   constexpr double kOverFurniture = 1.5;  // [m]
-  if (measurement.is_line || surface.heights == PlaneLandmarkIndex::Heights::unknown) return options_.max_gap;
-  const double high = known_.emptyPayload().groundIn(view_.map.key_frames) + kOverFurniture;
+  if (measurement.is_line || surface.heights == LandmarkSurface::Heights::unknown) return options_.max_gap;
+  const double high = known_.emptyPayload().groundIn(view().map.key_frames) + kOverFurniture;
   const bool is_wall = surface.highest > high && heightsOf(points).second > high;
   return is_wall ? options_.max_gap : options_.max_plane_gap;
 }
 
-void PlaneAssociator::logUseless(const PlaneMeasurement& measurement) {
-  mapper::Decision decision = decisionOf(measurement);
-  decision.reason = measurement.why_useless;
-  batch_.log(std::move(decision));
-}
-
 void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decision decision) {
-  if (view_.map_is_held) {
-    decision.reason = "not in the map: " + decision.reason;
-    return batch_.log(std::move(decision));
-  }
-  const Plane3 plane = map_from_base_ * measurement.plane_in_base;
   const auto points = inMap(measurement.outline_in_base);
   if (Fresh* same = freshMatch(measurement, points)) {
     decision.accepted = true;
     decision.reason = "another measurement of a new landmark in the same observation";
-    batch_.log(std::move(decision));
-    batch_.addFactor(record(measurement, same->surface.variable, same->surface.id));
-    same->payload = same->payload->with(frame_.id, measurement, {true, true});
-    batch_.addEvidence(same->surface.id, same->payload);
-    const landmarks::PlaneAxes axes(same->surface.plane);
-    for (const auto& point : points) same->surface.hull.push_back(axes.onto(point));
-    same->surface.hull = geometry::convexHull(std::move(same->surface.hull));
-    return;
+    batch().log(std::move(decision));
+    return addToFresh(measurement, points, *same);
   }
-  const bool large = measurement.size >= (measurement.is_line ? options_.min_length : options_.min_area);
-  decision.accepted = large;
-  decision.reason = (large ? "new: " : "too small for a new landmark: ") + decision.reason;
-  batch_.log(std::move(decision));
-  if (!large) return;
-  const auto variable = batch_.addVariable(form_.variable(), form_.value(plane, points));
-  const auto payload = known_.emptyPayload().with(frame_.id, measurement, {true, true});
-  const auto landmark = batch_.addLandmark("plane", {variable}, payload);
-  batch_.addFactor(record(measurement, variable, landmark));
-  if (measurement.is_line && form_.mayTilt()) {
-    graph::FactorRecord upright{
-        {variable},
-        std::make_shared<landmarks::UprightFactor>(),
-        graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, options_.upright_sigma))};
-    upright.tags.owner = context_.section;
-    upright.tags.landmark = landmark;
-    upright.tags.note = "upright";
-    batch_.addFactor(upright);
+  if (!(measurement.size >= (measurement.is_line ? options_.min_length : options_.min_area))) {
+    decision.reason = "too small for a new landmark: " + decision.reason;
+    return batch().log(std::move(decision));
   }
   Fresh fresh;
-  fresh.surface.id = landmark;
-  fresh.surface.variable = variable;
-  fresh.surface.plane = plane;
-  fresh.surface.hull = hullOn(landmarks::PlaneAxes(plane), points);
-  std::tie(fresh.surface.lowest, fresh.surface.highest) = heightsOf(points);
-  fresh.surface.heights = heightsKnownBy(measurement);
-  fresh.payload = payload;
+  LandmarkSurface& surface = fresh.surface;
+  surface.plane = map_from_base_ * measurement.plane_in_base;
+  surface.hull = hullOn(landmarks::PlaneAxes(surface.plane), points);
+  std::tie(surface.lowest, surface.highest) = heightsOf(points);
+  surface.heights = heightsKnownBy(measurement);
+  fresh.payload = known_.emptyPayload().with(frame().id, measurement, {true, true});
+  const auto [landmark, variable] = addLandmark(
+      measurement, std::move(decision), {"plane", form_.variable(), form_.value(surface.plane, points), fresh.payload});
+  surface.id = landmark;
+  surface.variable = variable;
+  if (measurement.is_line && form_.mayTilt()) holdUpright(surface);
   fresh_.push_back(std::move(fresh));
+}
+
+void PlaneAssociator::holdUpright(const LandmarkSurface& surface) {
+  graph::FactorRecord upright{
+      {surface.variable},
+      std::make_shared<landmarks::UprightFactor>(),
+      graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, options_.upright_sigma))};
+  upright.tags.owner = section();
+  upright.tags.landmark = surface.id;
+  upright.tags.note = "upright";
+  batch().addFactor(upright);
+}
+
+void PlaneAssociator::addToFresh(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
+                                 Fresh& fresh) {
+  LandmarkSurface& surface = fresh.surface;
+  batch().addFactor(tagged(measurement, {surface.id, surface.variable}));
+  fresh.payload = fresh.payload->with(frame().id, measurement, {true, true});
+  batch().addEvidence(surface.id, fresh.payload);
+  const landmarks::PlaneAxes axes(surface.plane);
+  for (const auto& point : points) surface.hull.push_back(axes.onto(point));
+  surface.hull = geometry::convexHull(std::move(surface.hull));
 }
 
 PlaneAssociator::Fresh* PlaneAssociator::freshMatch(const PlaneMeasurement& measurement,
@@ -305,7 +245,7 @@ PlaneAssociator::Fresh* PlaneAssociator::freshMatch(const PlaneMeasurement& meas
   constexpr double kTurn = 0.05, kOff = 0.05;  // [rad], [m]
   const Eigen::Vector3d normal = map_from_base_.rotation * measurement.plane_in_base.normal;
   for (Fresh& fresh : fresh_) {
-    const Plane3& plane = fresh.surface.plane;
+    const geometry::Plane3& plane = fresh.surface.plane;
     const bool off = std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
       return std::abs(signedDistance(plane, point)) > kOff;
     });

@@ -26,75 +26,67 @@ Interval alongFloor(const std::vector<Eigen::Vector2d>& hull) {
 
 }  // namespace
 
-void PlaneLandmarkIndex::restore(const mapper::State& state) {
-  for (const auto id : state.candidates(owner_)) {
-    const auto* payload = dynamic_cast<const PlanePayload*>(state.map.landmark(id).payload.get());
-    if (!payload || payload->form != empty_.form) {
-      const std::string there = !payload ? "landmarks of another kind"
-                                : payload->form == landmarks::PlaneParametrization::Kind::wall
-                                    ? "landmarks of form = wall"
-                                    : "landmarks of form = plane";
-      throw base::Error(
-          base::ExitCode::out_of_range,
-          "[" + owner_ + "] the map has " + there +
-              " under this name; give the section the settings that the map was made with, or another name");
-    }
-    add(id);
+void PlaneLandmarkIndex::restore(const mapper::View& view) {
+  for (const auto id : view.candidates(owner())) {
+    const auto* payload = dynamic_cast<const PlanePayload*>(view.map.landmark(id).payload.get());
+    if (payload && payload->form == empty_.form) continue;
+    const std::string there = !payload ? "landmarks of another kind"
+                              : payload->form == landmarks::PlaneParametrization::Kind::wall
+                                  ? "landmarks of form = wall"
+                                  : "landmarks of form = plane";
+    throw base::Error(
+        base::ExitCode::out_of_range,
+        "[" + owner() + "] the map has " + there +
+            " under this name; give the section the settings that the map was made with, or another name");
   }
+  LandmarkIndex::restore(view);
 }
 
-void PlaneLandmarkIndex::update(const mapper::View& view) {
-  for (auto at = surfaces_.begin(); at != surfaces_.end();) {
-    Surface& surface = at->second;
-    const map::Landmark* landmark = view.map.landmarks.find(surface.id);
-    if (!landmark || landmark->state != map::Landmark::State::active) {
-      at = surfaces_.erase(at);
-      continue;
-    }
-    ++at;
-    const auto plane = form().plane(view.graph.value(landmark->variables.front()));
-    const bool is_solved = surface.solve != view.solves.size() + 1;
-    // Between solves only whole sessions move, and patches are only added.
-    const bool is_placed = plane.normal != surface.plane.normal || plane.distance != surface.plane.distance;
-    if (surface.payload == landmark->payload && !is_solved && !is_placed) continue;
-    const auto& payload = dynamic_cast<const PlanePayload&>(*landmark->payload);
-    surface.variable = landmark->variables.front();
-    surface.plane = plane;
-    const landmarks::PlaneAxes axes(surface.plane);
-    const bool has_moved = is_solved || is_placed || surface.patches > payload.patches.size();
-    if (has_moved) {
-      surface.patches = 0;
-      surface.hull.clear();
-      surface.seen = {};
-      surface.well_seen = {};
-      std::tie(surface.lowest, surface.highest) = std::pair(HUGE_VAL, -HUGE_VAL);
-    }
-    const std::vector<SurfacePatch> fresh(payload.patches.begin() + static_cast<std::ptrdiff_t>(surface.patches),
-                                          payload.patches.end());
-    surface.patches = payload.patches.size();
-    if (!fresh.empty()) {
-      auto corners = cornersInMap(fresh, view.map.key_frames);
-      const auto [lowest, highest] = heightsOf(corners);
-      surface.lowest = std::min(surface.lowest, lowest);
-      surface.highest = std::max(surface.highest, highest);
-      for (const auto& corner : surface.hull) corners.push_back(axes.inSpace(corner));
-      surface.hull = hullOn(axes, corners);
-      std::vector<SurfacePatch> fresh_well_seen;
-      std::copy_if(fresh.begin(), fresh.end(), std::back_inserter(fresh_well_seen),
-                   [](const SurfacePatch& patch) { return patch.is_well_seen; });
-      addSeen(surface.seen, surface.plane, fresh, view.map.key_frames);
-      addSeen(surface.well_seen, surface.plane, fresh_well_seen, view.map.key_frames);
-    }
-    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());
-    surface.radius = 0;
-    for (const auto& corner : surface.hull) surface.radius = std::max(surface.radius, (corner - middle).norm());
-    surface.middle = axes.inSpace(middle);
-    surface.heights = payload.wasSeenAsPlane() ? Heights::known : Heights::unknown;
-    surface.last_seen_from = payload.last_seen_from;
-    surface.payload = landmark->payload;
-    surface.solve = view.solves.size() + 1;
-  }
+void LandmarkSurface::refresh(const map::Landmark& landmark, const mapper::View& view) {
+  KnownLandmark::refresh(landmark, view);
+  const auto& now = dynamic_cast<const PlanePayload&>(*landmark.payload);
+  const auto on = landmarks::PlaneParametrization::of(now.form).plane(view.graph.value(variable));
+  const bool is_solved = solve != view.solves.size() + 1;
+  // Between solves only whole sessions move, and patches are only added.
+  const bool is_placed = on.normal != plane.normal || on.distance != plane.distance;
+  if (payload == landmark.payload && !is_solved && !is_placed) return;
+  plane = on;
+  if (is_solved || is_placed || patches > now.patches.size()) forgetExtent();
+  if (patches < now.patches.size()) addPatches(now, view.map.key_frames);
+  Eigen::Vector2d middle_on_plane = Eigen::Vector2d::Zero();
+  for (const auto& corner : hull) middle_on_plane += corner / static_cast<double>(hull.size());
+  radius = 0;
+  for (const auto& corner : hull) radius = std::max(radius, (corner - middle_on_plane).norm());
+  middle = landmarks::PlaneAxes(plane).inSpace(middle_on_plane);
+  heights = now.wasSeenAsPlane() ? Heights::known : Heights::unknown;
+  last_seen_from = now.last_seen_from;
+  payload = landmark.payload;
+  solve = view.solves.size() + 1;
+}
+
+void LandmarkSurface::forgetExtent() {
+  patches = 0;
+  hull.clear();
+  seen = {};
+  well_seen = {};
+  std::tie(lowest, highest) = std::pair(HUGE_VAL, -HUGE_VAL);
+}
+
+void LandmarkSurface::addPatches(const PlanePayload& now, const map::KeyFrames& key_frames) {
+  const std::vector<SurfacePatch> fresh(now.patches.begin() + static_cast<std::ptrdiff_t>(patches), now.patches.end());
+  patches = now.patches.size();
+  auto corners = cornersInMap(fresh, key_frames);
+  const auto [low, high] = heightsOf(corners);
+  lowest = std::min(lowest, low);
+  highest = std::max(highest, high);
+  const landmarks::PlaneAxes axes(plane);
+  for (const auto& corner : hull) corners.push_back(axes.inSpace(corner));
+  hull = hullOn(axes, corners);
+  std::vector<SurfacePatch> fresh_well_seen;
+  std::copy_if(fresh.begin(), fresh.end(), std::back_inserter(fresh_well_seen),
+               [](const SurfacePatch& patch) { return patch.is_well_seen; });
+  addSeen(seen, plane, fresh, key_frames);
+  addSeen(well_seen, plane, fresh_well_seen, key_frames);
 }
 
 std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points) {
@@ -103,9 +95,9 @@ std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points) 
   return points.empty() ? std::pair(0.0, 0.0) : std::pair(low->z(), high->z());
 }
 
-double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
-                  PlaneLandmarkIndex::Heights of_points) {
-  using Heights = PlaneLandmarkIndex::Heights;
+double gapBetween(const LandmarkSurface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
+                  LandmarkSurface::Heights of_points) {
+  using Heights = LandmarkSurface::Heights;
   const auto hull = hullOn(landmarks::PlaneAxes(surface.plane), points_in_map);
   const bool known = surface.heights == Heights::known && of_points == Heights::known;
   if (known || std::abs(surface.plane.normal.z()) > kUpright) return geometry::distance(surface.hull, hull);
@@ -115,7 +107,7 @@ double gapBetween(const PlaneLandmarkIndex::Surface& surface, const std::vector<
 
 // Each lies in a ball about its middle, and the gap is at least the distance of the middles less both radii. Only the
 // part of the distance along the plane counts, and of upright surfaces only that along the floor.
-double gapAtLeast(const PlaneLandmarkIndex::Surface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
+double gapAtLeast(const LandmarkSurface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   const Eigen::Vector3d& middle) {
   double radius = 0;
   for (const auto& point : points_in_map) radius = std::max(radius, (point - middle).norm());

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "PlaneLandmarksPlugin.h"
+#include "PlaneLandmarksOptions.h"
 
 namespace omnimapper::plugins {
 

@@ -1,7 +1,8 @@
 #include "PlaneMerging.h"
 
 #include <omnimapper/graph/ChiSquare.h>
-#include <omnimapper/landmarks/Merging.h>
+#include <omnimapper/landmarks/Fit.h>
+#include <omnimapper/landmarks/LandmarkMerging.h>
 #include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/map/Level.h>
 
@@ -19,7 +20,7 @@ namespace omnimapper::plugins {
 
 namespace {
 
-using Surface = PlaneLandmarkIndex::Surface;
+using Surface = LandmarkSurface;
 
 constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] beyond which surfaces look like two
 constexpr double kAlong = 0.94;              // cosine of the largest angle between two views of one surface
@@ -122,101 +123,96 @@ bool continueEachOther(const Surface& a, const Surface& b, const Floor& floor) {
          std::abs(signedDistance(b.plane, a.middle)) < kOffPlane && gapBetween(a, cornersOf(b), b.heights) < kFar;
 }
 
-/// Which landmarks are merged, and the payloads of those that stay.
-struct Merges {
-  std::vector<std::pair<base::LandmarkId, base::LandmarkId>> gone_into;
-  PlanePayloads payloads;
-  mapper::Batch batch;  ///< all but the merges themselves
+using Merging = landmarks::LandmarkMerging<PlanePayload>;
+
+// Finds out whether two surfaces are one.
+class Comparison {
+ public:
+  Comparison(const PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const mapper::View& view,
+             std::optional<Floor> floor)
+      : known_(known),
+        view_(view),
+        floor_(std::move(floor)),
+        inflation_(options.inflation),
+        limit_(graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize())) {
+    // Two different surfaces could differ by anything within kOff and kTurn. They are merged only if it is
+    // min_likelihood_ratio times likelier that they are one. If their relative pose is too uncertain for that, they are
+    // not merged yet.
+    const int turns = known.form().variable()->tangentSize() - 1;
+    least_density_ = std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);
+  }
+
+  // `parts_of_a`: landmarks that are merged into a already.
+  std::optional<landmarks::Sameness> compare(const Surface& a, const Surface& b,
+                                             const std::vector<base::LandmarkId>& parts_of_a) const {
+    if (a.plane.normal.dot(b.plane.normal) < kAlong) return std::nullopt;
+    const bool do_overlap = overlap(a, b);
+    const bool lie = do_overlap && lieOnEachOther(a, b);
+    if (!lie && !onOnePlane(a, b)) return std::nullopt;
+    const bool continues = floor_ && (continueEachOther(a, b, *floor_) ||
+                                      std::any_of(parts_of_a.begin(), parts_of_a.end(), [&](base::LandmarkId part) {
+                                        return continueEachOther(known_.at(part), b, *floor_);
+                                      }));
+    if (!continues && !do_overlap) return std::nullopt;
+    const auto fit = fitOfDifference(known_.form(), a, b, inflation_, view_);
+    if (!fit) return std::nullopt;
+    const bool is_alike = fit->chi2 <= limit_ && fit->log_density >= least_density_;
+    if (!continues && !is_alike && !lie) return std::nullopt;
+    const char* why = is_alike    ? ""
+                      : continues ? "parts of one wall, as high as walls and on one plane"
+                                  : "their measured parts cover each other";
+    return landmarks::Sameness{fit->chi2, limit_, why};
+  }
+
+ private:
+  const PlaneLandmarkIndex& known_;
+  const mapper::View& view_;
+  std::optional<Floor> floor_;  // only at the end of a run
+  double inflation_, limit_, least_density_;
 };
 
-Merges findMerges(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
-                  const mapper::View& view, bool is_end) {
-  known.update(view);
-  const auto floor = is_end ? floorOf(known, view) : std::nullopt;
-  const double limit = graph::chiSquareQuantile(options.confidence, known.form().variable()->tangentSize());
-  // Two different surfaces could differ by anything within kOff and kTurn. They are merged only if it is
-  // min_likelihood_ratio times likelier that they are one. If their relative pose is too uncertain for that, they are
-  // not merged yet.
-  const int turns = known.form().variable()->tangentSize() - 1;
-  const double least_density =
-      std::log(options.min_likelihood_ratio) - std::log(2 * kOff) - turns * std::log(2 * kTurn);
-  Merges merges;
-  std::set<base::LandmarkId> gone_already;
+// Removes the factors that hold planes upright whose tilt was measured. `removed`: by earlier merges.
+void removeUprightFactors(const Surface& kept, const Surface& gone, const graph::Graph& graph, mapper::Batch& batch,
+                          std::set<base::FactorId>& removed) {
+  const auto of_kept = uprightFactor(graph, kept.variable), of_gone = uprightFactor(graph, gone.variable);
+  if (of_gone) batch.removeFactor(*of_gone);
+  // If the other one has none, its tilt was measured.
+  if (of_kept && !of_gone && removed.insert(*of_kept).second) batch.removeFactor(*of_kept);
+}
+
+Merging findMerges(const PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
+                   const mapper::View& view, bool is_end) {
+  const Comparison comparison(known, options, view, is_end ? floorOf(known, view) : std::nullopt);
+  Merging merging(view, section);
   std::set<base::FactorId> removed;
-  std::map<base::LandmarkId, std::vector<const Surface*>> parts;  // that were merged into each
   const auto& all = known.all();
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = std::next(a); b != all.end(); ++b) {
-      if (gone_already.count(a->first) > 0) break;
-      if (gone_already.count(b->first) > 0 || !view.areAligned(a->first.session, b->first.session)) continue;
-      if (a->second.plane.normal.dot(b->second.plane.normal) < kAlong) continue;
-      const bool do_overlap = overlap(a->second, b->second);
-      const bool lie = do_overlap && lieOnEachOther(a->second, b->second);
-      if (!lie && !onOnePlane(a->second, b->second)) continue;
-      const auto& of_a = parts[a->first];
-      const bool continues = floor && (continueEachOther(a->second, b->second, *floor) ||
-                                       std::any_of(of_a.begin(), of_a.end(), [&](const Surface* part) {
-                                         return continueEachOther(*part, b->second, *floor);
-                                       }));
-      if (!continues && !do_overlap) continue;
-      const auto fit = fitOfDifference(known.form(), a->second, b->second, options.inflation, view);
-      if (!fit) continue;
-      const bool is_alike = fit->chi2 <= limit && fit->log_density >= least_density;
-      if (!continues && !is_alike && !lie) continue;
-      const std::string why = is_alike    ? ""
-                              : continues ? "parts of one wall, as high as walls and on one plane"
-                                          : "their measured parts cover each other";
-      gone_already.insert(b->first);
-      parts[a->first].push_back(&b->second);
-      const map::Landmark &kept = view.map.landmark(a->first), &gone = view.map.landmark(b->first);
-      const auto before = merges.payloads.find(kept.id);
-      const auto& kept_payload =
-          before != merges.payloads.end() ? *before->second : dynamic_cast<const PlanePayload&>(*kept.payload);
-      const auto& gone_payload = dynamic_cast<const PlanePayload&>(*gone.payload);
-      const auto of_kept = uprightFactor(view.graph, kept.variables.front());
-      const auto of_gone = uprightFactor(view.graph, gone.variables.front());
-      const bool has_kept = of_kept && removed.count(*of_kept) == 0;
-      if (of_gone) merges.batch.removeFactor(*of_gone);
-      if (has_kept && !of_gone) {  // the tilt of the other one was measured
-        merges.batch.removeFactor(*of_kept);
-        removed.insert(*of_kept);
-      }
-      merges.gone_into.emplace_back(gone.id, kept.id);
-      merges.payloads[kept.id] = kept_payload.with(gone_payload);
-      merges.batch.log(landmarks::mergeDecision(view, section, kept.id, gone.id, fit->chi2, limit, why));
+      if (!merging.mayMerge(a->first, b->first)) continue;
+      const auto sameness = comparison.compare(a->second, b->second, merging.partsOf(a->first));
+      if (!sameness) continue;
+      removeUprightFactors(a->second, b->second, view.graph, merging.batch(), removed);
+      merging.merge(a->first, b->first, *sameness);
     }
   }
-  return merges;
-}
-
-mapper::Batch asBatch(Merges merges) {
-  for (const auto& [gone, kept] : merges.gone_into) merges.batch.mergeLandmarks(gone, kept, merges.payloads.at(kept));
-  return std::move(merges.batch);
+  return merging;
 }
 
 }  // namespace
 
-mapper::Batch mergeAlike(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
-                         const mapper::View& view) {
-  return asBatch(findMerges(known, options, section, view, false));
+mapper::Batch mergeAlike(const PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options,
+                         const std::string& section, const mapper::View& view) {
+  return findMerges(known, options, section, view, false).take();
 }
 
-mapper::Batch mergeAndJudge(PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options, const std::string& section,
-                            const mapper::View& view) {
-  Merges merges = findMerges(known, options, section, view, true);
-  PlanePayloads left = merges.payloads;
+mapper::Batch mergeAndJudge(const PlaneLandmarkIndex& known, const PlaneLandmarksOptions& options,
+                            const std::string& section, const mapper::View& view) {
+  Merging merging = findMerges(known, options, section, view, true);
+  PlanePayloads left = merging.payloads();
   for (const auto& [id, surface] : known.all())
-    left.try_emplace(id, std::dynamic_pointer_cast<const PlanePayload>(surface.payload));
-  for (const auto& [gone, kept] : merges.gone_into) left.erase(gone);
-  for (const auto& [id, payload] : judged(left, known, view)) {
-    const auto merged = merges.payloads.find(id);
-    if (merged != merges.payloads.end()) {
-      merged->second = payload;
-    } else {
-      merges.batch.describeLandmark(id, payload);
-    }
-  }
-  return asBatch(std::move(merges));
+    if (!merging.isGone(id)) left.try_emplace(id, std::dynamic_pointer_cast<const PlanePayload>(surface.payload));
+  for (const auto& [id, payload] : judged(left, known, view)) merging.describe(id, payload);
+  return merging.take();
 }
 
 std::optional<base::FactorId> uprightFactor(const graph::Graph& graph, base::VariableId plane) {

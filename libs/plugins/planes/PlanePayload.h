@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "PlaneLandmarksPlugin.h"
+#include "PlaneLandmarksOptions.h"
 
 namespace omnimapper::plugins {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "PointLandmarksPlugin.h"
+#include "PointLandmarksOptions.h"
 
 namespace omnimapper::plugins {
 

@@ -1,10 +1,10 @@
 #include "PointMerging.h"
 
 #include <omnimapper/graph/ChiSquare.h>
-#include <omnimapper/landmarks/Merging.h>
+#include <omnimapper/landmarks/Fit.h>
+#include <omnimapper/landmarks/LandmarkMerging.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <vector>
 
@@ -24,15 +24,6 @@ bool seenAtOnce(base::VariableId a, base::VariableId b, const graph::Graph& grap
   return false;
 }
 
-std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view) {
-  const auto joint = view.jointCovariance({a, b});
-  if (!joint) return std::nullopt;
-  const Eigen::VectorXd difference = view.graph.value(b) - view.graph.value(a);
-  const Eigen::Index n = difference.size();
-  return landmarks::fitOf(difference, joint->topLeftCorner(n, n) + joint->bottomRightCorner(n, n) -
-                                          joint->topRightCorner(n, n) - joint->bottomLeftCorner(n, n));
-}
-
 struct UnnumberedPoint {
   base::LandmarkId id;
   base::VariableId variable;
@@ -42,10 +33,8 @@ struct UnnumberedPoint {
 // Sorted by x, so that the search for near neighbours can stop early.
 std::vector<UnnumberedPoint> unnumberedPoints(const PointLandmarkIndex& known, const mapper::View& view) {
   std::vector<UnnumberedPoint> unnumbered;
-  for (const auto& [id, variable] : known.all()) {
-    const auto& payload = dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
-    if (payload.number < 0) unnumbered.push_back({id, variable, &view.graph.value(variable)});
-  }
+  for (const auto& [id, point] : known.all())
+    if (point.number < 0) unnumbered.push_back({id, point.variable, &view.graph.value(point.variable)});
   std::stable_sort(unnumbered.begin(), unnumbered.end(),
                    [](const UnnumberedPoint& a, const UnnumberedPoint& b) { return (*a.place)[0] < (*b.place)[0]; });
   return unnumbered;
@@ -55,29 +44,22 @@ std::vector<UnnumberedPoint> unnumberedPoints(const PointLandmarkIndex& known, c
 
 mapper::Batch mergeAlike(const PointLandmarkIndex& known, const PointLandmarksOptions& options,
                          const std::string& section, const mapper::View& view) {
-  mapper::Batch batch;
-  std::vector<UnnumberedPoint> left = unnumberedPoints(known, view);
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    const UnnumberedPoint& a = left[i];
-    const double limit = graph::chiSquareQuantile(options.confidence, static_cast<int>(a.place->size())) *
+  landmarks::LandmarkMerging<PointPayload> merging(view, section);
+  const std::vector<UnnumberedPoint> points = unnumberedPoints(known, view);
+  for (auto a = points.begin(); a != points.end(); ++a) {
+    const double limit = graph::chiSquareQuantile(options.confidence, static_cast<int>(a->place->size())) *
                          options.inflation * options.inflation;
-    for (std::size_t k = i + 1; k < left.size() && (*left[k].place)[0] - (*a.place)[0] <= kFarthestApart; ++k) {
-      const UnnumberedPoint& b = left[k];
-      if ((*b.place - *a.place).norm() > kFarthestApart || !view.areAligned(a.id.session, b.id.session)) continue;
-      if (seenAtOnce(a.variable, b.variable, view.graph)) continue;
-      const auto fit = fitOfGap(a.variable, b.variable, view);
-      if (!fit || fit->chi2 > limit) continue;
-      const auto kept = std::min(a.id, b.id), gone = std::max(a.id, b.id);
-      const auto payloadOf = [&](base::LandmarkId id) -> const PointPayload& {
-        return dynamic_cast<const PointPayload&>(*view.map.landmark(id).payload);
-      };
-      batch.mergeLandmarks(gone, kept, payloadOf(kept).with(payloadOf(gone)));
-      batch.log(landmarks::mergeDecision(view, section, kept, gone, fit->chi2, limit));
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
-      break;
+    for (auto b = std::next(a); b != points.end() && (*b->place)[0] - (*a->place)[0] <= kFarthestApart; ++b) {
+      const auto kept = std::min(a->id, b->id), gone = std::max(a->id, b->id);
+      // Two parts of one landmark may not be seen at once either, which is known when the first merge has been applied.
+      if (!merging.mayMerge(kept, gone) || !merging.partsOf(kept).empty()) continue;
+      if ((*b->place - *a->place).norm() > kFarthestApart) continue;
+      if (seenAtOnce(a->variable, b->variable, view.graph)) continue;
+      const auto fit = landmarks::fitOfGap(a->variable, b->variable, view);
+      if (fit && fit->chi2 <= limit) merging.merge(kept, gone, {fit->chi2, limit, ""});
     }
   }
-  return batch;
+  return merging.take();
 }
 
 }  // namespace omnimapper::plugins

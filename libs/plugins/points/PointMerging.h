@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "PointLandmarkIndex.h"
-#include "PointLandmarksPlugin.h"
+#include "KnownPoint.h"
+#include "PointLandmarksOptions.h"
 
 namespace omnimapper::plugins {
 

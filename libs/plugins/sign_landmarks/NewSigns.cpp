@@ -63,7 +63,7 @@ void addUnplacedSigns(const SignTracks& tracks, mapper::PanTiltOffsets& offsets,
                       const std::string& section, const mapper::View& view, mapper::Batch& batch) {
   constexpr std::size_t kMinViews = 3;
   std::vector<SignPlace> there;
-  for (const auto& [id, known] : tracks.known())
+  for (const auto& [id, known] : tracks.all())
     there.push_back({signOf(view, id).text(), view.graph.value(known.variable)});
   for (auto views : tracks.unplacedViews(options.recent_travel)) {
     // triangulate() requires the last view to meet the others. If it does not, the one before it is tried as the last.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "SignLandmarksPlugin.h"
+#include "SignLandmarksOptions.h"
 #include "SignMeasurement.h"
 #include "SignTracks.h"
 #include "Triangulation.h"

@@ -20,7 +20,7 @@ namespace {
 std::optional<base::LandmarkId> oneWith(const SignText& text, const SignTracks& tracks, const mapper::View& view) {
   std::optional<base::LandmarkId> found;
   const auto first = view.map.sessions.front().number;
-  for (const auto& [id, known] : tracks.known()) {
+  for (const auto& [id, known] : tracks.all()) {
     if (id.session == view.map.sessions.back().number || !view.areAligned(id.session, first)) continue;
     const SignPayload& sign = signOf(view, id);
     if (agreementOf(text, sign.text()) != Agreement::agrees) continue;
@@ -41,7 +41,7 @@ std::optional<KnownSignBearing> seenKnown(const SignMeasurement& measurement, ba
                                           const map::KeyFrame& frame, const SignTracks& tracks,
                                           const mapper::View& view, const KnownOffsets& offsets) {
   constexpr double kUncertain = 0.5;  // [m]
-  const auto variable = tracks.known().at(sign).variable;
+  const auto variable = tracks.all().at(sign).variable;
   const auto normal = mapper::shapeOf(view.map.landmark(sign), view).normal;
   const double sign_sigma = sigmaOf(variable, view);
   if (!normal || !(sign_sigma < kUncertain)) return std::nullopt;

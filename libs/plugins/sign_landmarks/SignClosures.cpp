@@ -2,7 +2,8 @@
 
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/graph/PointFactor.h>
-#include <omnimapper/landmarks/Merging.h>
+#include <omnimapper/landmarks/Fit.h>
+#include <omnimapper/landmarks/LandmarkMerging.h>
 
 #include <algorithm>
 #include <optional>
@@ -20,15 +21,6 @@ using graph::SamePointFactor;
 constexpr double kOfOneSign = 1;
 // [m] The same if the texts agree only partly: a number and words on one plate.
 constexpr double kOfOnePlate = 0.25;
-
-std::optional<landmarks::Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::View& view, double sigma) {
-  const auto joint = view.jointCovariance({a, b});
-  if (!joint) return std::nullopt;
-  const Eigen::MatrixXd covariance = joint->topLeftCorner(3, 3) + joint->bottomRightCorner(3, 3) -
-                                     joint->topRightCorner(3, 3) - joint->bottomLeftCorner(3, 3) +
-                                     sigma * sigma * Eigen::Matrix3d::Identity();
-  return landmarks::fitOf(view.graph.value(b) - view.graph.value(a), covariance);
-}
 
 // The hypothesis that two signs are the same, if it was proposed.
 std::optional<base::FactorId> hypothesisOf(base::VariableId a, base::VariableId b, const mapper::View& view) {
@@ -49,7 +41,7 @@ class Proposals {
 
   mapper::Batch of(const std::vector<base::LandmarkId>& fresh) {
     for (const auto id : fresh)
-      if (tracks_.known().count(id) > 0) look(id);
+      if (tracks_.all().count(id) > 0) look(id);
     for (const auto id : repeated_) {
       if (!signOf(view_, id).is_repeated) batch_.describeLandmark(id, signOf(view_, id).repeated());
     }
@@ -58,11 +50,11 @@ class Proposals {
 
  private:
   void look(base::LandmarkId id) {
-    const auto& own = tracks_.known().at(id);
+    const auto& own = tracks_.all().at(id);
     const SignText text = signOf(view_, id).text();
     std::vector<base::LandmarkId> others;
     bool is_repeated = false;
-    for (const auto& [other, known] : tracks_.known()) {
+    for (const auto& [other, known] : tracks_.all()) {
       if (other == id || agreementOf(text, signOf(view_, other).text()) != Agreement::agrees) continue;
       is_repeated = is_repeated || signOf(view_, other).is_repeated;
       if (id < other) continue;
@@ -82,7 +74,7 @@ class Proposals {
     }
     if (others.empty()) return;
     graph::FactorRecord record{
-        {tracks_.known().at(others.front()).variable, own.variable},
+        {tracks_.all().at(others.front()).variable, own.variable},
         std::make_shared<SamePointFactor>(oddsOfOneSign(text, signOf(view_, others.front()).text())),
         graph::SquareRootInformation::fromSigmas(Eigen::Vector3d::Constant(options_.same_sigma))};
     record.tags.owner = section_;
@@ -113,7 +105,7 @@ class Proposals {
 
   // Whether an accepted hypothesis says that they are the same sign; such signs are merged at the end.
   bool areOne(base::LandmarkId a, base::LandmarkId b) const {
-    const auto hypothesis = hypothesisOf(tracks_.known().at(a).variable, tracks_.known().at(b).variable, view_);
+    const auto hypothesis = hypothesisOf(tracks_.all().at(a).variable, tracks_.all().at(b).variable, view_);
     return hypothesis && view_.graph.factor(*hypothesis).weight > 0;
   }
 
@@ -135,33 +127,27 @@ mapper::Batch proposeSameSigns(SignTracks& tracks, const SignLandmarksOptions& o
 mapper::Batch mergeSameSigns(const SignTracks& tracks, const SignLandmarksOptions& options, const std::string& section,
                              const mapper::View& view) {
   const double limit = graph::chiSquareQuantile(options.confidence, 3) * options.inflation * options.inflation;
-  mapper::Batch batch;
-  std::set<base::LandmarkId> gone;
-  for (auto a = tracks.known().begin(); a != tracks.known().end(); ++a) {
-    if (gone.count(a->first) > 0) continue;
-    auto merged = std::make_shared<SignPayload>(signOf(view, a->first));
-    for (auto b = std::next(a); b != tracks.known().end(); ++b) {
-      if (gone.count(b->first) > 0 || !view.areAligned(a->first.session, b->first.session)) continue;
-      const SignPayload& other = signOf(view, b->first);
-      const auto agreement = agreementOf(merged->text(), other.text());
-      const bool is_misread = agreement == Agreement::contradicts && mayBeMisread(merged->text(), other.text());
+  landmarks::LandmarkMerging<SignPayload> merging(view, section);
+  for (auto a = tracks.all().begin(); a != tracks.all().end(); ++a) {
+    for (auto b = std::next(a); b != tracks.all().end(); ++b) {
+      if (!merging.mayMerge(a->first, b->first)) continue;
+      const SignText text = merging.payloadOf(a->first).text(), other = signOf(view, b->first).text();
+      const auto agreement = agreementOf(text, other);
+      const bool is_misread = agreement == Agreement::contradicts && mayBeMisread(text, other);
       const auto hypothesis = hypothesisOf(a->second.variable, b->second.variable, view);
       const bool is_accepted = hypothesis && !is_misread && view.graph.factor(*hypothesis).weight > 0;
       if (agreement == Agreement::contradicts && hypothesis)
-        batch.removeFactor(*hypothesis);  // the texts were read differently since
+        merging.batch().removeFactor(*hypothesis);  // the texts were read differently since
       if (agreement == Agreement::contradicts && !is_misread) continue;
       const double most = agreement == Agreement::agrees ? kOfOneSign : kOfOnePlate;
       const auto gap = view.graph.value(b->second.variable) - view.graph.value(a->second.variable);
       if (!is_accepted && gap.norm() > most) continue;
-      const auto fit = fitOfGap(a->second.variable, b->second.variable, view, options.same_sigma);
+      const auto fit = landmarks::fitOfGap(a->second.variable, b->second.variable, view, options.same_sigma);
       if (!is_accepted && (!fit || fit->chi2 > limit)) continue;
-      merged = merged->with(other);
-      gone.insert(b->first);
-      batch.mergeLandmarks(b->first, a->first, merged);
-      batch.log(landmarks::mergeDecision(view, section, a->first, b->first, fit ? fit->chi2 : 0, limit));
+      merging.merge(a->first, b->first, {fit ? fit->chi2 : 0, limit, ""});
     }
   }
-  return batch;
+  return merging.take();
 }
 
 }  // namespace omnimapper::plugins

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "SignLandmarksPlugin.h"
+#include "SignLandmarksOptions.h"
 #include "SignTracks.h"
 
 namespace omnimapper::plugins {

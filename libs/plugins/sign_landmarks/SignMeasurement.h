@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "SignBearingFactor.h"
-#include "SignLandmarksPlugin.h"
+#include "SignLandmarksOptions.h"
 #include "SignPayload.h"
 #include "SignText.h"
 

@@ -17,23 +17,6 @@ const SignPayload& signOf(const mapper::State& state, base::LandmarkId id) {
   return dynamic_cast<const SignPayload&>(*state.map.landmark(id).payload);
 }
 
-void SignTracks::restore(const mapper::State& state) {
-  for (const auto id : state.candidates(owner_)) known_[id];
-  update(state);
-}
-
-void SignTracks::update(const mapper::State& state) {
-  for (auto at = known_.begin(); at != known_.end();) {
-    const map::Landmark* landmark = state.map.landmarks.find(at->first);
-    if (!landmark || landmark->state != map::Landmark::State::active) {
-      at = known_.erase(at);
-    } else {
-      at->second.variable = landmark->variables.front();
-      ++at;
-    }
-  }
-}
-
 void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel) {
   if (!last_pose_ || frame.stamp > last_stamp_) {  // a frame that came late does not count
     if (last_pose_ && state.graph.contains(*last_pose_))
@@ -41,7 +24,6 @@ void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, do
     last_pose_ = frame.pose;
     last_stamp_ = frame.stamp;
   }
-  update(state);
   while (!waiting_.empty() && travelled_ - waiting_.front().last_seen > recent_travel) {
     for (const auto& view : waiting_.front().views) keepForTheEnd(view);
     waiting_.pop_front();
@@ -49,7 +31,8 @@ void SignTracks::goTo(const map::KeyFrame& frame, const mapper::State& state, do
 }
 
 void SignTracks::add(base::LandmarkId id) {
-  known_[id].last_seen = travelled_;
+  LandmarkIndex::add(id);
+  seen(id);
   fresh.push_back(id);
 }
 

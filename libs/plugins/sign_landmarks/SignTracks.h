@@ -1,9 +1,8 @@
 #pragma once
 
-#include <omnimapper/plugin/View.h>
+#include <omnimapper/landmarks/LandmarkIndex.h>
 
 #include <deque>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,27 +15,24 @@ namespace omnimapper::plugins {
 
 const SignPayload& signOf(const mapper::State& state, base::LandmarkId id);
 
+/// A sign of the map.
+struct KnownSign : landmarks::KnownLandmark {
+  std::optional<double> last_seen;  ///< [m] distance travelled then; none if the sign was not seen in this session
+};
+
 /// The signs of the map, how long ago each was seen, and measurements that wait until they determine a sign's position.
-class SignTracks {
+class SignTracks : public landmarks::LandmarkIndex<KnownSign> {
  public:
-  /// `owner`: INI section.
-  explicit SignTracks(std::string owner) : owner_(std::move(owner)) {}
+  using LandmarkIndex::LandmarkIndex;
 
-  void restore(const mapper::State& state);
-  /// Takes over the current signs of the map, and adds the distance that the base travelled to this key frame.
+  /// Adds the distance that the base travelled to this key frame.
   void goTo(const map::KeyFrame& frame, const mapper::State& state, double recent_travel);
-  /// Removes landmarks that were retired or merged.
-  void update(const mapper::State& state);
+  /// Adds a sign that is new in this session.
   void add(base::LandmarkId id);
-  void seen(base::LandmarkId id) { known_.at(id).last_seen = travelled_; }
+  void seen(base::LandmarkId id) { at(id).last_seen = travelled_; }
 
-  struct Known {
-    base::VariableId variable;
-    std::optional<double> last_seen;  ///< [m] distance travelled then; none if the sign was not seen in this session
-  };
   double travelled() const { return travelled_; }
-  const std::map<base::LandmarkId, Known>& known() const { return known_; }
-  bool isRecent(const Known& known, double recent_travel) const {
+  bool isRecent(const KnownSign& known, double recent_travel) const {
     return known.last_seen && travelled_ - *known.last_seen <= recent_travel;
   }
 
@@ -59,8 +55,6 @@ class SignTracks {
 
   void keepForTheEnd(const SignView& view);
 
-  std::string owner_;
-  std::map<base::LandmarkId, Known> known_;
   std::deque<Waiting> waiting_;    // in the order in which they were last seen
   std::deque<SignView> unplaced_;  // views that waited too long
   double travelled_ = 0;           // [m] distance travelled by the base

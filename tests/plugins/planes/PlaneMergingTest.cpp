@@ -324,7 +324,7 @@ TEST(PlaneGaps, TheCheapBoundIsNeverAboveTheGap) {
         points.push_back(about + Vector3d(dice.normal(spread), dice.normal(spread), dice.normal(spread)));
       return points;
     };
-    PlaneLandmarkIndex::Surface surface;
+    LandmarkSurface surface;
     surface.plane = Plane3::through(Vector3d(dice.normal(1), dice.normal(1), dice.normal(1)), normal);
     const landmarks::PlaneAxes axes(surface.plane);
     surface.hull = hullOn(axes, cloud(1));
@@ -332,7 +332,7 @@ TEST(PlaneGaps, TheCheapBoundIsNeverAboveTheGap) {
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());
     for (const auto& corner : surface.hull) surface.radius = std::max(surface.radius, (corner - middle).norm());
     surface.middle = axes.inSpace(middle);
-    using Heights = PlaneLandmarkIndex::Heights;
+    using Heights = LandmarkSurface::Heights;
     surface.heights = i % 4 < 2 ? Heights::known : Heights::unknown;
     const auto points = cloud(0.5);
     Vector3d mean = Vector3d::Zero();

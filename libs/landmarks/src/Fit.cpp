@@ -1,5 +1,5 @@
 #include <omnimapper/geometry/Angle.h>
-#include <omnimapper/landmarks/Merging.h>
+#include <omnimapper/landmarks/Fit.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -18,17 +18,15 @@ std::optional<Fit> fitOf(const Eigen::VectorXd& difference, const Eigen::MatrixX
   return fit;
 }
 
-mapper::Decision mergeDecision(const mapper::View& view, const std::string& section, base::LandmarkId kept,
-                               base::LandmarkId gone, double chi2, double limit, const std::string& why) {
-  mapper::Decision decision;
-  decision.stamp = view.map.key_frames.back().stamp;
-  decision.plugin = section;
-  decision.kind = "merge";
-  decision.from = view.map.key_frames.back().id;
-  decision.accepted = true;
-  decision.reason = "two landmarks are the same" + (why.empty() ? why : ": " + why);
-  decision.numbers = {{"landmark", kept.index}, {"other", gone.index}, {"chi-square", chi2}, {"limit", limit}};
-  return decision;
+std::optional<Fit> fitOfGap(base::VariableId a, base::VariableId b, const mapper::State& state, double sigma) {
+  const auto joint = state.jointCovariance({a, b});
+  if (!joint) return std::nullopt;
+  const Eigen::VectorXd difference = state.graph.value(b) - state.graph.value(a);
+  const Eigen::Index n = difference.size();
+  const Eigen::MatrixXd covariance = joint->topLeftCorner(n, n) + joint->bottomRightCorner(n, n) -
+                                     joint->topRightCorner(n, n) - joint->bottomLeftCorner(n, n) +
+                                     sigma * sigma * Eigen::MatrixXd::Identity(n, n);
+  return fitOf(difference, covariance);
 }
 
 }  // namespace omnimapper::landmarks
