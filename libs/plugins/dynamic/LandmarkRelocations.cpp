@@ -4,7 +4,7 @@
 #include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/landmarks/Fit.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -134,10 +134,11 @@ double chi2OfMove(const std::vector<base::VariableId>& from, const std::vector<b
   ids.insert(ids.end(), to.begin(), to.end());
   const Eigen::MatrixXd joint = uncertainty.joint(graph, ids).value();
   const Eigen::Index n = joint.rows() / 2;
-  landmarks::PlaneParametrization::Difference move{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, 2 * n)};
+  plane_factors::PlaneParametrization::Difference move{Eigen::VectorXd(n), Eigen::MatrixXd::Zero(n, 2 * n)};
   Eigen::Index row = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const auto one = landmarks::differenceOf(*graph.variable(from[i]).kind, graph.value(from[i]), graph.value(to[i]));
+    const auto one =
+        plane_factors::differenceOf(*graph.variable(from[i]).kind, graph.value(from[i]), graph.value(to[i]));
     const Eigen::Index size = one.change.size();
     move.change.segment(row, size) = one.change;
     move.by_both.block(row, row, size, size) = one.by_both.leftCols(size);

@@ -2,7 +2,7 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <algorithm>
@@ -131,7 +131,7 @@ bool PlaneAssociator::determinesTilt(const PlaneMeasurement& measurement, const 
 
 bool PlaneAssociator::reachesOver(const LandmarkSurface& surface, const std::vector<Eigen::Vector3d>& points) {
   constexpr double kEdge = 0.05;  // [m]
-  const landmarks::PlaneAxes axes(surface.plane);
+  const plane_factors::PlaneAxes axes(surface.plane);
   return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
     return geometry::distance(surface.hull, {axes.onto(point)}) > kEdge;
   });
@@ -206,7 +206,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decisi
   Fresh fresh;
   LandmarkSurface& surface = fresh.surface;
   surface.plane = map_from_base_ * measurement.plane_in_base;
-  surface.hull = hullOn(landmarks::PlaneAxes(surface.plane), points);
+  surface.hull = hullOn(plane_factors::PlaneAxes(surface.plane), points);
   std::tie(surface.lowest, surface.highest) = heightsOf(points);
   surface.heights = heightsKnownBy(measurement);
   fresh.payload = known_.emptyPayload().with(frame().id, measurement, {true, true});
@@ -221,7 +221,7 @@ void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decisi
 void PlaneAssociator::holdUpright(const LandmarkSurface& surface) {
   graph::FactorRecord upright{
       {surface.variable},
-      std::make_shared<landmarks::UprightFactor>(),
+      std::make_shared<plane_factors::UprightFactor>(),
       graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, options_.upright_sigma))};
   upright.tags.owner = section();
   upright.tags.landmark = surface.id;
@@ -235,7 +235,7 @@ void PlaneAssociator::addToFresh(const PlaneMeasurement& measurement, const std:
   batch().addFactor(tagged(measurement, {surface.id, surface.variable}));
   fresh.payload = fresh.payload->with(frame().id, measurement, {true, true});
   batch().addEvidence(surface.id, fresh.payload);
-  const landmarks::PlaneAxes axes(surface.plane);
+  const plane_factors::PlaneAxes axes(surface.plane);
   for (const auto& point : points) surface.hull.push_back(axes.onto(point));
   surface.hull = geometry::convexHull(std::move(surface.hull));
 }

@@ -75,7 +75,7 @@ class PlaneAssociator : public landmarks::LandmarkAssociator<PlaneMeasurement> {
 
   const PlaneLandmarksOptions& options_;
   const PlaneLandmarkIndex& known_;
-  const landmarks::PlaneParametrization& form_;
+  const plane_factors::PlaneParametrization& form_;
   const bool others_seek_;
   const geometry::Se3 map_from_base_;
   double pose_sigma_ = 0;                                                  // [m] of the base in the map

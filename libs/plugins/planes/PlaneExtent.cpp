@@ -7,14 +7,14 @@
 
 namespace omnimapper::plugins {
 
-std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points) {
+std::vector<Eigen::Vector2d> hullOn(const plane_factors::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector2d> dropped;
   dropped.reserve(points.size());
   for (const auto& point : points) dropped.push_back(axes.onto(point));
   return geometry::convexHull(std::move(dropped));
 }
 
-geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
+geometry::Areas2 seenOn(const plane_factors::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
                         const map::KeyFrames& key_frames) {
   constexpr double kLeast =
       0.02;  // [m^2] smaller holes and islands come from edges that are seen differently each time

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/geometry/PolygonBooleans.h>
-#include <omnimapper/landmarks/PlaneAxes.h>
 #include <omnimapper/map/KeyFrames.h>
+#include <omnimapper/plane_factors/PlaneAxes.h>
 #include <omnimapper/surfaces/CellGrid.h>
 
 #include <Eigen/Core>
@@ -18,11 +18,11 @@ constexpr double kSeenCell = 0.05;  ///< [m] side of the cells in which the area
 constexpr double kLargestCounted = 100;
 
 /// The convex hull of points that are projected on a plane, in the PlaneAxes of the plane [m].
-std::vector<Eigen::Vector2d> hullOn(const landmarks::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points);
+std::vector<Eigen::Vector2d> hullOn(const plane_factors::PlaneAxes& axes, const std::vector<Eigen::Vector3d>& points);
 
 /// The union of patches that are projected on a plane, in the PlaneAxes of the plane [m]. Patches of laser lines cover
 /// no area.
-geometry::Areas2 seenOn(const landmarks::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
+geometry::Areas2 seenOn(const plane_factors::PlaneAxes& axes, const std::vector<SurfacePatch>& patches,
                         const map::KeyFrames& key_frames);
 
 /// The diagonal of the box around points [m]; 0 without points.

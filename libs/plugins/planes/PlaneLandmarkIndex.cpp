@@ -31,7 +31,7 @@ void PlaneLandmarkIndex::restore(const mapper::View& view) {
     const auto* payload = dynamic_cast<const PlanePayload*>(view.map.landmark(id).payload.get());
     if (payload && payload->form == empty_.form) continue;
     const std::string there = !payload ? "landmarks of another kind"
-                              : payload->form == landmarks::PlaneParametrization::Kind::wall
+                              : payload->form == plane_factors::PlaneParametrization::Kind::wall
                                   ? "landmarks of form = wall"
                                   : "landmarks of form = plane";
     throw base::Error(
@@ -45,7 +45,7 @@ void PlaneLandmarkIndex::restore(const mapper::View& view) {
 void LandmarkSurface::refresh(const map::Landmark& landmark, const mapper::View& view) {
   KnownLandmark::refresh(landmark, view);
   const auto& now = dynamic_cast<const PlanePayload&>(*landmark.payload);
-  const auto on = landmarks::PlaneParametrization::of(now.form).plane(view.graph.value(variable));
+  const auto on = plane_factors::PlaneParametrization::of(now.form).plane(view.graph.value(variable));
   const bool is_solved = solve != view.solves.size() + 1;
   // Between solves only whole sessions move, and patches are only added.
   const bool is_placed = on.normal != plane.normal || on.distance != plane.distance;
@@ -57,7 +57,7 @@ void LandmarkSurface::refresh(const map::Landmark& landmark, const mapper::View&
   for (const auto& corner : hull) middle_on_plane += corner / static_cast<double>(hull.size());
   radius = 0;
   for (const auto& corner : hull) radius = std::max(radius, (corner - middle_on_plane).norm());
-  middle = landmarks::PlaneAxes(plane).inSpace(middle_on_plane);
+  middle = plane_factors::PlaneAxes(plane).inSpace(middle_on_plane);
   heights = now.wasSeenAsPlane() ? Heights::known : Heights::unknown;
   last_seen_from = now.last_seen_from;
   payload = landmark.payload;
@@ -79,7 +79,7 @@ void LandmarkSurface::addPatches(const PlanePayload& now, const map::KeyFrames& 
   const auto [low, high] = heightsOf(corners);
   lowest = std::min(lowest, low);
   highest = std::max(highest, high);
-  const landmarks::PlaneAxes axes(plane);
+  const plane_factors::PlaneAxes axes(plane);
   for (const auto& corner : hull) corners.push_back(axes.inSpace(corner));
   hull = hullOn(axes, corners);
   std::vector<SurfacePatch> fresh_well_seen;
@@ -98,7 +98,7 @@ std::pair<double, double> heightsOf(const std::vector<Eigen::Vector3d>& points) 
 double gapBetween(const LandmarkSurface& surface, const std::vector<Eigen::Vector3d>& points_in_map,
                   LandmarkSurface::Heights of_points) {
   using Heights = LandmarkSurface::Heights;
-  const auto hull = hullOn(landmarks::PlaneAxes(surface.plane), points_in_map);
+  const auto hull = hullOn(plane_factors::PlaneAxes(surface.plane), points_in_map);
   const bool known = surface.heights == Heights::known && of_points == Heights::known;
   if (known || std::abs(surface.plane.normal.z()) > kUpright) return geometry::distance(surface.hull, hull);
   const Interval a = alongFloor(surface.hull), b = alongFloor(hull);

@@ -45,7 +45,9 @@ class PlaneLandmarkIndex : public landmarks::LandmarkIndex<LandmarkSurface> {
   /// `owner`: INI section. `empty`: payload of a landmark that was not measured yet.
   PlaneLandmarkIndex(std::string owner, const PlanePayload& empty) : LandmarkIndex(std::move(owner)), empty_(empty) {}
 
-  const landmarks::PlaneParametrization& form() const { return landmarks::PlaneParametrization::of(empty_.form); }
+  const plane_factors::PlaneParametrization& form() const {
+    return plane_factors::PlaneParametrization::of(empty_.form);
+  }
   const PlanePayload& emptyPayload() const { return empty_; }
   /// Adds the landmarks of the section. Throws Error(out_of_range) if they are not plane landmarks of the same form as
   /// emptyPayload().

@@ -1,11 +1,11 @@
 #include "PlaneLandmarksPlugin.h"
 
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
-#include <omnimapper/landmarks/WallFactor.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
+#include <omnimapper/plane_factors/WallFactor.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/plugin/SessionStart.h>
 
@@ -25,8 +25,8 @@ constexpr std::size_t kRecentKeyFrames = 60;  // among which a session is search
 
 PlanePayload emptyPayload(const PlaneLandmarksOptions& options) {
   PlanePayload empty;
-  empty.form = options.form == PlaneLandmarksOptions::Form::wall ? landmarks::PlaneParametrization::Kind::wall
-                                                                 : landmarks::PlaneParametrization::Kind::plane;
+  empty.form = options.form == PlaneLandmarksOptions::Form::wall ? plane_factors::PlaneParametrization::Kind::wall
+                                                                 : plane_factors::PlaneParametrization::Kind::plane;
   empty.ground = options.ground;
   empty.boundary = options.boundary;
   return empty;
@@ -140,12 +140,14 @@ std::vector<mapper::Evidence> PlaneLandmarksPlugin::evidence(const mapper::View&
 }
 
 void PlaneLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
-  kinds.factors.add(landmarks::PlaneParametrization::of(landmarks::PlaneParametrization::Kind::plane).variable());
-  kinds.factors.add(landmarks::PlaneParametrization::of(landmarks::PlaneParametrization::Kind::wall).variable());
-  landmarks::PlaneFactor::addTo(kinds.factors);
-  landmarks::LineOnPlaneFactor::addTo(kinds.factors);
-  landmarks::UprightFactor::addTo(kinds.factors);
-  landmarks::WallFactor::addTo(kinds.factors);
+  kinds.factors.add(
+      plane_factors::PlaneParametrization::of(plane_factors::PlaneParametrization::Kind::plane).variable());
+  kinds.factors.add(
+      plane_factors::PlaneParametrization::of(plane_factors::PlaneParametrization::Kind::wall).variable());
+  plane_factors::PlaneFactor::addTo(kinds.factors);
+  plane_factors::LineOnPlaneFactor::addTo(kinds.factors);
+  plane_factors::UprightFactor::addTo(kinds.factors);
+  plane_factors::WallFactor::addTo(kinds.factors);
   PlanePayload::addTo(kinds.payloads);
 }
 

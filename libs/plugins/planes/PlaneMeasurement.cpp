@@ -5,9 +5,9 @@
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/geometry/PolygonBooleans.h>
 #include <omnimapper/geometry/Simplify.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -42,7 +42,7 @@ PlaneMeasurement useless(PlaneMeasurement measurement, std::string why) {
 
 // Outlines follow pixels, so most of their corners carry no information about a wall.
 std::vector<Eigen::Vector3d> withoutNeedlessCorners(const std::vector<Eigen::Vector3d>& walk,
-                                                    const landmarks::PlaneAxes& axes) {
+                                                    const plane_factors::PlaneAxes& axes) {
   constexpr double kStraight = 0.01;  // [m]
   std::vector<Eigen::Vector2d> dropped;
   for (const auto& point : walk) dropped.push_back(axes.onto(point));
@@ -67,7 +67,7 @@ struct Disc {
   }
 };
 
-Disc wellSeenOn(const landmarks::PlaneAxes& axes, const Plane3& plane, const Eigen::Vector3d& sensor,
+Disc wellSeenOn(const plane_factors::PlaneAxes& axes, const Plane3& plane, const Eigen::Vector3d& sensor,
                 const PlaneLandmarksOptions& options) {
   const double off = std::abs(signedDistance(plane, sensor));
   const double near = options.well_seen_within * options.well_seen_within - off * off;
@@ -76,7 +76,7 @@ Disc wellSeenOn(const landmarks::PlaneAxes& axes, const Plane3& plane, const Eig
 }
 
 // Leaves `well_seen_in_base` empty if the whole plane is well seen.
-void addWellSeen(const landmarks::PlaneAxes& axes, const Disc& disc, PlaneMeasurement& measurement) {
+void addWellSeen(const plane_factors::PlaneAxes& axes, const Disc& disc, PlaneMeasurement& measurement) {
   const auto dropped = [&](const std::vector<Eigen::Vector3d>& walk) {
     std::vector<Eigen::Vector2d> points;
     for (const auto& corner : walk) points.push_back(axes.onto(corner));
@@ -120,7 +120,7 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& measured, const Se3& base_fro
   const Eigen::Matrix3d in_base_covariance = geometry::transportCovariance(base_from_sensor, in_sensor, covariance);
   std::vector<Eigen::Vector3d> corners;
   for (const auto& vertex : measured.outline.vertices) corners.push_back(base_from_sensor * vertex);
-  const landmarks::PlaneAxes axes(in_base);
+  const plane_factors::PlaneAxes axes(in_base);
   const auto hull = hullOn(axes, corners);
   if (hull.size() < 3) return useless(measurement, "its outline has no area");
   measurement.plane_in_base = in_base;
@@ -138,7 +138,7 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& measured, const Se3& base_fro
   }
   measurement.size = geometry::area(hull);
   measurement.roughness = std::isfinite(measured.roughness) ? measured.roughness : 0;
-  measurement.factor = std::make_shared<landmarks::PlaneFactor>(in_base);
+  measurement.factor = std::make_shared<plane_factors::PlaneFactor>(in_base);
   measurement.noise = graph::SquareRootInformation::fromCovariance(in_base_covariance);
   return measurement;
 }
@@ -146,7 +146,7 @@ PlaneMeasurement ofPlane(const obs::ObservedPlane& measured, const Se3& base_fro
 // The line x cos a + y sin a = d of the scan, with its middle at s along e = (-sin a, cos a): errors of a and d
 // turn e by -da against the normal, and move the middle by dd - s da (doc/derivations/line_on_plane.md).
 PlaneMeasurement ofLine(const obs::LaserLine& measured, const Se3& base_from_sensor, const Eigen::Vector3d& up_in_base,
-                        const landmarks::PlaneParametrization& form, const PlaneLandmarksOptions& options) {
+                        const plane_factors::PlaneParametrization& form, const PlaneLandmarksOptions& options) {
   PlaneMeasurement measurement;
   measurement.is_line = true;
   measurement.size = geometry::length(measured.segment_in_sensor);
@@ -196,7 +196,7 @@ Eigen::Matrix3d withRoughness(const Plane3& plane, const Eigen::Matrix3d& covari
 
 std::vector<PlaneMeasurement> planeMeasurements(const mrpt::obs::CObservation& observation,
                                                 const Eigen::Vector3d& up_in_base,
-                                                const landmarks::PlaneParametrization& form,
+                                                const plane_factors::PlaneParametrization& form,
                                                 const PlaneLandmarksOptions& options) {
   std::vector<PlaneMeasurement> measurements;
   const auto take = [&](PlaneMeasurement measurement, const std::string& label) {

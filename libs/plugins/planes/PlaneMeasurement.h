@@ -4,7 +4,7 @@
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/graph/Factor.h>
 #include <omnimapper/graph/Noise.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
 #include <omnimapper/surfaces/SurfaceSet.h>
 
 #include <memory>
@@ -39,7 +39,7 @@ struct PlaneMeasurement {
 /// planes through lines.
 std::vector<PlaneMeasurement> planeMeasurements(const mrpt::obs::CObservation& observation,
                                                 const Eigen::Vector3d& up_in_base,
-                                                const landmarks::PlaneParametrization& form,
+                                                const plane_factors::PlaneParametrization& form,
                                                 const PlaneLandmarksOptions& options);
 
 /// Covariance of a plane in its tangent [rad, rad, m], increased because the real surface is not quite flat: by

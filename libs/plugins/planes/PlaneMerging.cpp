@@ -3,8 +3,8 @@
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/landmarks/Fit.h>
 #include <omnimapper/landmarks/LandmarkMerging.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
 #include <omnimapper/map/Level.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,7 @@ constexpr double kTurn = 0.17, kOff = 0.15;  // [rad], [m] beyond which surfaces
 constexpr double kAlong = 0.94;              // cosine of the largest angle between two views of one surface
 
 std::vector<Eigen::Vector3d> cornersOf(const Surface& surface) {
-  const landmarks::PlaneAxes axes(surface.plane);
+  const plane_factors::PlaneAxes axes(surface.plane);
   std::vector<Eigen::Vector3d> corners;
   for (const auto& corner : surface.hull) corners.push_back(axes.inSpace(corner));
   return corners;
@@ -37,7 +37,7 @@ bool overlap(const Surface& a, const Surface& b) {
 }
 
 // Fit of the difference between the planes of a and b to zero, by their joint covariance.
-std::optional<landmarks::Fit> fitOfDifference(const landmarks::PlaneParametrization& form, const Surface& a,
+std::optional<landmarks::Fit> fitOfDifference(const plane_factors::PlaneParametrization& form, const Surface& a,
                                               const Surface& b, double inflation, const mapper::View& view) {
   const auto joint = view.jointCovariance({a.variable, b.variable});
   if (!joint) return std::nullopt;
@@ -217,7 +217,7 @@ mapper::Batch mergeAndJudge(const PlaneLandmarkIndex& known, const PlaneLandmark
 
 std::optional<base::FactorId> uprightFactor(const graph::Graph& graph, base::VariableId plane) {
   for (const auto id : graph.factorsOf(plane))
-    if (graph.factor(id).factor->kind() == landmarks::UprightFactor::kKind) return id;
+    if (graph.factor(id).factor->kind() == plane_factors::UprightFactor::kKind) return id;
   return std::nullopt;
 }
 

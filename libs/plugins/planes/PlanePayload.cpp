@@ -152,7 +152,7 @@ geometry::Areas2 PlanePayload::coveredOn(const Eigen::VectorXd& value, const map
   if (known && known->value == value && known->frames.size() == entry->frames.size() &&
       std::equal(known->frames.begin(), known->frames.end(), entry->frames.begin(), isSame))
     return known->areas;
-  const landmarks::PlaneAxes axes(landmarks::PlaneParametrization::of(form).plane(value));
+  const plane_factors::PlaneAxes axes(plane_factors::PlaneParametrization::of(form).plane(value));
   entry->areas = seenOn(axes, wellSeenIfAny(patches), key_frames);
   memo_.set(entry);
   return entry->areas;
@@ -162,8 +162,8 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
                                        const map::KeyFrames& key_frames) const {
   map::LandmarkShape shape;
   if (values.empty()) return shape;
-  const auto plane = landmarks::PlaneParametrization::of(form).plane(values.front());
-  const landmarks::PlaneAxes axes(plane);
+  const auto plane = plane_factors::PlaneParametrization::of(form).plane(values.front());
+  const plane_factors::PlaneAxes axes(plane);
   const auto corners = cornersInMap(patches, key_frames);
   const auto hull = hullOn(axes, corners);
   if (hull.empty()) return shape;
@@ -202,7 +202,7 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
 }
 
 bool PlanePayload::fits(const std::vector<std::string_view>& kinds) const {
-  return kinds == std::vector<std::string_view>{landmarks::PlaneParametrization::of(form).variable()->kind()};
+  return kinds == std::vector<std::string_view>{plane_factors::PlaneParametrization::of(form).variable()->kind()};
 }
 
 std::vector<base::KeyFrameId> PlanePayload::keyFrames() const {
@@ -247,8 +247,8 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
                             std::to_string(kVersion) + "; take the OmniMapper that wrote the map");
     }
     auto payload = std::make_shared<PlanePayload>();
-    payload->form = graph::readUint(in, 1) == 0 ? landmarks::PlaneParametrization::Kind::plane
-                                                : landmarks::PlaneParametrization::Kind::wall;
+    payload->form = graph::readUint(in, 1) == 0 ? plane_factors::PlaneParametrization::Kind::plane
+                                                : plane_factors::PlaneParametrization::Kind::wall;
     if (version > 1) payload->ground = graph::readUint(in, 1) == 0 ? Ground::start : Ground::map;
     if (version > 2) payload->boundary = graph::readUint(in, 1) == 0 ? Boundary::hull : Boundary::seen;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {

@@ -2,9 +2,9 @@
 
 #include <omnimapper/geometry/Plane3.h>
 #include <omnimapper/geometry/PolygonBooleans.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
 #include <omnimapper/map/KeyFrames.h>
 #include <omnimapper/map/PayloadRegistry.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
 #include <omnimapper/surfaces/Classification.h>
 
 #include <Eigen/Core>
@@ -90,7 +90,7 @@ struct PlanePayload : map::LandmarkPayload {
   using Ground = PlaneLandmarksOptions::Ground;
   using Boundary = PlaneLandmarksOptions::Boundary;
 
-  landmarks::PlaneParametrization::Kind form = landmarks::PlaneParametrization::Kind::plane;
+  plane_factors::PlaneParametrization::Kind form = plane_factors::PlaneParametrization::Kind::plane;
   Ground ground = Ground::start;  ///< height of the floor, on which the class depends
   Boundary boundary = Boundary::hull;
   std::vector<SurfacePatch> patches;            ///< each adds to the extent of the others

@@ -22,9 +22,9 @@ struct Shift {
 
   Shift(const geometry::Segment2& a, const geometry::Segment2& b) {
     const Eigen::Vector2d between = middle(b) - middle(a);
-    value = landmarks::normalOf(a).dot(between);
+    value = plane_factors::normalOf(a).dot(between);
     by_a << -direction(a).dot(between), -1;
-    by_b << 0, landmarks::normalOf(a).dot(landmarks::normalOf(b));
+    by_b << 0, plane_factors::normalOf(a).dot(plane_factors::normalOf(b));
   }
 };
 
@@ -69,9 +69,9 @@ struct Across {
 // The distance of a point from a wall, by the point's x and y, and its derivatives.
 struct FromWall {
   explicit FromWall(const double* const* values) {
-    const geometry::Segment2 wall = landmarks::wallFromValue(values[1]);
+    const geometry::Segment2 wall = plane_factors::wallFromValue(values[1]);
     const Eigen::Vector2d from_middle = Eigen::Vector2d(values[0][0], values[0][1]) - middle(wall);
-    normal = landmarks::normalOf(wall);
+    normal = plane_factors::normalOf(wall);
     distance = normal.dot(from_middle);
     by_wall << -direction(wall).dot(from_middle), -1;
   }
@@ -104,7 +104,7 @@ void Point3OnWallFactor::write(std::ostream&) const {}
 void PointOnWallFactor::write(std::ostream&) const {}
 
 void PointOnPlaneFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Plane3 plane = landmarks::planeFromValue(values[1]);
+  const geometry::Plane3 plane = plane_factors::planeFromValue(values[1]);
   const Eigen::Vector3d point(values[0][0], values[0][1], values[0][2]);
   residual[0] = signedDistance(plane, point);
   if (!jacobians) return;
@@ -115,8 +115,8 @@ void PointOnPlaneFactor::evaluate(const double* const* values, double* residual,
 void PointOnPlaneFactor::write(std::ostream&) const {}
 
 void WallTurnFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  residual[0] = geometry::wrapToPi(headingOf(landmarks::wallFromValue(values[1])) -
-                                   headingOf(landmarks::wallFromValue(values[0])) - quarters_ * geometry::kPi / 2);
+  residual[0] = geometry::wrapToPi(headingOf(plane_factors::wallFromValue(values[1])) -
+                                   headingOf(plane_factors::wallFromValue(values[0])) - quarters_ * geometry::kPi / 2);
   if (!jacobians) return;
   if (auto by_a = jacobian<0>(jacobians)) by_a << -1, 0;
   if (auto by_b = jacobian<1>(jacobians)) by_b << 1, 0;
@@ -127,7 +127,7 @@ void WallTurnFactor::write(std::ostream& out) const {
 }
 
 void WallsAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Segment2 a = landmarks::wallFromValue(values[0]), b = landmarks::wallFromValue(values[1]);
+  const geometry::Segment2 a = plane_factors::wallFromValue(values[0]), b = plane_factors::wallFromValue(values[1]);
   const Shift shift(a, b);
   residual[0] = geometry::wrapToPi(headingOf(b) - headingOf(a));
   residual[1] = shift.value;
@@ -139,7 +139,7 @@ void WallsAlignedFactor::evaluate(const double* const* values, double* residual,
 void WallsAlignedFactor::write(std::ostream&) const {}
 
 void WallShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const Shift shift(landmarks::wallFromValue(values[0]), landmarks::wallFromValue(values[1]));
+  const Shift shift(plane_factors::wallFromValue(values[0]), plane_factors::wallFromValue(values[1]));
   residual[0] = shift.value;
   if (!jacobians) return;
   if (auto by_a = jacobian<0>(jacobians)) by_a = shift.by_a;
@@ -149,7 +149,7 @@ void WallShiftFactor::evaluate(const double* const* values, double* residual, do
 void WallShiftFactor::write(std::ostream&) const {}
 
 void PlanesParallelFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const Across across(landmarks::planeFromValue(values[0]), landmarks::planeFromValue(values[1]));
+  const Across across(plane_factors::planeFromValue(values[0]), plane_factors::planeFromValue(values[1]));
   Eigen::Map<Eigen::Vector2d>{residual} = across.value;
   if (!jacobians) return;
   if (auto by_a = jacobian<0>(jacobians)) by_a = across.by_a;
@@ -159,7 +159,7 @@ void PlanesParallelFactor::evaluate(const double* const* values, double* residua
 void PlanesParallelFactor::write(std::ostream&) const {}
 
 void PlanesSquareFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
+  const geometry::Plane3 a = plane_factors::planeFromValue(values[0]), b = plane_factors::planeFromValue(values[1]);
   residual[0] = a.normal.dot(b.normal);
   if (!jacobians) return;
   if (auto by_a = jacobian<0>(jacobians)) by_a = b.normal.transpose() * normalByPlane(a);
@@ -169,7 +169,7 @@ void PlanesSquareFactor::evaluate(const double* const* values, double* residual,
 void PlanesSquareFactor::write(std::ostream&) const {}
 
 void PlanesAlignedFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
+  const geometry::Plane3 a = plane_factors::planeFromValue(values[0]), b = plane_factors::planeFromValue(values[1]);
   const Across across(a, b);
   Eigen::Map<Eigen::Vector2d>{residual} = across.value;
   residual[2] = signedDistance(b, near_) - signedDistance(a, near_);
@@ -183,7 +183,7 @@ void PlanesAlignedFactor::write(std::ostream& out) const {
 }
 
 void PlaneShiftFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
-  const geometry::Plane3 a = landmarks::planeFromValue(values[0]), b = landmarks::planeFromValue(values[1]);
+  const geometry::Plane3 a = plane_factors::planeFromValue(values[0]), b = plane_factors::planeFromValue(values[1]);
   residual[0] = signedDistance(b, near_) - signedDistance(a, near_);
   if (!jacobians) return;
   if (auto by_a = jacobian<0>(jacobians)) by_a = -distanceByPlane(a, near_);

@@ -4,9 +4,9 @@
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/graph/Linearized.h>
-#include <omnimapper/landmarks/PlaneAxes.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/PlaneAxes.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -120,9 +120,9 @@ class Finder {
 
   void pointOnWall(const LandmarkView& point, const LandmarkView& wall, std::shared_ptr<const graph::Factor> factor) {
     if (!options_.point_on_wall || closure_.isPlaced(point.variable)) return;
-    const geometry::Segment2 segment = landmarks::wallFromValue(state_.graph.value(wall.variable).data());
+    const geometry::Segment2 segment = plane_factors::wallFromValue(state_.graph.value(wall.variable).data());
     const Eigen::Vector2d place = state_.graph.value(point.variable).head<2>(), along = direction(segment);
-    if (std::abs(landmarks::normalOf(segment).dot(place - segment.from)) > options_.max_distance) return;
+    if (std::abs(plane_factors::normalOf(segment).dot(place - segment.from)) > options_.max_distance) return;
     const auto reach =
         stretch(wall, {along.x(), along.y(), 0}).value_or(std::pair(along.dot(segment.from), along.dot(segment.to)));
     if (along.dot(place) < reach.first - kBeyond || along.dot(place) > reach.second + kBeyond) return;
@@ -131,12 +131,12 @@ class Finder {
 
   void pointOnPlane(const LandmarkView& point, const LandmarkView& plane) {
     if (!options_.point_on_wall || closure_.isPlaced(point.variable)) return;
-    const geometry::Plane3 surface = landmarks::planeFromValue(state_.graph.value(plane.variable).data());
+    const geometry::Plane3 surface = plane_factors::planeFromValue(state_.graph.value(plane.variable).data());
     const Eigen::Vector3d place = state_.graph.value(point.variable);
     if (std::abs(signedDistance(surface, place)) > options_.max_distance) return;
     const auto corners = outlineOf(plane.shape);
     if (corners.empty()) return;
-    const landmarks::PlaneAxes axes(surface);
+    const plane_factors::PlaneAxes axes(surface);
     const bool upright = std::abs(surface.normal.z()) < 0.5;  // the height of a wall may be seen only in part
     const auto dropped = [&](const Eigen::Vector3d& at) {
       const Eigen::Vector2d on_plane = axes.onto(at);
@@ -153,14 +153,14 @@ class Finder {
     const bool angle_known = closure_.isAngleKnown(a.variable, b.variable);
     const bool may_align = options_.aligned && !closure_.isAligned(a.variable, b.variable);
     if (angle_known && !may_align) return;
-    const geometry::Segment2 of_a = landmarks::wallFromValue(state_.graph.value(a.variable).data()),
-                             of_b = landmarks::wallFromValue(state_.graph.value(b.variable).data());
+    const geometry::Segment2 of_a = plane_factors::wallFromValue(state_.graph.value(a.variable).data()),
+                             of_b = plane_factors::wallFromValue(state_.graph.value(b.variable).data());
     const Eigen::Vector2d along_a = direction(of_a), along_b = direction(of_b);
     const double turn = std::atan2(along_a.x() * along_b.y() - along_a.y() * along_b.x(), along_a.dot(along_b));
     const int quarters = static_cast<int>(std::lround(turn / (kPi / 2)));
     if (std::abs(turn - quarters * kPi / 2) > options_.max_angle) return;
-    const bool one_line =
-        quarters == 0 && std::abs(landmarks::normalOf(of_a).dot(middle(of_b) - middle(of_a))) < options_.max_distance;
+    const bool one_line = quarters == 0 && std::abs(plane_factors::normalOf(of_a).dot(middle(of_b) - middle(of_a))) <
+                                               options_.max_distance;
     if (may_align && one_line && wallsAligned(a, b, angle_known)) return;
     if (!angle_known && (quarters % 2 == 0 ? options_.parallel : options_.perpendicular))
       weigh(a, b,
@@ -178,8 +178,8 @@ class Finder {
   }
 
   void twoPlanes(const LandmarkView& a, const LandmarkView& b) {
-    const geometry::Plane3 of_a = landmarks::planeFromValue(state_.graph.value(a.variable).data()),
-                           of_b = landmarks::planeFromValue(state_.graph.value(b.variable).data());
+    const geometry::Plane3 of_a = plane_factors::planeFromValue(state_.graph.value(a.variable).data()),
+                           of_b = plane_factors::planeFromValue(state_.graph.value(b.variable).data());
     const double together = of_a.normal.dot(of_b.normal), reach = std::sin(options_.max_angle);
     if (of_a.normal.cross(of_b.normal).norm() < reach) {
       const bool angle_known = closure_.isAngleKnown(a.variable, b.variable);

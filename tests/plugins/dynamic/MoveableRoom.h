@@ -3,9 +3,9 @@
 #include <omnimapper/geometry/Se2.h>
 #include <omnimapper/graph/PointFactor.h>
 #include <omnimapper/graph/Solver.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/WallFactor.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
+#include <omnimapper/plane_factors/WallFactor.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
 #include <random>
@@ -50,14 +50,14 @@ class MoveableRoom {
 
   /// A surface over a segment of the floor, with its free side on the left, which is at `first` in the first round and
   /// at `second` in the other.
-  base::LandmarkId addSurface(landmarks::PlaneParametrization::Kind form, const geometry::Segment2& first,
+  base::LandmarkId addSurface(plane_factors::PlaneParametrization::Kind form, const geometry::Segment2& first,
                               const geometry::Segment2& second, MeasuredAs in_first = MeasuredAs::as_lines,
                               MeasuredAs in_second = MeasuredAs::as_lines) {
     const auto planeOf = [](const geometry::Segment2& wall) {
-      const Eigen::Vector2d normal = landmarks::normalOf(wall);
+      const Eigen::Vector2d normal = plane_factors::normalOf(wall);
       return geometry::Plane3::through({wall.from.x(), wall.from.y(), 0}, {normal.x(), normal.y(), 0});
     };
-    const auto& its = landmarks::PlaneParametrization::of(form);
+    const auto& its = plane_factors::PlaneParametrization::of(form);
     auto payload = std::make_shared<PlanePayload>();
     payload->form = form;
     const auto id = addLandmark(
@@ -73,11 +73,11 @@ class MoveableRoom {
         const geometry::Se3 lifted{Eigen::Quaterniond(Eigen::AngleAxisd(base_from_map.yaw, Eigen::Vector3d::UnitZ())),
                                    {base_from_map.x, base_from_map.y, 0}};
         const geometry::Plane3 plane = geometry::plus(lifted * planeOf(there), {noise(0.01), noise(0.01), noise(0.02)});
-        addMeasurement(i, id, std::make_shared<landmarks::PlaneFactor>(plane), Eigen::Vector3d(0.01, 0.01, 0.02));
+        addMeasurement(i, id, std::make_shared<plane_factors::PlaneFactor>(plane), Eigen::Vector3d(0.01, 0.01, 0.02));
         ++payload->seen_by["camera"].planes;
       } else {
         const Eigen::Vector2d along = Eigen::Rotation2Dd(base_from_map.yaw + noise(0.01)) * direction(there);
-        const Eigen::Vector3d at = inBase(i, middle(there) + noise(0.02) * landmarks::normalOf(there));
+        const Eigen::Vector3d at = inBase(i, middle(there) + noise(0.02) * plane_factors::normalOf(there));
         const Eigen::Vector3d along_in_space(along.x(), along.y(), 0);
         addMeasurement(i, id, its.ofLine(along_in_space, at), Eigen::Vector2d(0.01, 0.02));
         ++payload->seen_by["laser"].lines;
@@ -85,7 +85,7 @@ class MoveableRoom {
     }
     if (its.mayTilt() && in_first != MeasuredAs::as_planes && in_second != MeasuredAs::as_planes)
       run.graph.addFactor({{variableOf(id)},
-                           std::make_shared<landmarks::UprightFactor>(),
+                           std::make_shared<plane_factors::UprightFactor>(),
                            graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, 0.02))});
     return id;
   }

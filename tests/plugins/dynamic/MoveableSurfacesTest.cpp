@@ -2,7 +2,7 @@
 // lines.
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/PlaneTangent.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 
 #include "MoveableRoom.h"
 #include "dynamic/WeakPrior.h"
@@ -12,7 +12,7 @@ namespace omnimapper::plugins::moveable_surfaces_test {
 namespace {
 
 using geometry::Segment2;
-using Kind = landmarks::PlaneParametrization::Kind;
+using Kind = plane_factors::PlaneParametrization::Kind;
 using MeasuredAs = MoveableRoom::MeasuredAs;
 using State = map::Landmark::State;
 
@@ -190,13 +190,13 @@ TEST(Differences, ChangeWithBothValuesByTheirDerivatives) {
     Eigen::VectorXd a, b;
   };
   const std::vector<Case> cases = {
-      {landmarks::planeVariable(), landmarks::toValue(geometry::Plane3{unit(1, 0.101, 0.1), 2}),
-       landmarks::toValue(geometry::Plane3{unit(1, 0.1, 0.101), 2.001})},
-      {landmarks::wallVariable(), landmarks::toValue(Segment2{{0, 0}, {2, 0}}),
-       landmarks::toValue(Segment2{{0, 0.1}, {2, 0.101}})},
+      {plane_factors::planeVariable(), plane_factors::toValue(geometry::Plane3{unit(1, 0.101, 0.1), 2}),
+       plane_factors::toValue(geometry::Plane3{unit(1, 0.1, 0.101), 2.001})},
+      {plane_factors::wallVariable(), plane_factors::toValue(Segment2{{0, 0}, {2, 0}}),
+       plane_factors::toValue(Segment2{{0, 0.1}, {2, 0.101}})},
       {graph::point2(), Eigen::Vector2d(1, 2), Eigen::Vector2d(3, 5)}};
   for (const auto& [kind, a, b] : cases) {
-    const auto difference = landmarks::differenceOf(*kind, a, b);
+    const auto difference = plane_factors::differenceOf(*kind, a, b);
     const int size = kind->tangentSize();
     constexpr double kStep = 1e-6;
     for (int column = 0; column < 2 * size; ++column) {
@@ -216,11 +216,11 @@ TEST(Differences, ChangeWithBothValuesByTheirDerivatives) {
 
 TEST(WeakPrior, PullsToWhereItWasAndHardly) {
   graph::Graph graph;
-  const auto id =
-      graph.addVariable(landmarks::planeVariable(), landmarks::toValue(geometry::Plane3{Eigen::Vector3d::UnitX(), 2}));
+  const auto id = graph.addVariable(plane_factors::planeVariable(),
+                                    plane_factors::toValue(geometry::Plane3{Eigen::Vector3d::UnitX(), 2}));
   addWeakPrior(graph, id);
   EXPECT_EQ(graph.cost(), 0);
-  graph.setValue(id, landmarks::toValue(geometry::Plane3{Eigen::Vector3d(0.6, 0.8, 0), 3}));
+  graph.setValue(id, plane_factors::toValue(geometry::Plane3{Eigen::Vector3d(0.6, 0.8, 0), 3}));
   EXPECT_NEAR(2 * graph.cost(), (1 + std::pow(std::acos(0.6), 2)) / 1e4, 1e-12);
   graph::solve(graph);
   EXPECT_NEAR(graph.value(id)[0], 1, 1e-6);

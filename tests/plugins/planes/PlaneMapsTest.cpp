@@ -1,7 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/PlacedVariable.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <sstream>
@@ -94,7 +94,7 @@ TEST_F(PlaneMaps, AreKnownAgainWhereTheirSessionWasPlaced) {
   const map::KeyFrame& frame = run_.map.key_frames.back();
   run_.graph.setValue(frame.pose, mapper::poseValue(run_.motion, moved));
   run_.map.key_frames.edit(frame.id).map_from_base = moved;
-  const auto* kind = dynamic_cast<const graph::PlacedVariable*>(landmarks::planeVariable().get());
+  const auto* kind = dynamic_cast<const graph::PlacedVariable*>(plane_factors::planeVariable().get());
   ASSERT_NE(kind, nullptr);
   const auto variable = active()[0].variables.front();
   Eigen::VectorXd value = run_.graph.value(variable);

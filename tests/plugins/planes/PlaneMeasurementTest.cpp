@@ -1,6 +1,6 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include "../../graph/Jacobians.h"
@@ -33,15 +33,15 @@ class LineOfASensor : public ::testing::TestWithParam<Mounting> {
     obs::CObservationLaserLines observation;
     observation.sensorPose = geometry::toMrpt(base_from_sensor);
     observation.lines = {measured(0.3 + angle_error, 2 + distance_error)};
-    const auto measurements =
-        planeMeasurements(observation, Vector3d::UnitZ(),
-                          landmarks::PlaneParametrization::of(landmarks::PlaneParametrization::Kind::plane), smooth());
+    const auto measurements = planeMeasurements(
+        observation, Vector3d::UnitZ(),
+        plane_factors::PlaneParametrization::of(plane_factors::PlaneParametrization::Kind::plane), smooth());
     EXPECT_TRUE(measurements.at(0).why_useless.empty()) << measurements[0].why_useless;
     const Vector3d out(std::cos(0.3), std::sin(0.3), 0);
     const Plane3 wall = base_from_sensor * Plane3::through(2 * out, -out);
     const graph::Evaluation evaluation{*measurements[0].factor,
-                                       {graph::se3(), landmarks::planeVariable()},
-                                       {graph::toValue(Se3{}), landmarks::toValue(wall)}};
+                                       {graph::se3(), plane_factors::planeVariable()},
+                                       {graph::toValue(Se3{}), plane_factors::toValue(wall)}};
     return (measurements[0].noise.matrix() * evaluation.residual()).squaredNorm();
   }
 

@@ -326,7 +326,7 @@ TEST(PlaneGaps, TheCheapBoundIsNeverAboveTheGap) {
     };
     LandmarkSurface surface;
     surface.plane = Plane3::through(Vector3d(dice.normal(1), dice.normal(1), dice.normal(1)), normal);
-    const landmarks::PlaneAxes axes(surface.plane);
+    const plane_factors::PlaneAxes axes(surface.plane);
     surface.hull = hullOn(axes, cloud(1));
     Vector2d middle = Vector2d::Zero();
     for (const auto& corner : surface.hull) middle += corner / static_cast<double>(surface.hull.size());

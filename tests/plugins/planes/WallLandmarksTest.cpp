@@ -1,5 +1,5 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include "SurfaceRun.h"

@@ -6,8 +6,8 @@
 #include <omnimapper/graph/PointFactor.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/WallFactor.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/WallFactor.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 
 #include <Eigen/Geometry>
 #include <random>
@@ -134,11 +134,11 @@ class RelationBox {
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       const geometry::Segment2 seen{noisy(walls_[i].from, kEndSigma), noisy(walls_[i].to, kEndSigma)};
       if (pose == 0)
-        wall_ids_.push_back(measured_.addVariable(landmarks::wallVariable(),
-                                                  landmarks::toValue({believed * seen.from, believed * seen.to})));
+        wall_ids_.push_back(measured_.addVariable(plane_factors::wallVariable(),
+                                                  plane_factors::toValue({believed * seen.from, believed * seen.to})));
       const Eigen::Vector2d sigmas(kEndSigma * std::sqrt(2.0) / length(walls_[i]), kEndSigma / std::sqrt(2.0));
       measured_.addFactor({{pose_ids_[pose], wall_ids_[i]},
-                           std::make_shared<landmarks::WallFactor>(direction(seen), middle(seen)),
+                           std::make_shared<plane_factors::WallFactor>(direction(seen), middle(seen)),
                            graph::SquareRootInformation::fromSigmas(sigmas)});
     }
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -209,7 +209,7 @@ class RelationBox {
     Layout layout;
     for (const auto id : pose_ids_) layout.poses.emplace_back(graph.value(id).head<2>());
     for (const auto id : point_ids_) layout.points.emplace_back(graph.value(id));
-    for (const auto id : wall_ids_) layout.walls.push_back(landmarks::wallFromValue(graph.value(id).data()));
+    for (const auto id : wall_ids_) layout.walls.push_back(plane_factors::wallFromValue(graph.value(id).data()));
     return layout;
   }
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <omnimapper/graph/PointFactor.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
-#include <omnimapper/landmarks/WallFactor.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
+#include <omnimapper/plane_factors/WallFactor.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 
 #include <algorithm>
 
@@ -33,17 +33,17 @@ class Place {
 
   base::VariableId addWall(const Segment2& wall, std::uint16_t session = 0) {
     graph_.setSession(session);
-    const auto id = graph_.addVariable(landmarks::wallVariable(), landmarks::toValue(wall));
+    const auto id = graph_.addVariable(plane_factors::wallVariable(), plane_factors::toValue(wall));
     graph_.addFactor({{flat_pose_, id},
-                      std::make_shared<landmarks::WallFactor>(direction(wall), middle(wall)),
+                      std::make_shared<plane_factors::WallFactor>(direction(wall), middle(wall)),
                       graph::SquareRootInformation::fromSigmas(Vector2d(0.01, 0.01))});
     addLandmark(id, nullptr);
     return id;
   }
   base::VariableId addPlane(const Plane3& plane, const std::vector<Vector3d>& outline) {
-    const auto id = graph_.addVariable(landmarks::planeVariable(), landmarks::toValue(plane));
+    const auto id = graph_.addVariable(plane_factors::planeVariable(), plane_factors::toValue(plane));
     graph_.addFactor({{pose_, id},
-                      std::make_shared<landmarks::PlaneFactor>(plane),
+                      std::make_shared<plane_factors::PlaneFactor>(plane),
                       graph::SquareRootInformation::fromSigmas(Vector3d(0.01, 0.01, 0.01))});
     auto payload = std::make_shared<PlanePayload>();
     payload->patches.push_back({frame_.id, outline});

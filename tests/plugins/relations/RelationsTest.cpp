@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/graph/GraphArchive.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <sstream>
@@ -20,7 +20,7 @@ using geometry::Segment2;
 using graph::Evaluation;
 
 Eigen::VectorXd wall(const Vector2d& from, const Vector2d& to) {
-  return landmarks::toValue(Segment2{from, to});
+  return plane_factors::toValue(Segment2{from, to});
 }
 
 Eigen::VectorXd anyWall(testing::Dice& dice) {
@@ -40,7 +40,7 @@ TEST(RelationFactors, ResidualsAsWorkedByHand) {
   const Eigen::VectorXd level = wall({0, 2}, {4, 2});
   EXPECT_NEAR(residualOf(PointOnWallFactor(), {Vector2d(1, 2.3), level}), 0.3, 1e-12);
   EXPECT_NEAR(residualOf(Point3OnWallFactor(), {Vector3d(1, 2.3, 1.5), level}), 0.3, 1e-12);
-  EXPECT_NEAR(residualOf(PointOnPlaneFactor(), {Vector3d(1, 2, 0.7), landmarks::toValue(Plane3{{0, 0, 1}, -0.75})}),
+  EXPECT_NEAR(residualOf(PointOnPlaneFactor(), {Vector3d(1, 2, 0.7), plane_factors::toValue(Plane3{{0, 0, 1}, -0.75})}),
               -0.05, 1e-12);
   // A quarter turn and 0.1 rad to the left.
   const Eigen::VectorXd turned = wall({5, 0}, {5 - std::sin(0.1), std::cos(0.1)});
@@ -51,14 +51,18 @@ TEST(RelationFactors, ResidualsAsWorkedByHand) {
   EXPECT_NEAR(residualOf(WallsAlignedFactor(), {level, beside}, 1), 0.05, 1e-12);
   EXPECT_NEAR(residualOf(WallShiftFactor(), {level, turned}), -1.5 + 0.5 * (std::cos(0.1) - 1), 1e-12);
   const Plane3 a{{1, 0, 0}, 2}, b{{-std::cos(0.1), std::sin(0.1), 0}, 1}, c{{std::sin(0.1), std::cos(0.1), 0}, 1};
-  EXPECT_NEAR(
-      Evaluation({PlanesParallelFactor(), {}, {landmarks::toValue(a), landmarks::toValue(b)}}).residual().norm(),
-      std::sin(0.1), 1e-12);
-  EXPECT_NEAR(residualOf(PlanesSquareFactor(), {landmarks::toValue(a), landmarks::toValue(c)}), std::sin(0.1), 1e-12);
+  EXPECT_NEAR(Evaluation({PlanesParallelFactor(), {}, {plane_factors::toValue(a), plane_factors::toValue(b)}})
+                  .residual()
+                  .norm(),
+              std::sin(0.1), 1e-12);
+  EXPECT_NEAR(residualOf(PlanesSquareFactor(), {plane_factors::toValue(a), plane_factors::toValue(c)}), std::sin(0.1),
+              1e-12);
   const PlanesAlignedFactor aligned(Vector3d(-2, 7, 0));
-  EXPECT_NEAR(residualOf(aligned, {landmarks::toValue(a), landmarks::toValue(Plane3{{1, 0, 0}, 2.1})}, 2), 0.1, 1e-12);
+  EXPECT_NEAR(residualOf(aligned, {plane_factors::toValue(a), plane_factors::toValue(Plane3{{1, 0, 0}, 2.1})}, 2), 0.1,
+              1e-12);
   const PlaneShiftFactor shifted(Vector3d(-2, 7, 0));
-  EXPECT_NEAR(residualOf(shifted, {landmarks::toValue(a), landmarks::toValue(Plane3{{1, 0, 0}, 2.1})}), 0.1, 1e-12);
+  EXPECT_NEAR(residualOf(shifted, {plane_factors::toValue(a), plane_factors::toValue(Plane3{{1, 0, 0}, 2.1})}), 0.1,
+              1e-12);
 }
 
 TEST(RelationFactors, JacobiansMatchDifferences) {
@@ -66,21 +70,22 @@ TEST(RelationFactors, JacobiansMatchDifferences) {
   for (int i = 0; i < 30; ++i) {
     const Vector2d point2(dice.uniform(-5, 5), dice.uniform(-5, 5));
     const Vector3d point3(dice.uniform(-5, 5), dice.uniform(-5, 5), dice.uniform(-5, 5));
-    const std::vector<std::shared_ptr<const graph::Variable>> walls = {landmarks::wallVariable(),
-                                                                       landmarks::wallVariable()},
-                                                              planes = {landmarks::planeVariable(),
-                                                                        landmarks::planeVariable()};
+    const std::vector<std::shared_ptr<const graph::Variable>> walls = {plane_factors::wallVariable(),
+                                                                       plane_factors::wallVariable()},
+                                                              planes = {plane_factors::planeVariable(),
+                                                                        plane_factors::planeVariable()};
     graph::expectJacobiansMatchDifferences(
-        {PointOnWallFactor(), {graph::point2(), landmarks::wallVariable()}, {point2, anyWall(dice)}});
+        {PointOnWallFactor(), {graph::point2(), plane_factors::wallVariable()}, {point2, anyWall(dice)}});
     graph::expectJacobiansMatchDifferences(
-        {Point3OnWallFactor(), {graph::point3(), landmarks::wallVariable()}, {point3, anyWall(dice)}});
+        {Point3OnWallFactor(), {graph::point3(), plane_factors::wallVariable()}, {point3, anyWall(dice)}});
     graph::expectJacobiansMatchDifferences({PointOnPlaneFactor(),
-                                            {graph::point3(), landmarks::planeVariable()},
-                                            {point3, landmarks::toValue(anyPlane(dice))}});
+                                            {graph::point3(), plane_factors::planeVariable()},
+                                            {point3, plane_factors::toValue(anyPlane(dice))}});
     graph::expectJacobiansMatchDifferences({WallTurnFactor(i), walls, {anyWall(dice), anyWall(dice)}});
     graph::expectJacobiansMatchDifferences({WallsAlignedFactor(), walls, {anyWall(dice), anyWall(dice)}});
     graph::expectJacobiansMatchDifferences({WallShiftFactor(), walls, {anyWall(dice), anyWall(dice)}});
-    const std::vector<Eigen::VectorXd> two = {landmarks::toValue(anyPlane(dice)), landmarks::toValue(anyPlane(dice))};
+    const std::vector<Eigen::VectorXd> two = {plane_factors::toValue(anyPlane(dice)),
+                                              plane_factors::toValue(anyPlane(dice))};
     graph::expectJacobiansMatchDifferences({PlanesParallelFactor(), planes, two});
     graph::expectJacobiansMatchDifferences({PlanesSquareFactor(), planes, two});
     graph::expectJacobiansMatchDifferences({PlanesAlignedFactor(point3), planes, two});
@@ -97,8 +102,8 @@ TEST(RelationFactors, MakeABoxOfFourWalls) {
   for (const auto& side : truth) {
     const Vector2d off(ids.empty() ? 0 : dice.uniform(-0.1, 0.1), 0);
     Eigen::Vector4d start;
-    landmarks::wallVariable()->plus(landmarks::toValue(side).data(), off.data(), start.data());
-    ids.push_back(graph.addVariable(landmarks::wallVariable(), start, ids.empty()));
+    plane_factors::wallVariable()->plus(plane_factors::toValue(side).data(), off.data(), start.data());
+    ids.push_back(graph.addVariable(plane_factors::wallVariable(), start, ids.empty()));
   }
   const auto noise = graph::SquareRootInformation::fromSigmas(Eigen::VectorXd::Constant(1, 0.01));
   for (int i = 1; i < 4; ++i) {
@@ -108,17 +113,17 @@ TEST(RelationFactors, MakeABoxOfFourWalls) {
   }
   graph::solve(graph);
   for (int i = 0; i < 4; ++i) {
-    const Segment2 found = landmarks::wallFromValue(graph.value(ids[i]).data());
+    const Segment2 found = plane_factors::wallFromValue(graph.value(ids[i]).data());
     EXPECT_LT((direction(found) - direction(truth[i])).norm(), 1e-6) << i;
   }
 }
 
 TEST(RelationFactors, ComeBackFromAFile) {
   graph::Graph graph;
-  const auto w1 = graph.addVariable(landmarks::wallVariable(), wall({0, 0}, {1, 0})),
-             w2 = graph.addVariable(landmarks::wallVariable(), wall({0, 1}, {1, 2}));
-  const auto p1 = graph.addVariable(landmarks::planeVariable(), landmarks::toValue(Plane3{{1, 0, 0}, 1})),
-             p2 = graph.addVariable(landmarks::planeVariable(), landmarks::toValue(Plane3{{0.6, 0.8, 0}, 1}));
+  const auto w1 = graph.addVariable(plane_factors::wallVariable(), wall({0, 0}, {1, 0})),
+             w2 = graph.addVariable(plane_factors::wallVariable(), wall({0, 1}, {1, 2}));
+  const auto p1 = graph.addVariable(plane_factors::planeVariable(), plane_factors::toValue(Plane3{{1, 0, 0}, 1})),
+             p2 = graph.addVariable(plane_factors::planeVariable(), plane_factors::toValue(Plane3{{0.6, 0.8, 0}, 1}));
   const auto q2 = graph.addVariable(graph::point2(), Vector2d(1, 2));
   const auto q3 = graph.addVariable(graph::point3(), Vector3d(1, 2, 3));
   const auto add = [&](std::vector<base::VariableId> ids, std::shared_ptr<const graph::Factor> factor) {
@@ -136,8 +141,8 @@ TEST(RelationFactors, ComeBackFromAFile) {
   std::stringstream bytes;
   graph::writeGraph(graph, bytes);
   auto registry = graph::FactorRegistry::withBuiltIns();
-  registry.add(landmarks::wallVariable());
-  registry.add(landmarks::planeVariable());
+  registry.add(plane_factors::wallVariable());
+  registry.add(plane_factors::planeVariable());
   addRelationsTo(registry);
   const graph::Graph back = graph::readGraph(bytes, registry);
   for (const auto& [id, record] : graph.factors()) EXPECT_EQ(back.whitenedResidual(id), graph.whitenedResidual(id));

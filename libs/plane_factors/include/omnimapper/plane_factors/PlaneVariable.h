@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 /// Kind "plane": a plane of the map, which is the set of points p with normal . p + distance = 0. The value is the unit
 /// normal x y z, then the distance [m]. Tangent: geometry/PlaneTangent.h, three degrees of freedom. Derivation:
@@ -25,4 +25,4 @@ inline geometry::Plane3 planeFromValue(const double* value) {
   return {{value[0], value[1], value[2]}, value[3]};
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -1,10 +1,10 @@
 #include <omnimapper/geometry/PlaneTangent.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
 
 #include <cmath>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 namespace {
 
@@ -120,4 +120,4 @@ void UprightFactor::addTo(graph::FactorRegistry& registry) {
   registry.add(std::string(kKind), [](std::istream&) { return std::make_shared<UprightFactor>(); });
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -1,9 +1,9 @@
-#include <omnimapper/landmarks/PlaneAxes.h>
+#include <omnimapper/plane_factors/PlaneAxes.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 PlaneAxes::PlaneAxes(const geometry::Plane3& plane) : foot(-plane.distance * plane.normal) {
   constexpr double kLevel = 0.9;  // a normal this upright is that of a floor or a table
@@ -14,4 +14,4 @@ PlaneAxes::PlaneAxes(const geometry::Plane3& plane) : foot(-plane.distance * pla
   v = plane.normal.cross(u);
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -1,13 +1,13 @@
 #include <omnimapper/geometry/PlaneTangent.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
-#include <omnimapper/landmarks/WallFactor.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
+#include <omnimapper/plane_factors/WallFactor.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 
 #include <algorithm>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 namespace {
 
@@ -91,4 +91,4 @@ PlaneParametrization::Difference differenceOf(const graph::Variable& variable, c
   return difference;
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -4,11 +4,11 @@
 #include <omnimapper/graph/FactorRegistry.h>
 #include <omnimapper/graph/SizedFactor.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 
 #include <Eigen/Core>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 /// Measurements of a plane of the map. Derivations: doc/derivations/plane.md and line_on_plane.md.
 
@@ -61,4 +61,4 @@ class UprightFactor : public graph::SizedFactor<1, PlaneKind> {
   static void addTo(graph::FactorRegistry& registry);
 };
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 /// Kind "wall": a wall of a planar map in M-space form (thesis 4.3.2.4; Folkesson, Jensfelt and Christensen 2007). The
 /// value is two points on the wall, x y x y [m]; the free side is on the left of the direction from the first point to
@@ -35,4 +35,4 @@ inline Eigen::Vector2d normalOf(const geometry::Segment2& wall) {
   return {-along.y(), along.x()};
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -1,10 +1,10 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/ByteIo.h>
-#include <omnimapper/landmarks/WallFactor.h>
+#include <omnimapper/plane_factors/WallFactor.h>
 
 #include <cmath>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 void WallFactor::evaluate(const double* const* values, double* residual, double* const* jacobians) const {
   const geometry::Se2 map_from_base = graph::se2FromValue(values[0]);
@@ -35,4 +35,4 @@ void WallFactor::addTo(graph::FactorRegistry& registry) {
   });
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 /// How a flat surface is optimized: as a plane in space, or, if it is upright, as a line on the floor.
 class PlaneParametrization {
@@ -47,4 +47,4 @@ class PlaneParametrization {
 PlaneParametrization::Difference differenceOf(const graph::Variable& variable, const Eigen::VectorXd& a,
                                               const Eigen::VectorXd& b);
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

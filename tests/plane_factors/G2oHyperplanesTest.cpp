@@ -3,16 +3,16 @@
 #include <omnimapper/graph/G2o.h>
 #include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
-#include <omnimapper/landmarks/WallFactor.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
+#include <omnimapper/plane_factors/WallFactor.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <functional>
 #include <sstream>
 
-namespace omnimapper::landmarks::g2o_hyperplanes_test {
+namespace omnimapper::plane_factors::g2o_hyperplanes_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -228,4 +228,4 @@ TEST(G2oHyperplanes, AreCountedByTheReader) {
 }
 
 }  // namespace
-}  // namespace omnimapper::landmarks::g2o_hyperplanes_test
+}  // namespace omnimapper::plane_factors::g2o_hyperplanes_test

@@ -3,15 +3,15 @@
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/PlaneFactors.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneFactors.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <sstream>
 
 #include "../graph/Jacobians.h"
 
-namespace omnimapper::landmarks::plane_factors_test {
+namespace omnimapper::plane_factors::plane_factors_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -203,4 +203,4 @@ TEST(PlaneFactors, ComeBackFromAFile) {
 }
 
 }  // namespace
-}  // namespace omnimapper::landmarks::plane_factors_test
+}  // namespace omnimapper::plane_factors::plane_factors_test

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 /// Two axes on a plane. If the plane is tilted from level by more than 26 degrees, the first axis is level and the
 /// second axis points up; else the first axis points along the x axis of the map.
@@ -18,4 +18,4 @@ struct PlaneAxes {
   Eigen::Vector3d u, v;  ///< unit, u x v = normal
 };
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

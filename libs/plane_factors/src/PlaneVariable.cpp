@@ -1,7 +1,7 @@
 #include <omnimapper/graph/PlacedVariable.h>
-#include <omnimapper/landmarks/PlaneVariable.h>
+#include <omnimapper/plane_factors/PlaneVariable.h>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 namespace {
 
@@ -36,4 +36,4 @@ Eigen::Vector4d toValue(const geometry::Plane3& plane) {
   return value;
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -3,11 +3,11 @@
 #include <omnimapper/graph/FactorRegistry.h>
 #include <omnimapper/graph/SizedFactor.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 
 #include <Eigen/Core>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 /// A line of a level laser on a wall of a planar map (thesis 4.3.2.4). Variables: map_from_base (se2), wall.
 /// Residual: measured minus predicted direction [rad], in (-pi, pi]; then the distance of the line's middle from the
@@ -27,4 +27,4 @@ class WallFactor : public graph::SizedFactor<2, graph::Se2Kind, WallKind> {
   Eigen::Vector2d direction_, middle_;
 };
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors

@@ -2,16 +2,16 @@
 #include <omnimapper/graph/GraphArchive.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/graph/VariableKinds.h>
-#include <omnimapper/landmarks/PlaneParametrization.h>
-#include <omnimapper/landmarks/WallFactor.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/PlaneParametrization.h>
+#include <omnimapper/plane_factors/WallFactor.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <sstream>
 
 #include "../graph/Jacobians.h"
 
-namespace omnimapper::landmarks::wall_factor_test {
+namespace omnimapper::plane_factors::wall_factor_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -160,4 +160,4 @@ INSTANTIATE_TEST_SUITE_P(Both, PlaneParametrizationTest,
                          ::testing::Values(PlaneParametrization::Kind::plane, PlaneParametrization::Kind::wall));
 
 }  // namespace
-}  // namespace omnimapper::landmarks::wall_factor_test
+}  // namespace omnimapper::plane_factors::wall_factor_test

@@ -1,11 +1,11 @@
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/graph/PlacedVariable.h>
-#include <omnimapper/landmarks/WallVariable.h>
+#include <omnimapper/plane_factors/WallVariable.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace omnimapper::landmarks {
+namespace omnimapper::plane_factors {
 
 namespace {
 
@@ -55,4 +55,4 @@ Eigen::Vector4d toValue(const geometry::Segment2& wall) {
   return value;
 }
 
-}  // namespace omnimapper::landmarks
+}  // namespace omnimapper::plane_factors
