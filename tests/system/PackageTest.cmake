@@ -175,13 +175,13 @@ execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -i "${ini}" --print
 if(NOT printed MATCHES "height_m = 1" OR NOT printed MATCHES "estimate_sensor_pose = no")
   message(FATAL_ERROR "--print-ini BeaconPlugin:\n${printed}")
 endif()
-# What the check wrote: as many landmarks as there are beacons, each within 10 cm.
-function(expect_beacons_in folder)
+# What the check wrote: as many landmarks as there are things, each within 10 cm.
+function(expect_landmarks_in folder)
   file(READ "${folder}/landmarks.txt" check)
   if(NOT check MATCHES "^([0-9]+) ([0-9]+) ([0-9]+)\n$")
     message(FATAL_ERROR "${folder}: the check wrote '${check}'")
   endif()
-  set(found "${CMAKE_MATCH_1} landmarks for ${CMAKE_MATCH_2} beacons, the worst ${CMAKE_MATCH_3} mm off")
+  set(found "${CMAKE_MATCH_1} landmarks for ${CMAKE_MATCH_2} things, the worst ${CMAKE_MATCH_3} mm off")
   if(NOT CMAKE_MATCH_1 EQUAL CMAKE_MATCH_2 OR NOT CMAKE_MATCH_3 LESS 100)
     message(FATAL_ERROR "${folder}: ${found}")
   endif()
@@ -192,14 +192,48 @@ run("${BEACON_LOG}" "${SCRATCH}/drive.rawlog" "${SCRATCH}/beacons.txt" 1)
 foreach(estimate no once each_key_frame)
   run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/drive.rawlog" -o "${SCRATCH}/${estimate}" -q
     --set "beacons.estimate_sensor_pose=${estimate}")
-  expect_beacons_in("${SCRATCH}/${estimate}")
+  expect_landmarks_in("${SCRATCH}/${estimate}")
 endforeach()
 
 # The map goes on: a second drive sees the beacons of the first again, which come from the file.
 run("${BEACON_LOG}" "${SCRATCH}/second.rawlog" "${SCRATCH}/beacons.txt" 2)
 run("${prefix}/bin/omnimapper-graphslam" -i "${ini}" -r "${SCRATCH}/second.rawlog" -o "${SCRATCH}/both" -q
   --continue "${SCRATCH}/once/map.omnimap")
-expect_beacons_in("${SCRATCH}/both")
+expect_landmarks_in("${SCRATCH}/both")
+
+# Boxes with a class, whose middles are found and whose classes the floor plan shows.
+build("${EXAMPLES}/boxes" "${SCRATCH}/boxes")
+file(READ "${EXAMPLES}/boxes/boxes.ini" text)
+string(REPLACE "build/libboxes.so" "${SCRATCH}/boxes/libboxes.so, ${SCRATCH}/build/libforeign-plugins.so" text "${text}")
+string(REPLACE "floor_plan, report" "floor_plan, report, check" text "${text}")
+file(WRITE "${SCRATCH}/boxes.ini" "${text}
+[check]
+class = LandmarkCheckOutput
+truth = ${SCRATCH}/boxes.txt
+")
+function(expect_classes_in folder)
+  file(READ "${folder}/floorplan.geojson" plan)
+  file(STRINGS "${SCRATCH}/boxes.txt" things)
+  foreach(class chair table plant shelf)
+    set(true_ones "${things}")
+    list(FILTER true_ones INCLUDE REGEX " ${class}$")
+    list(LENGTH true_ones there)
+    string(REGEX MATCHALL "\"label\": ?\"${class}\"" found "${plan}")
+    list(LENGTH found mapped)
+    if(NOT mapped EQUAL there)
+      message(FATAL_ERROR "${folder}: ${mapped} of the class ${class} are in the map, and ${there} are there")
+    endif()
+  endforeach()
+endfunction()
+set(continued "")
+foreach(seed 1 2)
+  run("${SCRATCH}/boxes/box-log" "${SCRATCH}/boxes_${seed}.rawlog" "${SCRATCH}/boxes.txt" ${seed})
+  run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/boxes.ini" -r "${SCRATCH}/boxes_${seed}.rawlog"
+    -o "${SCRATCH}/boxes_map" ${continued})
+  expect_landmarks_in("${SCRATCH}/boxes_map")
+  expect_classes_in("${SCRATCH}/boxes_map")
+  set(continued --continue "${SCRATCH}/boxes_map" --set session.start=origin)  # the second drive goes on with this map
+endforeach()
 
 # An output from outside with an optional dependency. Without zlib the landmarks are written as they are.
 function(expect_mesh file)

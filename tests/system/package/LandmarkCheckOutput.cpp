@@ -8,6 +8,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace foreign {
 
@@ -19,32 +21,37 @@ struct LandmarkCheckOptions {
 
   static const base::OptionTable<LandmarkCheckOptions>& table() {
     using Options = LandmarkCheckOptions;
-    static const auto table = base::OptionTable<Options>()
-                                  .text("file", &Options::file, "Name of the file in the output folder.")
-                                  .text("truth", &Options::truth, "File of true positions, 'x y z' a line.");
+    static const auto table =
+        base::OptionTable<Options>()
+            .text("file", &Options::file, "Name of the file in the output folder.")
+            .text("truth", &Options::truth, "File of true positions, 'x y z' at the begin of each line.");
     return table;
   }
 };
 
-// Writes "<landmarks> <true positions> <worst distance of a true position from the nearest landmark [mm]>".
+// Of the active landmarks, writes "<landmarks> <true positions> <worst distance of a true position from the nearest
+// landmark [mm]>".
 class LandmarkCheckOutput : public mapper::OutputPlugin {
  public:
   LandmarkCheckOutput(const std::string& path, const std::string& truth) : path_(path), truth_(truth) {}
 
   void finish(const mapper::View& view) override {
+    std::vector<Eigen::Vector3d> middles;
+    for (const auto& [id, landmark] : view.map.landmarks) {
+      if (landmark.state != map::Landmark::State::active) continue;
+      middles.push_back(view.graph.value(landmark.variables.front()).head<3>());
+    }
     std::ifstream truth(truth_);
     Eigen::Vector3d position;
     double worst = 0;
     int positions = 0;
-    for (; truth >> position.x() >> position.y() >> position.z(); ++positions) {
+    for (std::string rest; truth >> position.x() >> position.y() >> position.z(); ++positions) {
+      std::getline(truth, rest);
       double nearest = std::numeric_limits<double>::infinity();
-      for (const auto& [id, landmark] : view.map.landmarks) {
-        const Eigen::VectorXd& value = view.graph.value(landmark.variables.front());
-        nearest = std::min(nearest, (value.head<3>() - position).norm());
-      }
+      for (const auto& middle : middles) nearest = std::min(nearest, (middle - position).norm());
       worst = std::max(worst, std::min(nearest, 1e6));
     }
-    std::ofstream(path_) << view.map.landmarks.size() << " " << positions << " " << std::lround(1000 * worst) << "\n";
+    std::ofstream(path_) << middles.size() << " " << positions << " " << std::lround(1000 * worst) << "\n";
   }
 
  private:
