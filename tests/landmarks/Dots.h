@@ -48,13 +48,14 @@ struct KnownDot : KnownLandmark {
 
 struct DotOptions : mapper::AssociationOptions {
   bool are_pairs_one = false;  // a measurement between two dots is of either
+  mapper::Repeats repeats = mapper::Repeats::no;
 };
 
 class DotAssociator : public LandmarkAssociator<Dot> {
  public:
   DotAssociator(const DotOptions& options, const LandmarkIndex<KnownDot>& known, const map::KeyFrame& frame,
                 const mapper::View& view)
-      : LandmarkAssociator(options, known.owner(), frame, view), options_(options), known_(known) {}
+      : LandmarkAssociator(options, known.owner(), frame, view, options.repeats), options_(options), known_(known) {}
 
  protected:
   void describe(const Dot& dot, mapper::Decision& decision) const override {
@@ -78,7 +79,7 @@ class DotAssociator : public LandmarkAssociator<Dot> {
     return options_.are_pairs_one ? "they are a pair" : "";
   }
   std::shared_ptr<const map::LandmarkPayload> learned(const Dot& /*dot*/, const LandmarkIds& known) override {
-    const auto& payload = dynamic_cast<const DotPayload&>(*view().map.landmark(known.landmark).payload);
+    const auto& payload = payloadOf<DotPayload>(known.landmark);
     return payload.with(DotPayload(payload.number, 1));
   }
   void addNew(const Dot& dot, mapper::Decision decision) override {

@@ -74,6 +74,20 @@ TEST(LandmarkAssociator, WhatFitsTwoIsLeftOutUnlessItMayBeOfEither) {
   }
 }
 
+TEST(LandmarkAssociator, ALandmarkThatIsSeenTwiceAtOnceHasBothMeasurements) {
+  for (const auto repeats : {mapper::Repeats::no, mapper::Repeats::yes}) {
+    DotOptions options;
+    options.repeats = repeats;
+    DotRun run(options);
+    run.see({{{1, 2}}});
+    run.see({{{1, 2}}, {{1.02, 2}}});
+    const bool both = repeats == mapper::Repeats::yes;
+    EXPECT_EQ(run.landmark(0).evidence, both ? 3U : 2U);
+    EXPECT_EQ(run.measurementsOf(0), both ? 3 : 2) << "the second payload continues from the first";
+    EXPECT_EQ(run.map.landmarks.size(), both ? 1U : 2U);
+  }
+}
+
 // The pose is wrong by 0.9 m: by itself, each dot is nearest to a wrong one.
 TEST(LandmarkAssociator, MeasurementsAreAssociatedJointly) {
   const std::vector<Dot> dots = {{{0, 2}}, {{1, 2}}, {{2.5, 2}}, {{4.5, 2}}};

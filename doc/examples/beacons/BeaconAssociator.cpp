@@ -26,10 +26,6 @@ using mrpt::obs::CObservationBearingRange;
 
 namespace {
 
-const BeaconPayload& beaconOf(const map::Landmark& landmark) {
-  return dynamic_cast<const BeaconPayload&>(*landmark.payload);
-}
-
 Eigen::Vector3d sigmasOf(const BeaconOptions& options) {
   return {options.sigma_range, options.sigma_yaw, options.sigma_pitch};
 }
@@ -55,7 +51,7 @@ std::vector<BeaconMeasurement> measurementsOf(const CObservationBearingRange& ob
 
 void KnownBeacon::refresh(const map::Landmark& landmark, const mapper::View& view) {
   KnownLandmark::refresh(landmark, view);
-  number = beaconOf(landmark).number;
+  number = dynamic_cast<const BeaconPayload&>(*landmark.payload).number;
 }
 
 BeaconAssociator::BeaconAssociator(const BeaconOptions& options, const BeaconIndex& known,
@@ -111,7 +107,7 @@ graph::FactorRecord BeaconAssociator::gateRecord(const BeaconMeasurement& measur
 
 std::shared_ptr<const map::LandmarkPayload> BeaconAssociator::learned(const BeaconMeasurement& measurement,
                                                                       const landmarks::LandmarkIds& known) {
-  const auto& payload = beaconOf(view().map.landmark(known.landmark));
+  const auto& payload = payloadOf<BeaconPayload>(known.landmark);
   const double range = measurement.measured[0];
   if (range >= payload.nearest && range <= payload.farthest) return nullptr;  // it stays as it is
   return std::make_shared<BeaconPayload>(payload.number, std::min(range, payload.nearest),

@@ -53,8 +53,7 @@ graph::FactorRecord BoxAssociator::record(const Box& box, base::VariableId middl
 
 std::shared_ptr<const map::LandmarkPayload> BoxAssociator::learned(const Box& box,
                                                                    const landmarks::LandmarkIds& known) {
-  const auto& payload = dynamic_cast<const BoxPayload&>(*view().map.landmark(known.landmark).payload);
-  return payload.with(box, frame().id);
+  return payloadOf<BoxPayload>(known.landmark).with(box, frame().id);
 }
 
 void BoxAssociator::addNew(const Box& box, mapper::Decision decision) {

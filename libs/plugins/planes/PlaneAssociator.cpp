@@ -106,16 +106,14 @@ graph::FactorRecord PlaneAssociator::record(const PlaneMeasurement& measurement,
 
 std::shared_ptr<const map::LandmarkPayload> PlaneAssociator::learned(const PlaneMeasurement& measurement,
                                                                      const landmarks::LandmarkIds& known) {
-  // One observation may measure a landmark twice: the second measurement continues from the payload of the first.
-  auto& payload = payloads_[known.landmark];
-  if (!payload) payload = std::dynamic_pointer_cast<const PlanePayload>(view().map.landmark(known.landmark).payload);
+  const auto& payload = payloadOf<PlanePayload>(known.landmark);
   const LandmarkSurface& surface = known_.at(known.landmark);
   const auto points = inMap(measurement.outline_in_base);
-  if (determinesTilt(measurement, points, surface, *payload)) {
+  if (determinesTilt(measurement, points, surface, payload)) {
     const auto upright = uprightFactor(view().graph, surface.variable);
     if (upright && removed_priors_.insert(*upright).second) batch().removeFactor(*upright);
   }
-  return payload = payload->with(frame().id, measurement, newsOf(measurement, points, surface, *payload));
+  return payload.with(frame().id, measurement, newsOf(measurement, points, surface, payload));
 }
 
 bool PlaneAssociator::determinesTilt(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
@@ -193,7 +191,7 @@ double PlaneAssociator::maxGap(const LandmarkSurface& surface, const PlaneMeasur
 
 void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decision decision) {
   const auto points = inMap(measurement.outline_in_base);
-  if (Fresh* same = freshMatch(measurement, points)) {
+  if (LandmarkSurface* same = freshMatch(measurement, points)) {
     decision.accepted = true;
     decision.reason = "another measurement of a new landmark in the same observation";
     batch().log(std::move(decision));
@@ -203,19 +201,18 @@ void PlaneAssociator::addNew(const PlaneMeasurement& measurement, mapper::Decisi
     decision.reason = "too small for a new landmark: " + decision.reason;
     return batch().log(std::move(decision));
   }
-  Fresh fresh;
-  LandmarkSurface& surface = fresh.surface;
+  LandmarkSurface surface;
   surface.plane = map_from_base_ * measurement.plane_in_base;
   surface.hull = hullOn(plane_factors::PlaneAxes(surface.plane), points);
   std::tie(surface.lowest, surface.highest) = heightsOf(points);
   surface.heights = heightsKnownBy(measurement);
-  fresh.payload = known_.emptyPayload().with(frame().id, measurement, {true, true});
-  const auto [landmark, variable] = addLandmark(
-      measurement, std::move(decision), {"plane", form_.variable(), form_.value(surface.plane, points), fresh.payload});
-  surface.id = landmark;
-  surface.variable = variable;
+  const auto ids = addLandmark(measurement, std::move(decision),
+                               {"plane", form_.variable(), form_.value(surface.plane, points),
+                                known_.emptyPayload().with(frame().id, measurement, {true, true})});
+  surface.id = ids.landmark;
+  surface.variable = ids.variable;
   if (measurement.is_line && form_.mayTilt()) holdUpright(surface);
-  fresh_.push_back(std::move(fresh));
+  fresh_.push_back(std::move(surface));
 }
 
 void PlaneAssociator::holdUpright(const LandmarkSurface& surface) {
@@ -230,27 +227,25 @@ void PlaneAssociator::holdUpright(const LandmarkSurface& surface) {
 }
 
 void PlaneAssociator::addToFresh(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
-                                 Fresh& fresh) {
-  LandmarkSurface& surface = fresh.surface;
-  batch().addFactor(tagged(measurement, {surface.id, surface.variable}));
-  fresh.payload = fresh.payload->with(frame().id, measurement, {true, true});
-  batch().addEvidence(surface.id, fresh.payload);
-  const plane_factors::PlaneAxes axes(surface.plane);
-  for (const auto& point : points) surface.hull.push_back(axes.onto(point));
-  surface.hull = geometry::convexHull(std::move(surface.hull));
+                                 LandmarkSurface& fresh) {
+  addFactor(measurement, {fresh.id, fresh.variable});
+  addEvidence(fresh.id, payloadOf<PlanePayload>(fresh.id).with(frame().id, measurement, {true, true}));
+  const plane_factors::PlaneAxes axes(fresh.plane);
+  for (const auto& point : points) fresh.hull.push_back(axes.onto(point));
+  fresh.hull = geometry::convexHull(std::move(fresh.hull));
 }
 
-PlaneAssociator::Fresh* PlaneAssociator::freshMatch(const PlaneMeasurement& measurement,
-                                                    const std::vector<Eigen::Vector3d>& points) {
+LandmarkSurface* PlaneAssociator::freshMatch(const PlaneMeasurement& measurement,
+                                             const std::vector<Eigen::Vector3d>& points) {
   constexpr double kTurn = 0.05, kOff = 0.05;  // [rad], [m]
   const Eigen::Vector3d normal = map_from_base_.rotation * measurement.plane_in_base.normal;
-  for (Fresh& fresh : fresh_) {
-    const geometry::Plane3& plane = fresh.surface.plane;
+  for (LandmarkSurface& fresh : fresh_) {
+    const geometry::Plane3& plane = fresh.plane;
     const bool off = std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
       return std::abs(signedDistance(plane, point)) > kOff;
     });
     if (!off && plane.normal.cross(normal).norm() < kTurn && plane.normal.dot(normal) > 0 &&
-        gapBetween(fresh.surface, points, heightsKnownBy(measurement)) <= maxGap(fresh.surface, measurement, points))
+        gapBetween(fresh, points, heightsKnownBy(measurement)) <= maxGap(fresh, measurement, points))
       return &fresh;
   }
   return nullptr;

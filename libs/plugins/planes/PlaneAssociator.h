@@ -39,12 +39,6 @@ class PlaneAssociator : public landmarks::LandmarkAssociator<PlaneMeasurement> {
   void addNew(const PlaneMeasurement& measurement, mapper::Decision decision) override;
 
  private:
-  // A landmark that this observation creates.
-  struct Fresh {
-    LandmarkSurface surface;
-    std::shared_ptr<const PlanePayload> payload;
-  };
-
   // A run that only localizes does not update landmarks, so candidates, which may be noise, must not constrain a pose.
   bool mayConstrain(const LandmarkSurface& surface) const;
   // How far a measurement is beyond the limits within which it may be of a surface [m], perpendicular to the surface's
@@ -68,10 +62,11 @@ class PlaneAssociator : public landmarks::LandmarkAssociator<PlaneMeasurement> {
                 const std::vector<Eigen::Vector3d>& points) const;
   // Adds the prior that keeps a plane upright whose tilt was not measured.
   void holdUpright(const LandmarkSurface& surface);
-  void addToFresh(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points, Fresh& fresh);
+  void addToFresh(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points,
+                  LandmarkSurface& fresh);
   // The landmark among `fresh_` that this measurement is of, too, such as the other stretch of a wall beside a door;
   // null if there is none.
-  Fresh* freshMatch(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points);
+  LandmarkSurface* freshMatch(const PlaneMeasurement& measurement, const std::vector<Eigen::Vector3d>& points);
 
   const PlaneLandmarksOptions& options_;
   const PlaneLandmarkIndex& known_;
@@ -80,9 +75,8 @@ class PlaneAssociator : public landmarks::LandmarkAssociator<PlaneMeasurement> {
   const geometry::Se3 map_from_base_;
   double pose_sigma_ = 0;                                                  // [m] of the base in the map
   std::map<base::KeyFrameId, std::pair<double, double>> variances_since_;  // of position [m^2], of rotation [rad^2]
-  std::vector<Fresh> fresh_;
-  std::set<base::FactorId> removed_priors_;                                   // upright priors that were removed
-  std::map<base::LandmarkId, std::shared_ptr<const PlanePayload>> payloads_;  // of those matched so far
+  std::vector<LandmarkSurface> fresh_;                                     // landmarks that this observation creates
+  std::set<base::FactorId> removed_priors_;                                // upright priors that were removed
 };
 
 }  // namespace omnimapper::plugins

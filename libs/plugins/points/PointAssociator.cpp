@@ -66,8 +66,7 @@ graph::FactorRecord PointAssociator::record(const PointMeasurement& measurement,
 
 std::shared_ptr<const map::LandmarkPayload> PointAssociator::learned(const PointMeasurement& measurement,
                                                                      const landmarks::LandmarkIds& known) {
-  const auto& payload = dynamic_cast<const PointPayload&>(*view().map.landmark(known.landmark).payload);
-  return payload.with(label_, measurement.constraint->point_in_base.z());
+  return payloadOf<PointPayload>(known.landmark).with(label_, measurement.constraint->point_in_base.z());
 }
 
 void PointAssociator::addNew(const PointMeasurement& measurement, mapper::Decision decision) {

@@ -103,7 +103,7 @@ std::shared_ptr<const map::LandmarkPayload> SignAssociator::learned(const SignMe
                                                                     const landmarks::LandmarkIds& known) {
   if (auto range = measurement.rangeRecord(frame().pose, known.variable))
     batch().addFactor(ofLandmark(std::move(*range), known.landmark, section()));
-  auto payload = signOf(view(), known.landmark).with(measurement.text, label_);
+  auto payload = payloadOf<SignPayload>(known.landmark).with(measurement.text, label_);
   if (payload->isBetter(measurement.area_px) && !view().map_is_held) payload->best_look = measurement.look(frame().id);
   return payload;
 }

@@ -6,6 +6,7 @@
 #include <omnimapper/plugin/View.h>
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -70,18 +71,26 @@ class LandmarkAssociator {
   }
   /// Why a measurement that fits two landmarks about equally well may be given to either; empty if it may not.
   virtual std::string whyEither(base::LandmarkId /*a*/, base::LandmarkId /*b*/) const { return {}; }
-  /// The payload of a landmark after a further measurement, or null to keep the payload. Called after the factor of the
-  /// measurement was added to batch(); may add further edits.
+  /// The payload of a landmark after a further measurement, or null to keep the payload (payloadOf()). Called after the
+  /// factor of the measurement was added; may add further edits to batch().
   virtual std::shared_ptr<const map::LandmarkPayload> learned(const Measurement& measurement,
                                                               const LandmarkIds& known) = 0;
   /// Adds the landmark of a measurement that fits none (addLandmark()), or logs the decision with the reason why not.
   /// Never called if the map is held. `decision` says why no landmark matches.
   virtual void addNew(const Measurement& measurement, mapper::Decision decision) = 0;
 
+  /// The payload of a landmark, with what this observation has added to it so far.
+  template <class Payload>
+  const Payload& payloadOf(base::LandmarkId landmark) const {
+    const auto found = payloads_.find(landmark);
+    return dynamic_cast<const Payload&>(found != payloads_.end() ? *found->second
+                                                                 : *view_.map.landmark(landmark).payload);
+  }
+  void addFactor(const Measurement& measurement, const LandmarkIds& of) { batch_.addFactor(tagged(measurement, of)); }
+  /// Counts one more measurement of a landmark; null keeps the payload.
+  void addEvidence(base::LandmarkId landmark, std::shared_ptr<const map::LandmarkPayload> payload);
   /// Logs the decision as accepted, and adds a landmark with the factor of its first measurement.
   LandmarkIds addLandmark(const Measurement& measurement, mapper::Decision decision, NewLandmark fresh);
-  /// The factor of a measurement of this landmark, with its tags.
-  graph::FactorRecord tagged(const Measurement& measurement, const LandmarkIds& of) const;
   mapper::Decision decisionOf(const Measurement& measurement) const;
 
   const map::KeyFrame& frame() const { return frame_; }
@@ -106,6 +115,7 @@ class LandmarkAssociator {
     return !view_.areAligned(frame_.id.session, known.landmark.session);
   }
   void propose(const Measurement& measurement, const LandmarkIds& known, mapper::Decision decision);
+  graph::FactorRecord tagged(const Measurement& measurement, const LandmarkIds& of) const;
   LandmarkIds idsOf(base::LandmarkId known) const { return {known, view_.map.landmark(known).variables.front()}; }
 
   const mapper::AssociationOptions& options_;
@@ -114,6 +124,7 @@ class LandmarkAssociator {
   const mapper::View& view_;
   const mapper::Repeats repeats_;
   std::set<base::LandmarkId> met_;
+  std::map<base::LandmarkId, std::shared_ptr<const map::LandmarkPayload>> payloads_;  // those of this batch
   mapper::Batch batch_;
 };
 
@@ -193,8 +204,15 @@ void LandmarkAssociator<Measurement>::addToKnown(const Measurement& measurement,
   met_.insert(known.landmark);
   if (tiesSessions(known)) return propose(measurement, known, std::move(decision));
   batch_.log(std::move(decision));
-  batch_.addFactor(tagged(measurement, known));
-  batch_.addEvidence(known.landmark, learned(measurement, known));
+  addFactor(measurement, known);
+  addEvidence(known.landmark, learned(measurement, known));
+}
+
+template <class Measurement>
+void LandmarkAssociator<Measurement>::addEvidence(base::LandmarkId landmark,
+                                                  std::shared_ptr<const map::LandmarkPayload> payload) {
+  if (payload) payloads_[landmark] = payload;
+  batch_.addEvidence(landmark, std::move(payload));
 }
 
 template <class Measurement>
@@ -225,8 +243,9 @@ LandmarkIds LandmarkAssociator<Measurement>::addLandmark(const Measurement& meas
   batch_.log(std::move(decision));
   LandmarkIds ids;
   ids.variable = batch_.addVariable(std::move(fresh.variable), fresh.value);
-  ids.landmark = batch_.addLandmark(fresh.kind, {ids.variable}, std::move(fresh.payload));
-  batch_.addFactor(tagged(measurement, ids));
+  ids.landmark = batch_.addLandmark(fresh.kind, {ids.variable}, fresh.payload);
+  payloads_[ids.landmark] = std::move(fresh.payload);
+  addFactor(measurement, ids);
   return ids;
 }
 
