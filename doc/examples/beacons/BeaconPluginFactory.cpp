@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtLoad.h>
 
+#include "BeaconFactor.h"
 #include "BeaconPayload.h"
 #include "BeaconPlugin.h"
 #include "BeaconVariable.h"
