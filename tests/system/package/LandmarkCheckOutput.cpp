@@ -24,7 +24,7 @@ struct LandmarkCheckOptions {
     static const auto table =
         base::OptionTable<Options>()
             .text("file", &Options::file, "Name of the file in the output folder.")
-            .text("truth", &Options::truth, "File of true positions, 'x y z' at the begin of each line.");
+            .text("truth", &Options::truth, "File of true positions, 'x y z' at the beginning of each line.");
     return table;
   }
 };
