@@ -5,14 +5,12 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/fittingInis.h>
-#include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <memory>
 
 #include "CheckedLog.h"
-#include "wheel_odometry/OdometryPlugin.h"
 
 namespace omnimapper::check::fitting_inis_test {
 namespace {
@@ -87,30 +85,32 @@ TEST(FittingInis, GoWithoutTheLaserThatIsNotThere) {
             "[perception]\nextractors = planes  ; there is no laser\n");
 }
 
-TEST(FittingInis, HaveThePluginsThatTheyAreSaidToHave) {
-  using namespace mrpt::obs;
-  const auto log = with<CObservation3DRangeScan>(with<CObservationBearingRange>(with<CObservationRobotPose>()));
-  auto inis = fittingInis(Checked(log).facts);
-  EXPECT_EQ(inis.size(), 5U);
-  const auto camera = without(without(with<CObservation3DRangeScan>(), "laser"), "odometry");
-  inis.push_back(fittingInis(Checked(camera).facts).front());
-  const auto robot = without(with<CObservation3DRangeScan>(), "laser");
-  inis.push_back(fittingInis(Checked(robot).facts).front());
-  const auto pictures = with<CObservationImage>(with<obs::CObservationDoorSigns>());
-  for (auto& ini : fittingInis(Checked(pictures).facts))
-    if (ini.file == "ini/signs.ini") inis.push_back(ini);
-  EXPECT_EQ(inis.size(), 8U);
-  for (const auto& ini : inis) {
-    const auto config = base::Config::fromFile(omnimapper::testing::sourceFile(ini.file));
-    const auto options = config.section("mapper").read<mapper::EngineOptions>();
-    EXPECT_EQ(ini.plugins.pose, options.pose_plugins) << ini.file;
-    EXPECT_EQ(ini.plugins.measurement, options.measurement_plugins) << ini.file;
-    EXPECT_EQ(ini.plugins.extractors, config.section("perception").read<mapper::PerceptionOptions>().extractors)
-        << ini.file;
-    EXPECT_EQ(ini.plugins.odometry_is_fallback,
-              config.section("odometry").read<plugins::OdometryOptions>({"class"}).fallback)
-        << ini.file;
-  }
+TEST(FittingInis, HaveThePluginsOfTheirFiles) {
+  const auto inis = fittingInis(Checked(halfALap()).facts);
+  ASSERT_EQ(inis.size(), 2U);
+  EXPECT_EQ(inis[0].plugins.pose, (Names{"scan_odometry", "odometry", "no_motion"}));
+  EXPECT_EQ(inis[1].plugins.measurement, (Names{"walls", "loop_closure", "relations"}));
+  EXPECT_EQ(inis[1].plugins.extractors, (Names{"laser_points", "laser_lines"}));
+  EXPECT_TRUE(inis[0].plugins.odometry_is_fallback);
+}
+
+TEST(FittingInis, SayWhatTheyMapOfThisLog) {
+  const auto log = with<mrpt::obs::CObservation3DRangeScan>();
+  EXPECT_EQ(fittingInis(Checked(log).facts).front().what, "walls, tables and floors of the range camera and the laser");
+  EXPECT_EQ(fittingInis(Checked(without(log, "laser")).facts).back().what,
+            "walls, tables and floors of the range camera");
+  const auto clouds = fittingInis(Checked(without(with<mrpt::obs::CObservationPointCloud>(), "laser")).facts);
+  EXPECT_TRUE(clouds.front().needs_settings);
+  EXPECT_FALSE(clouds.front().is_a_guess);
+  const auto pictures = fittingInis(Checked(with<mrpt::obs::CObservationImage>()).facts);
+  ASSERT_EQ(pictures.size(), 4U);
+  EXPECT_EQ(pictures[2].what, "door signs, if the pictures show some, and walls");
+  EXPECT_TRUE(pictures[2].is_a_guess);
+  EXPECT_FALSE(pictures[2].needs_settings);
+  EXPECT_TRUE(pictures[3].is_a_guess && pictures[3].needs_settings);
+  const auto signs = fittingInis(Checked(with<obs::CObservationDoorSigns>()).facts);
+  EXPECT_EQ(signs.back().what, "door signs with their texts, and walls");
+  EXPECT_FALSE(signs.back().is_a_guess);
 }
 
 TEST(FittingInis, OfRangesAndBearingsNeedOdometry) {

@@ -4,7 +4,7 @@
 #include <omnimapper/check/gatherFacts.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
-#include <omnimapper/mapper/EngineOptions.h>
+#include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -31,8 +31,7 @@ base::ExitCode codeOf(const source::SourceReport& report, const std::vector<Fitt
 
 CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& config, const std::string& output_folder,
                      base::Progress& progress, const std::function<bool()>& stop) {
-  const auto options = config.section("mapper").read<mapper::EngineOptions>();
-  const auto extractors = config.section("perception").read<mapper::PerceptionOptions>().extractors;
+  const auto given = PluginLists::read(config);
   const auto log = source::openRawlogs(logs, mapper::sourceOptions(config), stop);
   const auto facts = gatherFacts(*log, Declared::read(config), stop, &progress);
   if (stop())
@@ -40,10 +39,6 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
                       "interrupted before the log was read to its end; half a log is not judged");
   const auto findings = judge(facts);
   const auto inis = fittingInis(facts);
-  std::string text;
-  bool is_fallback = false;  // the section may be of another plugin, whose keys are not known here
-  if (config.section("odometry").find("fallback", text)) base::option_text::parse(text, is_fallback);
-  const PluginLists given{options.pose_plugins, extractors, options.measurement_plugins, is_fallback, options.sensors};
   std::string ini;  // the INI that settings are proposed for
   std::vector<Setting> settings;
   if (!inis.empty()) {
