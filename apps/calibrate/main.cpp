@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(12, 1000))
       ->capture_default_str();
   of_depth->add_option("--degree", depth.degree, "degree of the polynomial over the image")
-      ->check(CLI::Range(perception::DepthDistortion::kLeastDegree, perception::DepthDistortion::kMostDegree))
+      ->check(CLI::Range(camera::DepthDistortion::kLeastDegree, camera::DepthDistortion::kMostDegree))
       ->capture_default_str();
   MountingArguments mounting;
   auto* of_mounting = addMountingTask(app, mounting);

@@ -111,7 +111,7 @@ class EdgeTruth {
   // Distance [m] by which the other pixel is behind the extended surface of pixel (x, y); negative if it is in front.
   double behind(const Plane& plane, int x, int y, int other_x, int other_y) const {
     if (!plane) return depth(other_x, other_y) - depth(x, y);
-    const perception::Pinhole& c = frame_->camera;
+    const camera::Pinhole& c = frame_->camera;
     const Eigen::Vector3d ray((other_x - c.cx) / c.fx, (other_y - c.cy) / c.fy, 1);
     const double facing = plane->normal.dot(ray), on_plane = -plane->distance / facing;
     // If the ray does not meet the plane, the other pixel counts as far in front of it.

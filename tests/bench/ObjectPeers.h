@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 #include <omnimapper/source/PcdCloud.h>
 
 #include <functional>
@@ -15,7 +15,7 @@ using Objects = std::vector<std::vector<int>>;
 /// An organized cloud in a camera's optical frame. Labels from 20 on are those of objects.
 struct LabelledCloud {
   source::PcdCloud points;
-  perception::Pinhole camera;
+  camera::Pinhole camera;
 };
 
 /// A method that finds objects in an organized cloud. The whole call of `run` is timed.

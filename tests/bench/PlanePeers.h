@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <cstdint>
 #include <functional>
@@ -13,7 +13,7 @@ namespace omnimapper::bench {
 struct DepthFrame {
   int width = 0, height = 0;
   double metres_per_unit = 1;
-  perception::Pinhole camera;
+  camera::Pinhole camera;
   std::vector<std::uint16_t> units;
 };
 
@@ -24,7 +24,7 @@ struct PlanePeer {
   std::function<std::vector<std::uint16_t>(const DepthFrame&)> run;
 };
 
-perception::DepthImage imageOf(const DepthFrame& frame);
+camera::DepthImage imageOf(const DepthFrame& frame);
 
 std::vector<PlanePeer> ourPlanes();
 /// Prints the median times of the stages of our method on these frames as a Markdown table.

@@ -28,7 +28,7 @@ std::vector<PlanePeer> loadedPlanes(const std::string& library) {
   for (int peer = 0; peer < count; ++peer) {
     peers.push_back(
         {name(peer), [run, peer](const DepthFrame& frame) {
-           const perception::Pinhole& c = frame.camera;
+           const camera::Pinhole& c = frame.camera;
            const PlanePeerImage image{
                frame.units.data(), frame.width, frame.height, frame.metres_per_unit, c.fx, c.fy, c.cx, c.cy};
            std::vector<std::uint16_t> labels(frame.units.size(), 0);

@@ -9,7 +9,7 @@ namespace omnimapper::bench {
 
 namespace {
 
-cv::Matx33f matrixOf(const perception::Pinhole& c) {
+cv::Matx33f matrixOf(const camera::Pinhole& c) {
   return {static_cast<float>(c.fx),
           0,
           static_cast<float>(c.cx),

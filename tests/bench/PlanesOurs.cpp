@@ -17,7 +17,7 @@
 namespace omnimapper::bench {
 
 using namespace perception::planes;
-using perception::DepthImage;
+using camera::DepthImage;
 using perception::PlaneOptions;
 
 DepthImage imageOf(const DepthFrame& frame) {

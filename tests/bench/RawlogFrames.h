@@ -1,10 +1,10 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <optional>
@@ -21,7 +21,7 @@ struct PosedFrames {
 };
 
 inline RgbdFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
-  const perception::RgbdView view(scan);
+  const camera::RgbdView view(scan);
   const auto& depth = view.depth();
   RgbdFrame frame{depth.width(), depth.height(), depth.metresPerUnit(), depth.camera(), 0, 0, {}, {}};
   frame.stamp = frame.colour_stamp = mrpt::Clock::toDouble(scan.timestamp);
@@ -30,7 +30,7 @@ inline RgbdFrame frameOf(const mrpt::obs::CObservation3DRangeScan& scan) {
     throw std::runtime_error("an observation needs depths of 16 bits and a colour image");
   frame.units.assign(depth.units(), depth.units() + pixels);
   const auto& colour = *view.colour();
-  const bool is_bgr = colour.order == perception::ColourImage::Order::bgr;
+  const bool is_bgr = colour.order == camera::ColourImage::Order::bgr;
   for (int y = 0; y < frame.height; ++y) {
     const std::uint8_t* row = colour.pixels + static_cast<std::ptrdiff_t>(y) * colour.stride;
     for (int x = 0; x < frame.width; ++x, row += 3) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace omnimapper::bench {
 struct RgbdFrame {
   int width = 0, height = 0;
   double metres_per_unit = 1;
-  perception::Pinhole camera;
+  camera::Pinhole camera;
   double stamp = 0, colour_stamp = 0;  ///< [s] Unix time
   std::vector<std::uint16_t> units;
   std::vector<std::uint8_t> rgb;
@@ -43,7 +43,7 @@ inline std::string nearest(const std::vector<std::string>& files, const std::str
 }
 
 /// Reads every `every`-th frame of a folder of the TUM RGB-D benchmark.
-inline std::vector<RgbdFrame> readRgbd(const std::string& folder, int every, const perception::Pinhole& camera) {
+inline std::vector<RgbdFrame> readRgbd(const std::string& folder, int every, const camera::Pinhole& camera) {
   const auto depths = filesOf(folder + "/depth"), pictures = filesOf(folder + "/rgb");
   std::vector<RgbdFrame> frames;
   for (std::size_t i = 0; i < depths.size(); i += static_cast<std::size_t>(every)) {

@@ -74,9 +74,9 @@ class RoadAgreement {
     const std::string& png = measurement.truth_files.at(0).bytes;
     const cv::Mat names = cv::imdecode(std::vector<char>(png.begin(), png.end()), cv::IMREAD_UNCHANGED);
     const auto& c = scan.cameraParams;
-    const perception::DepthImage image(scan.rangeImage.data(), static_cast<double>(scan.rangeUnits),
-                                       static_cast<int>(c.ncols), static_cast<int>(c.nrows),
-                                       {c.fx(), c.fy(), c.cx(), c.cy()});
+    const camera::DepthImage image(scan.rangeImage.data(), static_cast<double>(scan.rangeUnits),
+                                   static_cast<int>(c.ncols), static_cast<int>(c.nrows),
+                                   {c.fx(), c.fy(), c.cx(), c.cy()});
     const double begin = clock_();
     const auto found = perception::RoadSegmenter(options_).segment(image, perception::expectedGround(scan, 0));
     times_.push_back(clock_() - begin);

@@ -60,14 +60,14 @@ std::vector<CloudPeer> methods(double tolerance) {
   return all;
 }
 
-Cloud cloudOf(const perception::DepthImage& image) {
+Cloud cloudOf(const camera::DepthImage& image) {
   const auto points = perception::backProject(image, 0.3, 12);
   Cloud cloud;
   for (std::size_t i = 0; i < points.z.size(); ++i) cloud.emplace_back(points.x[i], points.y[i], points.z[i]);
   return cloud;
 }
 
-std::vector<Cloud> readClouds(const std::string& folder, int every, const perception::Pinhole& camera) {
+std::vector<Cloud> readClouds(const std::string& folder, int every, const camera::Pinhole& camera) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -125,7 +125,7 @@ void printRooms(int rooms, double tolerance) {
   const auto all = methods(tolerance);
   std::vector<perception::rooms::Agreement> sums(all.size());
   std::vector<std::vector<double>> times(all.size());
-  const perception::DepthNoise noise;
+  const camera::DepthNoise noise;
   for (int seed = 0; seed < rooms; ++seed) {
     testing::Dice dice(static_cast<std::uint64_t>(seed));
     const auto scene = perception::rooms::randomRoom(dice);

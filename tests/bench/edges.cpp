@@ -32,10 +32,10 @@ EdgePeer ours(const std::string& name, const EdgeOptions& options, bool with_pic
   auto frame = std::make_shared<RgbdFrame>();
   return {name, [frame](const RgbdFrame& given) { *frame = given; },
           [frame, with_picture, points_of, detector = perception::EdgeDetector(options)] {
-            const perception::DepthImage image(frame->units.data(), frame->metres_per_unit, frame->width, frame->height,
-                                               frame->camera);
-            const perception::ColourImage colour{frame->rgb.data(), frame->width, frame->height, 3 * frame->width,
-                                                 perception::ColourImage::Order::rgb};
+            const camera::DepthImage image(frame->units.data(), frame->metres_per_unit, frame->width, frame->height,
+                                           frame->camera);
+            const camera::ColourImage colour{frame->rgb.data(), frame->width, frame->height, 3 * frame->width,
+                                             camera::ColourImage::Order::rgb};
             auto edges = with_picture ? detector.detect(image, colour) : detector.detect(image);
             if (points_of != 0) perception::edgePoints(edges, image, points_of);
             return std::move(edges.labels);

@@ -42,7 +42,7 @@ ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, c
   const perception::ObjectFinder finder(options, sensor);
   return {name, [=](const LabelledCloud& cloud) {
             const auto& points = cloud.points;
-            const perception::DepthImage image(points.z.data(), points.width, points.height, cloud.camera);
+            const camera::DepthImage image(points.z.data(), points.width, points.height, cloud.camera);
             Objects objects;
             for (auto& found : finder.find(image, segmenter.segment(image), -Eigen::Vector3d::UnitY()))
               objects.push_back(std::move(found.pixels));

@@ -39,7 +39,7 @@ ComparatorPeer ours(const std::string& name, const perception::PlaneComparison& 
           },
           [given, segmenter = perception::PlaneSegmenter({}, options)] {
             const RgbdFrame& f = given->frame;
-            const perception::DepthImage image(f.units.data(), f.metres_per_unit, f.width, f.height, f.camera);
+            const camera::DepthImage image(f.units.data(), f.metres_per_unit, f.width, f.height, f.camera);
             return segmenter.segment(image, given->colours).labels;
           }};
 }

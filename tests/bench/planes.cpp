@@ -33,8 +33,7 @@ std::vector<PlanePeer> methods(const std::vector<std::string>& libraries) {
   return all;
 }
 
-std::vector<DepthFrame> readFrames(const std::string& folder, int every, double unit,
-                                   const perception::Pinhole& camera) {
+std::vector<DepthFrame> readFrames(const std::string& folder, int every, double unit, const camera::Pinhole& camera) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
@@ -102,7 +101,7 @@ void printRooms(std::vector<PlanePeer> all, int rooms, double noise_factor) {
   std::vector<perception::rooms::Agreement> sums(all.size());
   std::vector<std::vector<double>> times(all.size());
   Errors errors;
-  perception::DepthNoise noise;
+  camera::DepthNoise noise;
   noise.sigma *= noise_factor;
   for (int seed = 0; seed < rooms; ++seed) {
     testing::Dice dice(static_cast<std::uint64_t>(seed));

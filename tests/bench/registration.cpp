@@ -35,12 +35,12 @@ using geometry::Se3;
 using matching::CloudMethod;
 using matching::CloudSource;
 
-perception::DepthImage depthOf(const RgbdFrame& frame) {
+camera::DepthImage depthOf(const RgbdFrame& frame) {
   return {frame.units.data(), frame.metres_per_unit, frame.width, frame.height, frame.camera};
 }
 
-perception::ColourImage colourOf(const RgbdFrame& frame) {
-  return {frame.rgb.data(), frame.width, frame.height, 3 * frame.width, perception::ColourImage::Order::rgb};
+camera::ColourImage colourOf(const RgbdFrame& frame) {
+  return {frame.rgb.data(), frame.width, frame.height, 3 * frame.width, camera::ColourImage::Order::rgb};
 }
 
 RegistrationPeer clouds(const std::string& name, const std::string& row, CloudSource source, double voxel,
@@ -255,7 +255,7 @@ double rms(const std::vector<double>& values) {
 }
 
 // `late`: delay [s] of the stamps of images after the exposure.
-PosedFrames readTumPosed(const std::string& folder, const perception::Pinhole& camera, double late) {
+PosedFrames readTumPosed(const std::string& folder, const camera::Pinhole& camera, double late) {
   PosedFrames posed{readRgbd(folder, 1, camera), {}};
   const auto truth = eval::readTum(folder + "/groundtruth.txt");
   for (const auto& frame : posed.frames) {

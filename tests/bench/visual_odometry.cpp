@@ -27,7 +27,7 @@ struct Recording {
   std::vector<std::optional<Se3>> truth;  // world_from_camera (optical frame)
 };
 
-Recording read(const std::string& folder, const perception::Pinhole& camera, int every) {
+Recording read(const std::string& folder, const camera::Pinhole& camera, int every) {
   Recording recording{readRgbd(folder, every, camera), {}};
   const auto truth = eval::readTum(folder + "/groundtruth.txt");
   for (const auto& frame : recording.frames)
@@ -36,13 +36,13 @@ Recording read(const std::string& folder, const perception::Pinhole& camera, int
   return recording;
 }
 
-perception::DepthImage depthOf(const RgbdFrame& frame) {
+camera::DepthImage depthOf(const RgbdFrame& frame) {
   return {frame.units.data(), frame.metres_per_unit, frame.width, frame.height, frame.camera};
 }
 
 matching::RgbdPyramid pyramidOf(const RgbdFrame& frame) {
-  const perception::ColourImage colour{frame.rgb.data(), frame.width, frame.height, 3 * frame.width,
-                                       perception::ColourImage::Order::rgb};
+  const camera::ColourImage colour{frame.rgb.data(), frame.width, frame.height, 3 * frame.width,
+                                   camera::ColourImage::Order::rgb};
   return {depthOf(frame), &colour};
 }
 

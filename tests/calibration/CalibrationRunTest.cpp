@@ -5,9 +5,9 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/calibration/CalibrationRun.h>
 #include <omnimapper/calibration/DepthCamera.h>
+#include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/CameraCalibration.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/RgbdFolder.h>
 #include <omnimapper/testing/ChildProgram.h>
@@ -119,7 +119,7 @@ class CalibrationRunTest : public ::testing::Test {
   DepthCamera corrected(const Log& log) {
     auto scan = imageOf(log, 0);
     const auto config = base::Config::fromFile(request_.output + "/calibration.ini");
-    const auto calibration = perception::CameraCalibration::read(config);
+    const auto calibration = camera::CameraCalibration::read(config);
     EXPECT_TRUE(calibration.isOf("camera"));
     calibration.applyTo(scan);
     auto camera = cameraOf(scan).value();
@@ -294,7 +294,7 @@ TEST_F(CalibrationRunTest, OfARealKinectItFindsTheLens) {
   const auto result = run();
   ASSERT_TRUE(result.is_better) << result.text;
   const auto config = base::Config::fromFile(request_.output + "/calibration.ini");
-  const auto calibration = config.section("calibration").read<perception::CameraCalibrationOptions>();
+  const auto calibration = config.section("calibration").read<camera::CameraCalibrationOptions>();
   EXPECT_NEAR(calibration.picture_fx.value(), 517.3, 8) << result.text;
   EXPECT_NEAR(calibration.picture_k1.value(), 0.2624, 0.12);
 }

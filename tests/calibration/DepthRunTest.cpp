@@ -2,8 +2,8 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/calibration/DepthRun.h>
+#include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/obs/CObservationPlanes.h>
-#include <omnimapper/perception/CameraCalibration.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/RgbdFolder.h>
@@ -21,8 +21,8 @@
 namespace omnimapper::calibration::depth_run_test {
 namespace {
 
+using camera::DepthDistortion;
 using mrpt::obs::CObservation3DRangeScan;
-using perception::DepthDistortion;
 
 constexpr int kImages = 24;
 
@@ -73,7 +73,7 @@ class DepthRunTest : public ::testing::Test {
     return "";
   }
   DepthDistortion written() const {
-    return perception::CameraCalibration::read(base::Config::fromFile(request_.output + "/calibration.ini"))
+    return camera::CameraCalibration::read(base::Config::fromFile(request_.output + "/calibration.ini"))
         .depthDistortion();
   }
   std::string read(const std::string& name) const {

@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/perception/DepthDistortion.h>
+#include <omnimapper/camera/DepthDistortion.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace omnimapper::calibration {
 /// Simulated depth images of planes, by a camera with a systematic distortion.
 struct DistortedDepths {
   int width = 160, height = 120;
-  double sigma = 0.0023;                   ///< [1/m] noise of a pixel
-  double nearest = 0.7, farthest = 3;      ///< [m] of the planes, in the middle of the image
-  double turn = 0.35;                      ///< relative change of the inverse depth from the middle to a rim
-  double share = 1;                        ///< of the columns that have depths
-  bool has_floor = true;                   ///< in every second image
-  perception::DepthDistortion distortion;  ///< correction of the measured inverse depths
+  double sigma = 0.0023;               ///< [1/m] noise of a pixel
+  double nearest = 0.7, farthest = 3;  ///< [m] of the planes, in the middle of the image
+  double turn = 0.35;                  ///< relative change of the inverse depth from the middle to a rim
+  double share = 1;                    ///< of the columns that have depths
+  bool has_floor = true;               ///< in every second image
+  camera::DepthDistortion distortion;  ///< correction of the measured inverse depths
 
   /// The wall of image `number`: its inverse depth [1/m] over x and y from -1 to 1, as constant, slope in x and slope
   /// in y.
@@ -62,8 +62,8 @@ struct DistortedDepths {
 };
 
 /// A distortion as that of a Kinect: 6 mm at 1 m in a corner.
-inline perception::DepthDistortion kinectDistortion() {
-  return perception::DepthDistortion(
+inline camera::DepthDistortion kinectDistortion() {
+  return camera::DepthDistortion(
       {-0.003, 0.0012, -0.001, 0.0015, 0.001, -0.0008, 0.0005, 0.001, -0.0015, 0.002, 0.0006, 0.0008});
 }
 

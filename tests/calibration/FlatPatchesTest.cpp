@@ -13,7 +13,7 @@
 namespace omnimapper::calibration::flat_patches_test {
 namespace {
 
-using perception::DepthDistortion;
+using camera::DepthDistortion;
 
 constexpr int kWidth = 160, kHeight = 120;
 
@@ -25,7 +25,7 @@ DepthCells cellsOfInverse(const std::function<double(double x, double y)>& inver
       metres.push_back(static_cast<float>(1 / inverse((2.0 * u + 1) / kWidth - 1, (2.0 * v + 1) / kHeight - 1)));
   }
   if (change) change(metres);
-  return cellsOf(perception::DepthImage(metres.data(), kWidth, kHeight, {}));
+  return cellsOf(camera::DepthImage(metres.data(), kWidth, kHeight, {}));
 }
 
 double slanted(double x, double y) {
@@ -58,7 +58,7 @@ TEST(DepthCells, WhatIsNoMeasurementIsNotFlat) {
 }
 
 TEST(DepthCells, OfAnImageWithoutPixelsThereAreNone) {
-  const auto none = cellsOf(perception::DepthImage(static_cast<const float*>(nullptr), 0, 0, {}));
+  const auto none = cellsOf(camera::DepthImage(static_cast<const float*>(nullptr), 0, 0, {}));
   EXPECT_TRUE(none.cells.empty());
   EXPECT_TRUE(growPatches(none, {}, 0.01).empty());
 }

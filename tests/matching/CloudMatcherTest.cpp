@@ -204,7 +204,7 @@ TEST(CloudSource, AnEdgeIsLongAlongItself) {
   constexpr int kWidth = 60, kHeight = 40;
   std::vector<float> depths;
   for (int i = 0; i < kWidth * kHeight; ++i) depths.push_back(i % kWidth < kWidth / 2 ? 2.0F : 1.0F);
-  const perception::DepthImage image(depths.data(), kWidth, kHeight, {50, 50, 29.5, 19.5});
+  const camera::DepthImage image(depths.data(), kWidth, kHeight, {50, 50, 29.5, 19.5});
   CloudSourceOptions options;
   options.source = CloudSource::occluding_edges;
   const auto cloud = cloudOf(image, nullptr, options);
@@ -218,7 +218,7 @@ TEST(CloudSource, AnEdgeIsLongAlongItself) {
 
 TEST(CloudSource, NothingMeasuredIsAnEmptyCloud) {
   const std::vector<float> depths(80 * 60, 0.0F);
-  const perception::DepthImage image(depths.data(), 80, 60, {60, 60, 39.5, 29.5});
+  const camera::DepthImage image(depths.data(), 80, 60, {60, 60, 39.5, 29.5});
   for (const auto source : {CloudSource::occluding_edges, CloudSource::high_curvature_edges, CloudSource::voxels,
                             CloudSource::all_points}) {
     CloudSourceOptions options;

@@ -132,7 +132,7 @@ TEST(DenseMatcher, ARollingShutterIsCorrectedIfTheMotionIsGiven) {
 // The squared error in standard deviations: 6 on average if the covariance is right.
 TEST(DenseMatcher, ItsCovarianceIsOfTheErrorsSize) {
   RenderedRoom room;
-  room.depth_noise = perception::DepthNoise().sigma;
+  room.depth_noise = camera::DepthNoise().sigma;
   room.grey_noise = 4;
   double sum = 0;
   constexpr int runs = 10;
@@ -205,7 +205,7 @@ TEST(DenseMatcher, RefusesOptionsThatMeanNothing) {
 
 TEST(RgbdPyramid, KeepsAPlaneAndTheNearerSideOfADepthDiscontinuity) {
   std::vector<float> depth(80 * 60);
-  const perception::Pinhole camera{60, 60, 39.5, 29.5};
+  const camera::Pinhole camera{60, 60, 39.5, 29.5};
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 80; ++x) depth[static_cast<std::size_t>(80 * y + x)] = x < 41 ? 1.0F : 2.0F;
   const RgbdPyramid pyramid({depth.data(), 80, 60, camera}, nullptr);
@@ -222,7 +222,7 @@ TEST(RgbdPyramid, KeepsAPlaneAndTheNearerSideOfADepthDiscontinuity) {
 TEST(RgbdPyramid, RefusesAPictureOfAnotherSize) {
   const std::vector<float> depth(80 * 60, 1);
   const std::vector<std::uint8_t> grey(40 * 30);
-  const perception::ColourImage colour{grey.data(), 40, 30, 40, perception::ColourImage::Order::grey};
+  const camera::ColourImage colour{grey.data(), 40, 30, 40, camera::ColourImage::Order::grey};
   EXPECT_THROW(RgbdPyramid({depth.data(), 80, 60, {}}, &colour), base::Error);
 }
 

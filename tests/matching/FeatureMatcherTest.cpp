@@ -40,7 +40,7 @@ TEST(FeatureMatcher, FindsAMotionHoweverFar) {
 
 TEST(FeatureMatcher, ItsCovarianceIsOfTheErrorsSize) {
   auto room = tiledRoom();
-  room.depth_noise = perception::DepthNoise{}.sigma;
+  room.depth_noise = camera::DepthNoise{}.sigma;
   room.grey_noise = 2;
   const Se3 motion = posed(0.1, 0.05, 0.05, 0.02, 0.1, 0.03);
   double sum = 0;

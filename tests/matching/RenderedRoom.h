@@ -22,7 +22,7 @@ inline geometry::Se3 posed(double x, double y, double z, double turn_x, double t
 struct RenderedRoom {
   double half[3] = {2, 1.25, 1.5};  ///< [m] from the middle to the walls
   int width = 320, height = 240;
-  perception::Pinhole camera{260, 260, 159.5, 119.5};
+  camera::Pinhole camera{260, 260, 159.5, 119.5};
   double depth_noise = 0;  ///< [1/m] of the inverse depth
   double grey_noise = 0;
   double gain = 1, offset = 0;
@@ -57,9 +57,9 @@ struct RenderedRoom {
     return render(still, still, seed);
   }
 
-  perception::DepthImage depthImage(const Image& image) const { return {image.depth.data(), width, height, camera}; }
+  camera::DepthImage depthImage(const Image& image) const { return {image.depth.data(), width, height, camera}; }
   RgbdPyramid pyramid(const Image& image, bool with_picture = true) const {
-    const perception::ColourImage colour{image.grey.data(), width, height, width, perception::ColourImage::Order::grey};
+    const camera::ColourImage colour{image.grey.data(), width, height, width, camera::ColourImage::Order::grey};
     return {depthImage(image), with_picture ? &colour : nullptr};
   }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
 #include <omnimapper/testing/MarkerPicture.h>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <limits>
 
-#include "RangeScan.h"
 #include "markers/MarkerPose.h"
 
 namespace omnimapper::perception::aruco_marker_extractor_test {
@@ -47,7 +47,7 @@ struct Placed {
 };
 
 testing::MarkerCorners seen(const mrpt::img::TCamera& camera, const Se3& optical_from_marker) {
-  const LensModel lens(camera, "camera");
+  const camera::LensModel lens(camera, "camera");
   const double half = 0.5 * kSide;
   testing::MarkerCorners corners;
   const Vector3d in_marker[] = {{-half, half, 0}, {half, half, 0}, {half, -half, 0}, {-half, -half, 0}};
@@ -56,7 +56,7 @@ testing::MarkerCorners seen(const mrpt::img::TCamera& camera, const Se3& optical
 }
 
 Vector3d rangeYawPitch(const Vector3d& in_optical) {
-  const Vector3d p = toSensor(in_optical);
+  const Vector3d p = camera::toSensor(in_optical);
   return {p.norm(), std::atan2(p.y(), p.x()), std::atan2(-p.z(), std::hypot(p.x(), p.y()))};
 }
 
@@ -239,7 +239,7 @@ TEST(ArucoMarkerPose, IsFoundThroughEveryLens) {
   fisheye.setDistortionKannalaBrandt(0.02, -0.01, 0.003, -0.001);
   for (const auto& lens : {camera(), bent, fisheye}) {
     for (const auto& placed : kPlaced) {
-      const auto found = markers::poseOfMarker(LensModel(lens, ""), seen(lens, placed.pose()), kSide, 0.3);
+      const auto found = markers::poseOfMarker(camera::LensModel(lens, ""), seen(lens, placed.pose()), kSide, 0.3);
       ASSERT_TRUE(found);
       EXPECT_LT(geometry::minus(found->optical_from_marker, placed.pose()).norm(), 1e-4) << placed.id;
     }
@@ -247,10 +247,10 @@ TEST(ArucoMarkerPose, IsFoundThroughEveryLens) {
 }
 
 TEST(ArucoMarkerPose, CornersOfNoSquareHaveNoPoseThatIsNotFinite) {
-  const LensModel lens(camera(), "");
+  const camera::LensModel lens(camera(), "");
   const Eigen::Vector2d point(300, 200), other(320, 200);
-  for (const auto& corners : {Corners{point, point, point, point}, Corners{point, other, point, other},
-                              Corners{point, other, 2 * other - point, 3 * other - 2 * point}}) {
+  for (const auto& corners : {camera::Corners{point, point, point, point}, camera::Corners{point, other, point, other},
+                              camera::Corners{point, other, 2 * other - point, 3 * other - 2 * point}}) {
     const auto found = markers::poseOfMarker(lens, corners, kSide, 0.3);
     EXPECT_TRUE(!found || found->covariance_of_middle.allFinite());
   }

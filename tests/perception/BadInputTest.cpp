@@ -13,16 +13,16 @@
 #include <string>
 #include <vector>
 
-#include "RangeScans.h"
+#include "../camera/RangeScans.h"
 
 namespace omnimapper::perception::bad_input_test {
 namespace {
 
-using namespace scans;
+using namespace camera::scans;
 using mrpt::obs::CObservation3DRangeScan;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr Pinhole kCamera{kFocal, kFocal, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1)};
+constexpr camera::Pinhole kCamera{kFocal, kFocal, 0.5 * (kWidth - 1), 0.5 * (kHeight - 1)};
 
 /// Number of results of each kind.
 struct Found {
@@ -56,7 +56,7 @@ Found extractAll(const CObservation3DRangeScan& scan) {
 
 // Runs everything that takes a depth image.
 Found findAll(const std::vector<float>& metres) {
-  const DepthImage image(metres.data(), kWidth, kHeight, kCamera);
+  const camera::DepthImage image(metres.data(), kWidth, kHeight, kCamera);
   Found found;
   const auto planes = PlaneSegmenter({}).segment(image);
   found.planes = planes.planes.size();
@@ -133,7 +133,8 @@ TEST(BadInput, PointsWithoutOrderAreNoImage) {
 
 TEST(BadInput, PlanesOfAnotherImageAreRefused) {
   const std::vector<float> wall(kWidth * kHeight, 2.F);
-  const DepthImage image(wall.data(), kWidth, kHeight, kCamera), half(wall.data(), kWidth, kHeight / 2, kCamera);
+  const camera::DepthImage image(wall.data(), kWidth, kHeight, kCamera),
+      half(wall.data(), kWidth, kHeight / 2, kCamera);
   const auto planes = PlaneSegmenter({}).segment(image);
   EXPECT_THROW(ObjectFinder({}, {}).find(half, planes, Eigen::Vector3d::UnitZ()), base::Error);
 }

@@ -160,8 +160,8 @@ TEST(CloudPlaneFinder, ContradictoryRangesAreRefused) {
 Cloud noisyRoom(std::uint64_t seed) {
   testing::Dice dice(seed);
   const auto scene = rooms::randomRoom(dice);
-  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, DepthNoise(), dice);
-  const auto points = backProject(DepthImage(depth.data(), scene.width, scene.height, scene.camera));
+  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, camera::DepthNoise(), dice);
+  const auto points = backProject(camera::DepthImage(depth.data(), scene.width, scene.height, scene.camera));
   Cloud cloud;
   for (std::size_t i = 0; i < points.z.size(); ++i) cloud.emplace_back(points.x[i], points.y[i], points.z[i]);
   return cloud;

@@ -11,7 +11,7 @@
 namespace omnimapper::perception::comparators_test {
 namespace {
 
-const Pinhole kCamera{100, 100, 39.5, 31.5};
+const camera::Pinhole kCamera{100, 100, 39.5, 31.5};
 constexpr int kWidth = 80, kHeight = 64;
 
 std::vector<float> cornerOfARoom() {
@@ -34,7 +34,7 @@ std::vector<int> sizes(const Components& components, int fewest) {
 
 TEST(SmoothComparator, PartsTheWallsOfACorner) {
   const auto depth = cornerOfARoom();
-  const DepthImage image(depth.data(), kWidth, kHeight, kCamera);
+  const camera::DepthImage image(depth.data(), kWidth, kHeight, kCamera);
   const auto points = backProject(image);
   const auto normals = NormalEstimator({}).estimate(image);
   const auto walls = connectComponents(kWidth, kHeight, SmoothComparator{points, normals});
@@ -134,7 +134,7 @@ TEST(ClusterComparator, SeparatesObjectsOnceTheirTableIsMasked) {
       labels[y * kWidth + x] = 0;
     }
   }
-  const auto points = backProject(DepthImage(depth.data(), kWidth, kHeight, kCamera));
+  const auto points = backProject(camera::DepthImage(depth.data(), kWidth, kHeight, kCamera));
   const std::vector<std::uint8_t> none{0, 0}, wall{0, 1};
   EXPECT_EQ(connectComponents(kWidth, kHeight, ClusterComparator{points, labels, none}).pixels.size(), 1U);
   EXPECT_EQ(connectComponents(kWidth, kHeight, ClusterComparator{points, labels, wall}).pixels,
@@ -144,7 +144,7 @@ TEST(ClusterComparator, SeparatesObjectsOnceTheirTableIsMasked) {
 TEST(ClusterComparator, AGapInDepthSeparatesObjects) {
   std::vector<float> depth(kWidth * kHeight, 1.F);
   for (std::size_t i = 0; i < depth.size(); ++i) depth[i] = i % kWidth < 30 ? 1.F : 1.1F;
-  const auto points = backProject(DepthImage(depth.data(), kWidth, kHeight, kCamera));
+  const auto points = backProject(camera::DepthImage(depth.data(), kWidth, kHeight, kCamera));
   const std::vector<std::uint16_t> labels(depth.size(), 0);
   const std::vector<std::uint8_t> masked{0};
   EXPECT_EQ(connectComponents(kWidth, kHeight, ClusterComparator{points, labels, masked}).pixels,

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/geometry/Plane3.h>
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/DepthNoise.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ inline geometry::Plane3 planeOf(const Face& face) {
 /// Faces in the optical frame of a camera, and the camera itself.
 struct Scene {
   std::vector<Face> faces;
-  Pinhole camera;
+  camera::Pinhole camera;
   int width = 640, height = 480;
 };
 
@@ -40,7 +40,7 @@ struct View {
 inline View render(const Scene& scene) {
   const auto pixels = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   View view{std::vector<float>(pixels, 0.F), std::vector<std::uint16_t>(pixels, 0)};
-  const Pinhole& c = scene.camera;
+  const camera::Pinhole& c = scene.camera;
   for (std::size_t f = 0; f < scene.faces.size(); ++f) {
     const Face& face = scene.faces[f];
     const Eigen::Vector3d normal = face.half_a.cross(face.half_b).normalized();
@@ -64,7 +64,7 @@ inline View render(const Scene& scene) {
 
 /// Adds the noise of a triangulating sensor to the depth: white noise averaged over a square window of the correlation
 /// area, then rounded to the sensor's steps in inverse depth.
-inline std::vector<float> withNoise(const View& view, int width, int height, const DepthNoise& noise,
+inline std::vector<float> withNoise(const View& view, int width, int height, const camera::DepthNoise& noise,
                                     testing::Dice& dice) {
   const int side = static_cast<int>(std::lround(std::sqrt(noise.correlation)));
   const int wide = width + side - 1, high = height + side - 1;

@@ -14,7 +14,7 @@
 namespace omnimapper::perception::edge_detector_test {
 namespace {
 
-const Pinhole kCamera{100, 100, 39.5, 31.5};
+const camera::Pinhole kCamera{100, 100, 39.5, 31.5};
 constexpr int kWidth = 80, kHeight = 64;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -43,7 +43,7 @@ Shot shoot(const Depth& depth, const EdgeOptions& options = {}, int width = kWid
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) shot.depth.push_back(static_cast<float>(depth(x, y)));
   }
-  shot.edges = EdgeDetector(options).detect(DepthImage(shot.depth.data(), width, height, kCamera));
+  shot.edges = EdgeDetector(options).detect(camera::DepthImage(shot.depth.data(), width, height, kCamera));
   return shot;
 }
 
@@ -160,7 +160,8 @@ TEST(EdgeDetector, ImagesOfNothingOrNextToNothingHaveNoEdges) {
   EXPECT_EQ(shoot([](int, int) { return kNan; }).count(~0U), 0);
   EXPECT_EQ(shoot([](int, int) { return 0; }).count(~0U), 0);
   const std::vector<std::uint16_t> saturated(64, 65535);
-  EXPECT_EQ(Shot({{}, EdgeDetector({}).detect(DepthImage(saturated.data(), 0.001, 8, 8, kCamera))}).count(~0U), 0);
+  EXPECT_EQ(Shot({{}, EdgeDetector({}).detect(camera::DepthImage(saturated.data(), 0.001, 8, 8, kCamera))}).count(~0U),
+            0);
   for (const int width : {0, 1, 2, 7, 17}) {
     for (const int height : {0, 1, 2, 9}) {
       const auto shot = shoot([](int, int) { return 1; }, {}, width, height);
@@ -190,14 +191,14 @@ TEST(EdgeDetector, ThresholdsThatContradictEachOtherAreRefused) {
 
 TEST(EdgeDetector, PointsAreThoseOfTheirPixels) {
   const auto shot = shoot([](int x, int) { return x < 40 ? 1 : 2; });
-  const DepthImage image(shot.depth.data(), kWidth, kHeight, kCamera);
+  const camera::DepthImage image(shot.depth.data(), kWidth, kHeight, kCamera);
   const auto near = edgePoints(shot.edges, image, kOccluding), far = edgePoints(shot.edges, image, kOccluded);
   ASSERT_EQ(near.size(), static_cast<std::size_t>(kHeight));
   ASSERT_EQ(far.size(), static_cast<std::size_t>(kHeight));
   EXPECT_LT((near[0] - Eigen::Vector3f(-0.005F, -0.315F, 1)).norm(), 1e-6F);
   EXPECT_LT((far[1] - Eigen::Vector3f(0.01F, -0.61F, 2)).norm(), 1e-6F);
   EXPECT_EQ(edgePoints(shot.edges, image, kDiscontinuities).size(), 2U * kHeight);
-  const DepthImage other(shot.depth.data(), kWidth, kHeight - 1, kCamera);
+  const camera::DepthImage other(shot.depth.data(), kWidth, kHeight - 1, kCamera);
   EXPECT_THROW(edgePoints(shot.edges, other, kDiscontinuities), base::Error);
 }
 
@@ -261,10 +262,10 @@ TEST(EdgeQuality, OccludingEdgesOfNoisyRoomsAreFound) {
     testing::Dice dice(seed);
     const auto scene = rooms::randomRoom(dice);
     const auto view = rooms::render(scene);
-    const auto depth = rooms::withNoise(view, scene.width, scene.height, DepthNoise(), dice);
+    const auto depth = rooms::withNoise(view, scene.width, scene.height, camera::DepthNoise(), dice);
     const auto any = occlusionsOf(scene, view, 0.003), large = occlusionsOf(scene, view, 0.02);
     const auto found =
-        EdgeDetector({}).detect(DepthImage(depth.data(), scene.width, scene.height, scene.camera)).labels;
+        EdgeDetector({}).detect(camera::DepthImage(depth.data(), scene.width, scene.height, scene.camera)).labels;
     precision += partNear(found, kOccluding, any, scene.width, scene.height, 2) / kRooms;
     recall += partNear(large, kOccluding, found, scene.width, scene.height, 2) / kRooms;
   }
@@ -276,8 +277,8 @@ TEST(EdgeDetector, SeveralThreadsAtOnceGetWhatOneGets) {
   const EdgeDetector detector({});
   testing::Dice dice(5);
   const auto scene = rooms::randomRoom(dice);
-  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, DepthNoise(), dice);
-  const DepthImage image(depth.data(), scene.width, scene.height, scene.camera);
+  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, camera::DepthNoise(), dice);
+  const camera::DepthImage image(depth.data(), scene.width, scene.height, scene.camera);
   const auto alone = detector.detect(image).labels;
   std::vector<std::vector<std::uint8_t>> results(4);
   std::vector<std::thread> threads;

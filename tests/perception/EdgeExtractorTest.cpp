@@ -7,12 +7,12 @@
 #include <string>
 #include <thread>
 
-#include "RangeScans.h"
+#include "../camera/RangeScans.h"
 
 namespace omnimapper::perception::edge_extractor_test {
 namespace {
 
-using namespace scans;
+using namespace camera::scans;
 using Points = std::vector<Eigen::Vector3f>;
 
 // Depth [m]: 1 m left of the middle column, 2 m right of it.

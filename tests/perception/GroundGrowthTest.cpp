@@ -12,7 +12,7 @@ constexpr int kWidth = 96, kHeight = 112, kFoot = 60;  // [px]; the wall is abov
 constexpr double kSlope = 0.0014;                      // [1/m] of the ground from one row to the next
 constexpr double kTolerance = 12 * kSlope;
 constexpr double kNoSteps = 1e6;  // [sigma]
-constexpr Pinhole kCamera{500, 500, 47.5, 10};
+constexpr camera::Pinhole kCamera{500, 500, 47.5, 10};
 
 // Ground with a wall on it. Seeds are below the wall's foot by the reach of the windows of normals.
 planes::PixelLabels grown(const std::vector<std::uint8_t>& barred) {
@@ -22,7 +22,7 @@ planes::PixelLabels grown(const std::vector<std::uint8_t>& barred) {
     depths.insert(depths.end(), kWidth, static_cast<float>(1 / (0.05 + kSlope * std::max(y, kFoot))));
     seeds.insert(seeds.end(), kWidth, y >= kFoot + 7);
   }
-  const auto inverse = planes::invert(DepthImage(depths.data(), kWidth, kHeight, kCamera), 0.4, 20);
+  const auto inverse = planes::invert(camera::DepthImage(depths.data(), kWidth, kHeight, kCamera), 0.4, 20);
   return road::growGround(inverse, kCamera, seeds, barred, {kTolerance / 4, kTolerance, kNoSteps, 16, 7});
 }
 

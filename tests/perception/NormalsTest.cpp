@@ -12,7 +12,7 @@
 namespace omnimapper::perception::normals_test {
 namespace {
 
-const Pinhole kCamera{100, 100, 39.5, 31.5};
+const camera::Pinhole kCamera{100, 100, 39.5, 31.5};
 constexpr int kWidth = 80, kHeight = 64;
 
 template <class Depth>
@@ -21,7 +21,7 @@ NormalImage normalsOf(const Depth& depth, NormalOptions options = {}) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) image.push_back(static_cast<float>(depth(x, y)));
   }
-  return NormalEstimator(options).estimate(DepthImage(image.data(), kWidth, kHeight, kCamera));
+  return NormalEstimator(options).estimate(camera::DepthImage(image.data(), kWidth, kHeight, kCamera));
 }
 
 TEST(Normals, OfAWallStraightAheadPointBackAtTheSensor) {
@@ -73,7 +73,7 @@ TEST(Normals, AreMissingWhereNothingWasMeasured) {
 TEST(Normals, SmallImagesHaveNoneOrAFew) {
   const std::vector<float> ones(100, 1.F);
   for (const int width : {0, 1, 9, 10}) {
-    const auto normals = NormalEstimator({}).estimate(DepthImage(ones.data(), width, 10, kCamera));
+    const auto normals = NormalEstimator({}).estimate(camera::DepthImage(ones.data(), width, 10, kCamera));
     EXPECT_EQ(normals.size(), static_cast<std::size_t>(width * 10));
   }
 }
@@ -85,10 +85,10 @@ TEST(Normals, OfNoisyRoomsAreRightToAFewDegrees) {
     testing::Dice dice(seed);
     const rooms::Scene scene = rooms::randomRoom(dice);
     const auto view = rooms::render(scene);
-    const auto depth = rooms::withNoise(view, scene.width, scene.height, DepthNoise(), dice);
+    const auto depth = rooms::withNoise(view, scene.width, scene.height, camera::DepthNoise(), dice);
     NormalOptions options;
     options.radius = 7;
-    const auto normals = NormalEstimator(options).estimate(DepthImage(depth.data(), 640, 480, scene.camera));
+    const auto normals = NormalEstimator(options).estimate(camera::DepthImage(depth.data(), 640, 480, scene.camera));
     for (std::size_t i = 0; i < depth.size(); ++i) {
       if (view.face[i] == 0 || view.depth[i] > 2.5) continue;
       ++pixels;
@@ -108,7 +108,7 @@ TEST(Normals, OfNoisyRoomsAreRightToAFewDegrees) {
 
 TEST(OrganizedPoints, AreOnTheRaysOfTheirPixels) {
   const std::vector<std::uint16_t> units{1000, 0, 65535, 2000};
-  const auto points = backProject(DepthImage(units.data(), 1e-3, 2, 2, Pinhole{100, 50, 0.5, 0.5}));
+  const auto points = backProject(camera::DepthImage(units.data(), 1e-3, 2, 2, camera::Pinhole{100, 50, 0.5, 0.5}));
   EXPECT_FLOAT_EQ(points.x[0], -0.005F);
   EXPECT_FLOAT_EQ(points.y[0], -0.01F);
   EXPECT_FLOAT_EQ(points.z[0], 1);

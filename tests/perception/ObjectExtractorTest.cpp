@@ -4,7 +4,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/perception/ObjectExtractor.h>
 
-#include "RangeScans.h"
+#include "../camera/RangeScans.h"
 #include "TableScene.h"
 
 namespace omnimapper::perception::object_extractor_test {
@@ -17,9 +17,9 @@ mrpt::obs::CObservation3DRangeScan tableScan() {
   TableScene table;
   table.addBlock({1, 0, 0.8}, {0.1, 0.15, 0.2});
   const auto view = rooms::render(table.scene);
-  auto scan = scans::rangeScan([&](int x, int y) { return double{view.depth[static_cast<std::size_t>(640 * y + x)]}; },
-                               640, 480);
-  scans::addColours(scan, 640, 480);
+  auto scan = camera::scans::rangeScan(
+      [&](int x, int y) { return double{view.depth[static_cast<std::size_t>(640 * y + x)]}; }, 640, 480);
+  camera::scans::addColours(scan, 640, 480);
   scan.cameraParams.setIntrinsicParamsFromValues(525, 525, 319.5, 239.5);
   scan.cameraParamsIntensity = scan.cameraParams;
   scan.sensorPose = mrpt::poses::CPose3D(0, 0, 1.4, 0, 35 * M_PI / 180, 0);

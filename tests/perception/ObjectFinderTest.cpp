@@ -21,7 +21,7 @@ struct Found {
 
 Found find(const TableScene& table, const std::vector<float>& depth, const ObjectOptions& options = {},
            const PlaneOptions& sensor = {}) {
-  const DepthImage image(depth.data(), 640, 480, table.scene.camera);
+  const camera::DepthImage image(depth.data(), 640, 480, table.scene.camera);
   Found found;
   found.planes = PlaneSegmenter(sensor).segment(image);
   found.objects = ObjectFinder(options, sensor).find(image, found.planes, table.up);
@@ -73,7 +73,7 @@ TEST(ObjectFinder, ThreeBlocksOnATableWithTheirBoxes) {
 TEST(ObjectFinder, NoiseOfAKinectChangesLittle) {
   const TableScene table = withThreeObjects();
   testing::Dice dice(7);
-  const auto depth = rooms::withNoise(rooms::render(table.scene), 640, 480, DepthNoise(), dice);
+  const auto depth = rooms::withNoise(rooms::render(table.scene), 640, 480, camera::DepthNoise(), dice);
   const auto found = find(table, depth);
   ASSERT_EQ(found.objects.size(), 3U);
   const auto exact = find(table);
@@ -159,10 +159,10 @@ TEST(ObjectFinder, NothingMeasuredIsNoObject) {
   const TableScene table;
   EXPECT_TRUE(find(table, std::vector<float>(640 * 480, std::nanf(""))).objects.empty());
   EXPECT_TRUE(find(table, std::vector<float>(640 * 480, 1)).objects.empty()) << "constant depth";
-  const DepthImage nothing(static_cast<const float*>(nullptr), 0, 0, table.scene.camera);
+  const camera::DepthImage nothing(static_cast<const float*>(nullptr), 0, 0, table.scene.camera);
   EXPECT_TRUE(ObjectFinder({}, {}).find(nothing, {}, table.up).empty());
   const float one = 1;
-  const DepthImage pixel(&one, 1, 1, table.scene.camera);
+  const camera::DepthImage pixel(&one, 1, 1, table.scene.camera);
   EXPECT_TRUE(ObjectFinder({}, {}).find(pixel, PlaneSegmenter({}).segment(pixel), table.up).empty());
 }
 
@@ -185,7 +185,7 @@ TEST(ObjectFinder, RandomBytesGiveASoundResult) {
         seed % 4 < 2 ? ObjectOptions::Comparator::euclidean : ObjectOptions::Comparator::locally_convex;
     options.min_points = 3;
     options.max_tilt = M_PI;
-    const DepthImage image(units.data(), 1e-3, width, height, {100, 100, 0.5 * width, 0.5 * height});
+    const camera::DepthImage image(units.data(), 1e-3, width, height, {100, 100, 0.5 * width, 0.5 * height});
     const auto planes = PlaneSegmenter(sensor).segment(image);
     std::vector<bool> taken(units.size(), false);
     for (const auto& object : ObjectFinder(options, sensor).find(image, planes, Vector3d::UnitZ())) {
@@ -211,7 +211,7 @@ TEST(ObjectFinder, CentroidsVaryAsTheirCovarianceSays) {
   double chi_square = 0;
   constexpr int kTimes = 30;
   for (int i = 0; i < kTimes; ++i) {
-    const auto depth = rooms::withNoise(view, 640, 480, DepthNoise(), dice);
+    const auto depth = rooms::withNoise(view, 640, 480, camera::DepthNoise(), dice);
     const auto found = find(table, depth, {}, sensor);
     ASSERT_EQ(found.objects.size(), 1U);
     // The sensor's error is along the ray; across it the border of the cluster moves the centroid.

@@ -13,7 +13,7 @@ namespace omnimapper::perception::plane_comparison_test {
 namespace {
 
 constexpr int kWidth = 200, kHeight = 150;  // no multiple of a cell's side
-const Pinhole kCamera{200, 200, 99.5, 74.5};
+const camera::Pinhole kCamera{200, 200, 99.5, 74.5};
 constexpr obs::Rgb kWood{150, 110, 70}, kPaper{235, 235, 230}, kRed{190, 40, 40};
 
 /// A table 1 m away, as seen from above, with two sheets on it: a white and a red one.
@@ -32,7 +32,7 @@ struct Table {
       }
     }
   }
-  DepthImage image() const { return {depth.data(), kWidth, kHeight, kCamera}; }
+  camera::DepthImage image() const { return {depth.data(), kWidth, kHeight, kCamera}; }
 };
 
 PlaneComparisonOptions by(const PlaneComparison& comparison) {
@@ -134,7 +134,7 @@ TEST(PlaneComparison, SheetsInNoisyRoomsAreFoundByColourAlone) {
     const int width = room.scene.width, height = room.scene.height;
     const auto depth = rooms::withNoise(view, width, height, {}, dice);
     const auto colours = rooms::picture(room, view, dice);
-    const DepthImage image(depth.data(), width, height, room.scene.camera);
+    const camera::DepthImage image(depth.data(), width, height, room.scene.camera);
     const auto add = [&](const PlaneComparison& comparison, rooms::Agreement& sum) {
       const auto found = PlaneSegmenter({}, by(comparison)).segment(image, colours);
       sum += rooms::compare(view, found.labels, width, height, 1500);
@@ -158,7 +158,7 @@ TEST(PlaneComparison, NormalsFindWhatIsFlatAndDropWhatIsMerelySmooth) {
     column.push_back(root > 0 ? static_cast<float>((1 - std::sqrt(root)) / a) : 0.F);
   }
   const PlaneSegmenter segmenter({}, by(kSimilarNormals));
-  const auto walls = segmenter.segment(DepthImage(corner.data(), kWidth, kHeight, kCamera));
+  const auto walls = segmenter.segment(camera::DepthImage(corner.data(), kWidth, kHeight, kCamera));
   ASSERT_EQ(walls.planes.size(), 2U);
   for (const auto& wall : walls.planes) {
     EXPECT_NEAR(wall.inliers, kWidth * kHeight / 2, 2 * kHeight);
@@ -166,7 +166,7 @@ TEST(PlaneComparison, NormalsFindWhatIsFlatAndDropWhatIsMerelySmooth) {
     EXPECT_LT(wall.rms, 1e-3);
   }
   // Strips along its sides are too flat for a Kinect to distinguish them from planes.
-  for (const auto& strip : segmenter.segment(DepthImage(column.data(), kWidth, kHeight, kCamera)).planes)
+  for (const auto& strip : segmenter.segment(camera::DepthImage(column.data(), kWidth, kHeight, kCamera)).planes)
     EXPECT_LT(strip.inliers, 2000);
 }
 
@@ -177,7 +177,7 @@ TEST(PlaneComparison, NormalsFindTheLargePlanesOfRooms) {
     const auto scene = rooms::randomRoom(dice);
     const auto view = rooms::render(scene);
     const auto depth = rooms::withNoise(view, scene.width, scene.height, {}, dice);
-    const DepthImage image(depth.data(), scene.width, scene.height, scene.camera);
+    const camera::DepthImage image(depth.data(), scene.width, scene.height, scene.camera);
     const auto found = PlaneSegmenter({}, by(kSimilarNormals)).segment(image);
     sum += rooms::compare(view, found.labels, scene.width, scene.height, 1500);
   }
@@ -200,7 +200,7 @@ TEST(PlaneComparison, AnyImageOfAnySizeIsTakenByEach) {
       const auto grey = static_cast<std::uint8_t>(seed % 2 == 0 ? dice.uniform(0, 256) : 3 * (i % width));
       colours.push_back({grey, grey, grey});
     }
-    const DepthImage image(depth.data(), width, height, {60, 60, 0.5 * width, 0.5 * height});
+    const camera::DepthImage image(depth.data(), width, height, {60, 60, 0.5 * width, 0.5 * height});
     for (const PlaneComparison* comparison : {&kSamePlane, &kSamePlaneAndColour, &kSimilarNormals}) {
       const auto found = PlaneSegmenter(options, by(*comparison)).segment(image, colours);
       std::vector<int> pixels(found.planes.size() + 1, 0);

@@ -8,12 +8,12 @@
 
 #include <thread>
 
-#include "RangeScans.h"
+#include "../camera/RangeScans.h"
 
 namespace omnimapper::perception::plane_extractor_test {
 namespace {
 
-using namespace scans;
+using namespace camera::scans;
 using base::ExitCode;
 using obs::Rgb;
 using Planes = std::vector<obs::ObservedPlane>;
@@ -82,7 +82,7 @@ TEST(PlaneExtractor, CovarianceIsThatOfTheSegmenterInTheSensorsFrame) {
   const auto scan = rangeScan([](int x, int y) { return 2 / (1 + 0.002 * (x - 79.5) + 0.003 * (y - 59.5)); });
   const auto found = extract(scan);
   ASSERT_EQ(found->planes.size(), 1U);
-  const DepthImage image(scan.rangeImage.data(), kUnits, kWidth, kHeight, {kFocal, kFocal, 79.5, 59.5});
+  const camera::DepthImage image(scan.rangeImage.data(), kUnits, kWidth, kHeight, {kFocal, kFocal, 79.5, 59.5});
   const auto expected = PlaneSegmenter({}).segment(image).planes.at(0);
   EXPECT_NEAR(found->planes[0].covariance(2, 2), expected.covariance(2, 2), 1e-12);
   // A rotation about a given axis is the same rotation in both frames.

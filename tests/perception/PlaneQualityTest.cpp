@@ -31,8 +31,8 @@ Shot shoot(std::uint64_t seed) {
   Shot shot;
   shot.scene = rooms::randomRoom(dice);
   shot.truth = rooms::render(shot.scene);
-  const auto depth = rooms::withNoise(shot.truth, kWidth, kHeight, DepthNoise(), dice);
-  shot.found = PlaneSegmenter({}).segment(DepthImage(depth.data(), kWidth, kHeight, shot.scene.camera));
+  const auto depth = rooms::withNoise(shot.truth, kWidth, kHeight, camera::DepthNoise(), dice);
+  shot.found = PlaneSegmenter({}).segment(camera::DepthImage(depth.data(), kWidth, kHeight, shot.scene.camera));
   return shot;
 }
 
@@ -127,7 +127,7 @@ Scene cornerOfARoom() {
 using SharedError = std::function<double(double inverse_depth, const Eigen::Vector2d& ray)>;
 
 View withError(View view, const Scene& scene, const SharedError& error) {
-  const Pinhole& c = scene.camera;
+  const camera::Pinhole& c = scene.camera;
   for (std::size_t i = 0; i < view.depth.size(); ++i) {
     if (view.face[i] == 0) continue;
     const auto width = static_cast<std::size_t>(scene.width);
@@ -151,9 +151,9 @@ std::vector<std::vector<double>> chi2OfRenderings(const PlaneOptions& options,
   for (int seed = 0; seed < kRenderings; ++seed) {
     testing::Dice dice(static_cast<std::uint64_t>(1000 + seed));
     const View image = draw ? withError(view, scene, draw(dice)) : view;
-    const auto depth = rooms::withNoise(image, scene.width, scene.height, DepthNoise(), dice);
+    const auto depth = rooms::withNoise(image, scene.width, scene.height, camera::DepthNoise(), dice);
     const auto found =
-        PlaneSegmenter(options).segment(DepthImage(depth.data(), scene.width, scene.height, scene.camera));
+        PlaneSegmenter(options).segment(camera::DepthImage(depth.data(), scene.width, scene.height, scene.camera));
     for (std::size_t f = 0; f < scene.faces.size(); ++f) {
       const auto expected = rooms::planeOf(scene.faces[f]);
       for (const PlaneRegion& plane : found.planes) {

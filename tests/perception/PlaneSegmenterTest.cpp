@@ -26,12 +26,12 @@ std::vector<float> depths(int width, int height, const std::function<double(int,
   return image;
 }
 
-const Pinhole kCamera{100, 100, 79.5, 59.5};
+const camera::Pinhole kCamera{100, 100, 79.5, 59.5};
 constexpr int kWidth = 160, kHeight = 120;
 
 PlaneSegmentation segment(const std::vector<float>& image, int width = kWidth, int height = kHeight,
                           const PlaneOptions& options = {}) {
-  return PlaneSegmenter(options).segment(DepthImage(image.data(), width, height, kCamera));
+  return PlaneSegmenter(options).segment(camera::DepthImage(image.data(), width, height, kCamera));
 }
 
 double depthOf(const Plane3& plane, int x, int y) {
@@ -74,7 +74,7 @@ TEST(PlaneSegmenter, TheVarianceOfAWallStraightAheadIsAsWorkedByHand) {
   options.distortion_at_1m = options.scale_sigma = 0;
   const auto found = segment(depths(kWidth, kHeight, [](int, int) { return 2; }), kWidth, kHeight, options);
   ASSERT_EQ(found.planes.size(), 1U);
-  const double n = kWidth * kHeight, variance = DepthNoise().meanVariance();
+  const double n = kWidth * kHeight, variance = camera::DepthNoise().meanVariance();
   const double of_a = variance / (n * (kWidth * kWidth - 1) / 12.0) * 1e4;
   const double of_b = variance / (n * (kHeight * kHeight - 1) / 12.0) * 1e4;
   const Eigen::Vector3d expected(4 * of_a, 4 * of_b, 16 * variance / n);
@@ -113,7 +113,7 @@ TEST(PlaneSegmenter, DepthsIn16BitsMeanTheSameAsInMetres) {
   for (int i = 0; i < kWidth * kHeight; ++i) units.push_back(static_cast<std::uint16_t>(7000 + i % kWidth * 10));
   std::vector<float> metres;
   for (const std::uint16_t u : units) metres.push_back(static_cast<float>(u) / 5000.F);
-  const auto a = PlaneSegmenter({}).segment(DepthImage(units.data(), 1 / 5000., kWidth, kHeight, kCamera));
+  const auto a = PlaneSegmenter({}).segment(camera::DepthImage(units.data(), 1 / 5000., kWidth, kHeight, kCamera));
   const auto b = segment(metres);
   ASSERT_EQ(a.planes.size(), b.planes.size());
   EXPECT_EQ(a.labels, b.labels);
@@ -192,7 +192,7 @@ TEST(PlaneSegmenter, ImagesWithoutAMeasurementGiveNone) {
     EXPECT_EQ(found.labels, std::vector<std::uint16_t>(kWidth * kHeight, 0)) << depth;
   }
   const std::vector<std::uint16_t> saturated(kWidth * kHeight, 65535);
-  const DepthImage image(saturated.data(), 1e-4, kWidth, kHeight, kCamera);
+  const camera::DepthImage image(saturated.data(), 1e-4, kWidth, kHeight, kCamera);
   EXPECT_TRUE(PlaneSegmenter({}).segment(image).planes.empty());
 }
 
@@ -211,18 +211,18 @@ TEST(PlaneSegmenter, SmallAndOddImagesAreWelcome) {
 
 TEST(PlaneSegmenter, WhatIsNoImageIsRefused) {
   const std::vector<float> one{1.F};
-  EXPECT_THROW(DepthImage(one.data(), -1, 1, kCamera), base::Error);
-  EXPECT_THROW(DepthImage(one.data(), 100000, 1, kCamera), base::Error);
-  EXPECT_THROW(DepthImage(static_cast<const float*>(nullptr), 1, 1, kCamera), base::Error);
-  EXPECT_THROW(DepthImage(one.data(), 1, 1, Pinhole{0, 1, 0, 0}), base::Error);
-  EXPECT_THROW(DepthImage(one.data(), 1, 1, Pinhole{1, 1, std::nan(""), 0}), base::Error);
+  EXPECT_THROW(camera::DepthImage(one.data(), -1, 1, kCamera), base::Error);
+  EXPECT_THROW(camera::DepthImage(one.data(), 100000, 1, kCamera), base::Error);
+  EXPECT_THROW(camera::DepthImage(static_cast<const float*>(nullptr), 1, 1, kCamera), base::Error);
+  EXPECT_THROW(camera::DepthImage(one.data(), 1, 1, camera::Pinhole{0, 1, 0, 0}), base::Error);
+  EXPECT_THROW(camera::DepthImage(one.data(), 1, 1, camera::Pinhole{1, 1, std::nan(""), 0}), base::Error);
   const std::vector<std::uint16_t> unit{1};
   for (const double odd : {0., 0.5, 1e7, 1e300}) {
-    EXPECT_THROW(DepthImage(unit.data(), 1e-3, 1, 1, {odd, 100, 0, 0}), base::Error) << odd;
-    EXPECT_THROW(DepthImage(unit.data(), 1e-3, 1, 1, {100, -odd, 0, 0}), base::Error) << odd;
+    EXPECT_THROW(camera::DepthImage(unit.data(), 1e-3, 1, 1, {odd, 100, 0, 0}), base::Error) << odd;
+    EXPECT_THROW(camera::DepthImage(unit.data(), 1e-3, 1, 1, {100, -odd, 0, 0}), base::Error) << odd;
   }
-  EXPECT_THROW(DepthImage(unit.data(), 1e-3, 1, 1, {100, 100, 0, 1e7}), base::Error);
-  EXPECT_THROW(DepthImage(unit.data(), 0, 1, 1, kCamera), base::Error);
+  EXPECT_THROW(camera::DepthImage(unit.data(), 1e-3, 1, 1, {100, 100, 0, 1e7}), base::Error);
+  EXPECT_THROW(camera::DepthImage(unit.data(), 0, 1, 1, kCamera), base::Error);
   PlaneOptions options;
   options.max_depth = options.min_depth;
   EXPECT_THROW(PlaneSegmenter{options}, base::Error);
@@ -237,7 +237,7 @@ TEST(PlaneSegmenter, RandomBytesGiveASoundResult) {
     for (auto& u : units) u = static_cast<std::uint16_t>(dice.uniform(0, spread) + (spread < 1000 ? 1000 : 0));
     PlaneOptions options;
     options.min_pixels = 16;
-    const auto found = PlaneSegmenter(options).segment(DepthImage(units.data(), 1e-3, width, height, kCamera));
+    const auto found = PlaneSegmenter(options).segment(camera::DepthImage(units.data(), 1e-3, width, height, kCamera));
     std::vector<int> pixels(found.planes.size() + 1, 0);
     for (const std::uint16_t label : found.labels) ++pixels.at(label);
     for (std::size_t i = 0; i < found.planes.size(); ++i) {
@@ -251,10 +251,10 @@ TEST(PlaneSegmenter, RandomBytesGiveASoundResult) {
 TEST(PlaneSegmenter, OutlinesEncloseThePixelsOfTheirPlaneAndNothingElse) {
   testing::Dice dice(3);
   const Scene scene = rooms::randomRoom(dice);
-  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, DepthNoise(), dice);
+  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, camera::DepthNoise(), dice);
   PlaneOptions options;
   options.min_hole_pixels = 1;
-  const auto found = PlaneSegmenter(options).segment(DepthImage(depth.data(), 640, 480, scene.camera));
+  const auto found = PlaneSegmenter(options).segment(camera::DepthImage(depth.data(), 640, 480, scene.camera));
   ASSERT_GT(found.planes.size(), 3U);
   for (const PlaneRegion& plane : found.planes) {
     double area = areaOf(plane.outline);
@@ -269,9 +269,9 @@ TEST(PlaneSegmenter, OutlinesEncloseThePixelsOfTheirPlaneAndNothingElse) {
 TEST(PlaneSegmenter, ThreadsAndRepetitionChangeNoBit) {
   testing::Dice dice(5);
   const Scene scene = rooms::randomRoom(dice);
-  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, DepthNoise(), dice);
+  const auto depth = rooms::withNoise(rooms::render(scene), scene.width, scene.height, camera::DepthNoise(), dice);
   const PlaneSegmenter segmenter({});
-  const DepthImage image(depth.data(), 640, 480, scene.camera);
+  const camera::DepthImage image(depth.data(), 640, 480, scene.camera);
   const auto expected = segmenter.segment(image);
   std::vector<PlaneSegmentation> found(4);
   std::vector<std::thread> threads;

@@ -10,7 +10,7 @@ namespace omnimapper::perception::planes::region_fit_test {
 namespace {
 
 constexpr int kWidth = 96, kHeight = 48;
-constexpr Pinhole kCamera{100, 100, 47.5, 23.5};
+constexpr camera::Pinhole kCamera{100, 100, 47.5, 23.5};
 
 // Fits pixels of one label, whose plane is 1 m ahead, with 1/z [1/m] by column; columns [begin, end) have no label.
 std::vector<FittedRegion> fitted(const std::function<double(int x)>& inverse_depth, int begin, int end) {
@@ -20,7 +20,7 @@ std::vector<FittedRegion> fitted(const std::function<double(int x)>& inverse_dep
     depths.push_back(static_cast<float>(1 / inverse_depth(i % kWidth)));
     labels.values.push_back(i % kWidth < begin || i % kWidth >= end);
   }
-  const auto inverse = invert(DepthImage(depths.data(), kWidth, kHeight, kCamera), 0.4, 20);
+  const auto inverse = invert(camera::DepthImage(depths.data(), kWidth, kHeight, kCamera), 0.4, 20);
   const auto components = connectComponents(kWidth, kHeight, SameLabel{labels.values.data()});
   CellRegions regions;
   regions.regions.push_back({{}, {0, 0, 1}});
@@ -47,7 +47,7 @@ TEST(RegionFit, TheRmsIsThatOfTheDistancesFromThePlane) {
   const auto wall = fitted([](int x) { return 1 / (x % 2 == 0 ? 0.999 : 1.001); }, 0, 0);
   ASSERT_EQ(wall.size(), 1U);
   EXPECT_NEAR(wall[0].result.rms, 0.001, 1e-5);
-  EXPECT_NEAR(wall[0].result.roughness, 0.001 / std::sqrt(DepthNoise().pixelVariance()), 1e-3);
+  EXPECT_NEAR(wall[0].result.roughness, 0.001 / std::sqrt(camera::DepthNoise().pixelVariance()), 1e-3);
 }
 
 }  // namespace

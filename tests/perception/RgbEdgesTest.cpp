@@ -12,12 +12,14 @@
 namespace omnimapper::perception::rgb_edges_test {
 namespace {
 
-const Pinhole kCamera{100, 100, 39.5, 31.5};
+const camera::Pinhole kCamera{100, 100, 39.5, 31.5};
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes rgbEdges(const ColourImage& colour, const std::vector<float>& depth, EdgeOptions options = {}) {
+Bytes rgbEdges(const camera::ColourImage& colour, const std::vector<float>& depth, EdgeOptions options = {}) {
   options.jumps = options.high_curvature = false;
-  return EdgeDetector(options).detect(DepthImage(depth.data(), colour.width, colour.height, kCamera), colour).labels;
+  return EdgeDetector(options)
+      .detect(camera::DepthImage(depth.data(), colour.width, colour.height, kCamera), colour)
+      .labels;
 }
 
 std::vector<float> wall(int pixels) {
@@ -93,7 +95,7 @@ TEST(RgbEdges, AreThoseOfCannyAsItIsWrittenDown) {
         const bool light = (i % width / 7 + i / width / 9) % 2 == 0;
         grey.push_back(static_cast<std::uint8_t>((light ? 150 : 90) + dice.uniform(-12, 12)));
       }
-      const ColourImage image{grey.data(), width, height, width, ColourImage::Order::grey};
+      const camera::ColourImage image{grey.data(), width, height, width, camera::ColourImage::Order::grey};
       EXPECT_EQ(rgbEdges(image, wall(width * height)), PlainCanny(grey, width, height).find(40, 100))
           << width << " x " << height;
     }
@@ -102,7 +104,7 @@ TEST(RgbEdges, AreThoseOfCannyAsItIsWrittenDown) {
 
 TEST(RgbEdges, OfASheetAreItsBorderWhereThereIsDepth) {
   constexpr int kWidth = 40, kHeight = 30;
-  for (const auto order : {ColourImage::Order::rgb, ColourImage::Order::bgr}) {
+  for (const auto order : {camera::ColourImage::Order::rgb, camera::ColourImage::Order::bgr}) {
     Bytes colour(3 * kWidth * kHeight, 20);
     for (std::size_t i = 0; i < kWidth * kHeight; ++i) {
       if (i % kWidth >= 20) std::fill_n(colour.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, std::uint8_t{220});
@@ -123,7 +125,7 @@ TEST(RgbEdges, RowsMayHaveGapsBetweenThem) {
   for (std::size_t y = 0; y < 4; ++y) {
     for (std::size_t x = 0; x < 9; ++x) padded[20 * y + x] = x < 5 ? 10 : 100;
   }
-  const auto labels = rgbEdges({padded.data(), 9, 4, 20, ColourImage::Order::grey}, wall(36));
+  const auto labels = rgbEdges({padded.data(), 9, 4, 20, camera::ColourImage::Order::grey}, wall(36));
   for (std::size_t i = 0; i < 36; ++i) EXPECT_EQ(labels[i] != 0, i % 9 == 4) << i;
 }
 
@@ -133,7 +135,7 @@ TEST(RgbEdges, AFaintEdgeCountsOnlyWhereItGoesOnFromAStrongOne) {
   for (std::size_t y = 0; y < kHeight; ++y) {
     for (std::size_t x = 16; x < kWidth; ++x) grey[y * kWidth + x] = y < 20 ? 100 : y < 40 ? 115 : 160;
   }
-  const ColourImage image{grey.data(), kWidth, kHeight, kWidth, ColourImage::Order::grey};
+  const camera::ColourImage image{grey.data(), kWidth, kHeight, kWidth, camera::ColourImage::Order::grey};
   const auto labels = rgbEdges(image, wall(kWidth * kHeight));
   EXPECT_EQ(labels[30 * kWidth + 15], kRgb);
   EdgeOptions strong;
@@ -144,14 +146,15 @@ TEST(RgbEdges, AFaintEdgeCountsOnlyWhereItGoesOnFromAStrongOne) {
 TEST(RgbEdges, APictureOfAnotherSizeIsRefused) {
   const Bytes colour(3 * 40 * 30, 0);
   const auto depth = wall(40 * 31);
-  const DepthImage image(depth.data(), 40, 31, kCamera);
-  EXPECT_THROW(EdgeDetector({}).detect(image, {colour.data(), 40, 30, 120, ColourImage::Order::rgb}), base::Error);
-  EXPECT_THROW(EdgeDetector({}).detect(image, ColourImage()), base::Error);
+  const camera::DepthImage image(depth.data(), 40, 31, kCamera);
+  EXPECT_THROW(EdgeDetector({}).detect(image, {colour.data(), 40, 30, 120, camera::ColourImage::Order::rgb}),
+               base::Error);
+  EXPECT_THROW(EdgeDetector({}).detect(image, camera::ColourImage()), base::Error);
 }
 
 TEST(RgbEdges, AnEmptyPictureHasNone) {
-  const DepthImage nothing(static_cast<const float*>(nullptr), 0, 0, kCamera);
-  EXPECT_TRUE(EdgeDetector({}).detect(nothing, ColourImage()).labels.empty());
+  const camera::DepthImage nothing(static_cast<const float*>(nullptr), 0, 0, kCamera);
+  EXPECT_TRUE(EdgeDetector({}).detect(nothing, camera::ColourImage()).labels.empty());
 }
 
 }  // namespace

@@ -12,14 +12,14 @@
 #include <thread>
 #include <vector>
 
-#include "RangeScans.h"
+#include "../camera/RangeScans.h"
 
 namespace omnimapper::perception::road_segmenter_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr double kCameraHeight = 1.2;  // [m]
-const Pinhole kCamera{200, 200, 159.5, 41.5};
+const camera::Pinhole kCamera{200, 200, 159.5, 41.5};
 // A camera that looks level: up is against y.
 const geometry::Plane3 kExpected{-Eigen::Vector3d::UnitY(), kCameraHeight};
 
@@ -71,7 +71,7 @@ RoadOptions noiseless() {
 }
 
 RoadSegmentation segment(const View& view, const RoadOptions& options = noiseless()) {
-  return RoadSegmenter(options).segment(DepthImage(view.depth.data(), kWidth, kHeight, kCamera), kExpected);
+  return RoadSegmenter(options).segment(camera::DepthImage(view.depth.data(), kWidth, kHeight, kCamera), kExpected);
 }
 
 struct Shares {
@@ -206,7 +206,7 @@ TEST(RoadSegmenter, ImagesOfNothingHaveNoGround) {
   for (const int width : {0, 1, 17}) {
     for (const int height : {0, 1, 5}) {
       const std::vector<float> ones(static_cast<std::size_t>(width * height), 1.F);
-      const auto found = RoadSegmenter({}).segment(DepthImage(ones.data(), width, height, kCamera), kExpected);
+      const auto found = RoadSegmenter({}).segment(camera::DepthImage(ones.data(), width, height, kCamera), kExpected);
       EXPECT_TRUE(found.ground.planes.empty());
       EXPECT_EQ(found.sure.size(), ones.size());
     }
@@ -247,7 +247,7 @@ TEST(RoadComparator, ChecksSlopeHeightAndSmoothness) {
 }
 
 TEST(RoadExtractor, TheExpectedGroundIsThatOfTheBaseSeenFromTheSensor) {
-  auto scan = scans::rangeScan([](int, int) { return 1.; });
+  auto scan = camera::scans::rangeScan([](int, int) { return 1.; });
   // 1.4 m up, looking down by 30 degrees: the ground's normal is up, tilted to the camera.
   scan.sensorPose = mrpt::poses::CPose3D(0.2, 0.1, 1.4, 0.3, M_PI / 6, 0);
   const auto ground = expectedGround(scan, 0.1);

@@ -20,9 +20,7 @@ struct Drawn {
       for (int column = left; column < right; ++column) pixels[static_cast<std::size_t>(row * width + column)] = grey;
     }
   }
-  perception::ColourImage view() const {
-    return {pixels.data(), width, height, width, perception::ColourImage::Order::grey};
-  }
+  camera::ColourImage view() const { return {pixels.data(), width, height, width, camera::ColourImage::Order::grey}; }
 };
 
 inline Corners rectangle(float left, float top, float right, float bottom) {

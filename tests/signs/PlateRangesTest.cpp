@@ -37,7 +37,7 @@ const Corners kPlate = {Eigen::Vector2f(400, 200), {460, 200}, {460, 240}, {400,
 
 std::optional<PlateRange> rangeOf(const mrpt::obs::CObservation3DRangeScan& scan) {
   const Eigen::Vector3d ray = Eigen::Vector3d((430. - 320) / 500, (220. - 240) / 500, 1).normalized();
-  return PlateRanges(scan, perception::LensModel(camera(), "kinect")).of(kPlate, ray);
+  return PlateRanges(scan, camera::LensModel(camera(), "kinect")).of(kPlate, ray);
 }
 
 // At a depth of 2 m, the ray to (430, 220) px is 2 sqrt(1 + 0.22^2 + 0.04^2) = 2.0494 m long.

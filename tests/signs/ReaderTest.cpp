@@ -63,7 +63,7 @@ TEST(NetworkReader, aFileWithoutLettersIsRefused) {
 class Scripted : public TextReader {
  public:
   explicit Scripted(std::vector<Reading> readings) : readings_(std::move(readings)) {}
-  Reading read(const perception::ColourImage& patch) const override {
+  Reading read(const camera::ColourImage& patch) const override {
     return readings_[std::min<std::size_t>(patch.width / 30 - 3, 2)];
   }
 
@@ -96,7 +96,7 @@ TEST(ReadLine, readingsThatAgreeAreTaken) {
 // Reads one letter if the patch has strokes of one line, and none if of more.
 class OneLine : public TextReader {
  public:
-  Reading read(const perception::ColourImage& patch) const override {
+  Reading read(const camera::ColourImage& patch) const override {
     if (patch.height > 60) return {"?", {0.2}};
     return patch.width > 120 ? Reading{"WIDE", {1, 1, 1, 1}} : Reading{"NARROW", {1, 1, 1, 1, 1, 1}};
   }

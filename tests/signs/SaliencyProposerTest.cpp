@@ -10,7 +10,7 @@
 namespace omnimapper::signs::saliency_test {
 namespace {
 
-using perception::ColourImage;
+using camera::ColourImage;
 
 // A plate of 80 x 40 pixels with a row of strokes on it.
 Drawn sign(int left, int top) {

@@ -16,7 +16,7 @@ cv::Mat lineOf(const std::string& text, const cv::Scalar& ink, const cv::Scalar&
 
 signs::Reading read(const TesseractReader& reader, const cv::Mat& patch) {
   return reader.read(
-      {patch.data, patch.cols, patch.rows, static_cast<int>(patch.step), perception::ColourImage::Order::bgr});
+      {patch.data, patch.cols, patch.rows, static_cast<int>(patch.step), camera::ColourImage::Order::bgr});
 }
 
 const cv::Scalar kDark(60, 40, 40), kLight(230, 225, 220);

@@ -3,9 +3,9 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/matching/WheelOdometry.h>
-#include <omnimapper/perception/CameraCalibration.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
 
@@ -108,8 +108,8 @@ std::string whyNone(const ObservationCounts& counts, const CalibrationRequest& r
 
 CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progress& progress,
                                   const std::function<bool()>& stop) {
-  perception::CameraCalibration known;
-  if (!request.ini.empty()) known = perception::CameraCalibration::read(base::Config::fromFile(request.ini));
+  camera::CameraCalibration known;
+  if (!request.ini.empty()) known = camera::CameraCalibration::read(base::Config::fromFile(request.ini));
   source::SourceOptions options;
   options.start = request.start;
   options.end = request.end;

@@ -1,6 +1,6 @@
 #include "CalibrationView.h"
 
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/DepthNoise.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -37,7 +37,7 @@ std::optional<LocalPlane> CalibrationView::planeAt(const Eigen::Vector2d& depth_
   if (count < kFewest || most - least > kOneSurface * most) return std::nullopt;
   const Eigen::Vector3d plane = normal.ldlt().solve(right);
   const double rest = std::max(0.0, squares - plane.dot(right)) / count;
-  static const perception::DepthNoise noise;
+  static const camera::DepthNoise noise;
   constexpr double kNotFlat = 9;  // times the variance of a pixel
   if (!plane.allFinite() || rest > kNotFlat * noise.pixelVariance()) return std::nullopt;
   const double variance = noise.meanVariance() / count + noise.distortionVariance();

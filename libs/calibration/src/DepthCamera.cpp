@@ -1,7 +1,7 @@
 #include <omnimapper/calibration/DepthCamera.h>
+#include <omnimapper/camera/PictureView.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/PictureView.h>
 
 namespace omnimapper::calibration {
 
@@ -32,7 +32,7 @@ Eigen::Vector3d rayThrough(const Intrinsics& camera, const Eigen::Vector2d& pixe
 
 std::optional<DepthCamera> cameraOf(const mrpt::obs::CObservation3DRangeScan& scan) {
   DepthCamera camera;
-  camera.is_registered = perception::isPictureOfDepthView(scan);
+  camera.is_registered = camera::isPictureOfDepthView(scan);
   const auto depth = intrinsicsOf(scan.cameraParams);
   const auto picture =
       intrinsicsOf(scan.cameraParamsIntensity.fx() == 0 ? scan.cameraParams : scan.cameraParamsIntensity);

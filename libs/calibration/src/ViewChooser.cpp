@@ -1,9 +1,9 @@
 #include "ViewChooser.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/RgbdView.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ using mrpt::obs::CObservation3DRangeScan;
 
 namespace {
 
-std::vector<float> inverseDepths(const perception::DepthImage& depth) {
+std::vector<float> inverseDepths(const camera::DepthImage& depth) {
   constexpr std::uint16_t kSaturated = 65535;
   const auto count = static_cast<std::size_t>(depth.width()) * static_cast<std::size_t>(depth.height());
   std::vector<float> inverse(count, 0.F);
@@ -70,7 +70,7 @@ void ViewChooser::add(const CObservation3DRangeScan::ConstPtr& scan) {
 
 void ViewChooser::follow(const CObservation3DRangeScan::ConstPtr& scan) {
   const auto straight = lens_.straightened(scan);
-  const perception::RgbdView straight_view(*straight), raw_view(*scan);
+  const camera::RgbdView straight_view(*straight), raw_view(*scan);
   ++images_;
   using How = matching::RgbdTracker::Tracked::How;
   const auto tracked =

@@ -2,8 +2,8 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/calibration/DepthCamera.h>
+#include <omnimapper/camera/LensStraightener.h>
 #include <omnimapper/matching/RgbdTracker.h>
-#include <omnimapper/perception/LensStraightener.h>
 
 #include <cstddef>
 #include <optional>
@@ -54,7 +54,7 @@ class ViewChooser {
 
   std::size_t most_;
   matching::RgbdTracker tracker_;
-  perception::LensStraightener lens_;
+  camera::LensStraightener lens_;
   std::optional<DepthCamera> camera_;
   std::vector<Candidate> kept_;
   std::size_t images_ = 0, lost_ = 0, left_out_ = 0;

@@ -270,7 +270,7 @@ Declared Declared::read(const base::Config& config) {
   read("laser_points", "max_range_m", ini.max_range);
   read("planes", "noise_at_1m_m", ini.depth_noise);
   if (!config.has("calibration")) return declared;
-  const auto calibration = config.section("calibration").read<perception::CameraCalibrationOptions>();
+  const auto calibration = config.section("calibration").read<camera::CameraCalibrationOptions>();
   ini.has_calibration = true;
   ini.calibrated = calibration.label;
   ini.depth_scale = calibration.depth_scale.value_or(1);

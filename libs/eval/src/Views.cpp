@@ -1,9 +1,9 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/eval/Views.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
-#include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<Eigen::Vector3d> inWorld(const Se3& world_from_optical, const percep
 /// One image with the pose that it was taken from.
 class PosedImage {
  public:
-  PosedImage(const perception::DepthImage& image, const Se3& world_from_optical, const ViewOptions& options)
+  PosedImage(const camera::DepthImage& image, const Se3& world_from_optical, const ViewOptions& options)
       : image_(image), world_from_optical_(world_from_optical), options_(options) {}
 
   std::vector<ViewPlane> planes(const perception::PlaneSegmentation& found) const {
@@ -79,7 +79,7 @@ class PosedImage {
     return seen;
   }
 
-  const perception::DepthImage& image_;
+  const camera::DepthImage& image_;
   const Se3& world_from_optical_;
   const ViewOptions& options_;
 };
@@ -114,7 +114,7 @@ std::optional<Se3> poseAt(const Trajectory& trajectory, base::Stamp stamp, const
 
 View viewOf(const CObservation3DRangeScan& scan, const Se3& world_from_base,
             const perception::PlaneSegmenter& segmenter, const ViewOptions& options) {
-  const perception::RgbdView image(scan);
+  const camera::RgbdView image(scan);
   const Se3 world_from_optical = world_from_base * geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
   return {scan.sensorLabel + " at " + base::formatUnix(scan.timestamp),
           PosedImage(image.depth(), world_from_optical, options).planes(segmenter.segment(image.depth()))};

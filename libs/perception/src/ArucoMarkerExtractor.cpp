@@ -1,13 +1,13 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/camera/PictureView.h>
+#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
-#include <omnimapper/perception/PictureView.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "RangeScan.h"
 #include "markers/MarkerFinder.h"
 #include "markers/MarkerPose.h"
 
@@ -71,7 +71,7 @@ float fieldOfView(int pixels, double focal) {
 }  // namespace
 
 CObservationBearingRange::Ptr ArucoMarkerExtractor::markersIn(const mrpt::obs::CObservation& raw) const {
-  const auto picture = pictureOf(raw);
+  const auto picture = camera::pictureOf(raw);
   auto observation = CObservationBearingRange::Create();
   observation->timestamp = raw.timestamp;
   observation->sensorLabel = raw.sensorLabel + kMarkersSuffix;
@@ -79,7 +79,7 @@ CObservationBearingRange::Ptr ArucoMarkerExtractor::markersIn(const mrpt::obs::C
   observation->sensorLocationOnRobot = geometry::toMrpt(geometry::fromMrpt(picture.pose) * optical_from_sensor);
   observation->validCovariances = true;
   if (picture.image == nullptr) return observation;
-  const LensModel lens(*picture.camera, raw.sensorLabel);
+  const camera::LensModel lens(*picture.camera, raw.sensorLabel);
   observation->fieldOfView_yaw = fieldOfView(static_cast<int>(picture.image->getWidth()), picture.camera->fx());
   observation->fieldOfView_pitch = fieldOfView(static_cast<int>(picture.image->getHeight()), picture.camera->fy());
   const Matrix3d axes = geometry::sensorFromOptical().rotation.toRotationMatrix();
@@ -87,7 +87,8 @@ CObservationBearingRange::Ptr ArucoMarkerExtractor::markersIn(const mrpt::obs::C
     for (const auto& marker : markers::findMarkers(*picture.image, options_)) {
       const auto pose = markers::poseOfMarker(lens, marker.corners, options_.side, options_.corner_sigma);
       if (!pose) continue;
-      observation->sensedData.push_back(measurementOf(marker.id, toSensor(pose->optical_from_marker.translation),
+      observation->sensedData.push_back(measurementOf(marker.id,
+                                                      camera::toSensor(pose->optical_from_marker.translation),
                                                       axes * pose->covariance_of_middle * axes.transpose()));
     }
   } catch (const cv::Exception& error) {
@@ -98,7 +99,7 @@ CObservationBearingRange::Ptr ArucoMarkerExtractor::markersIn(const mrpt::obs::C
 }
 
 bool ArucoMarkerExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  return bringsPicture(raw);
+  return camera::bringsPicture(raw);
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> ArucoMarkerExtractor::extract(const mrpt::obs::CObservation& raw) const {

@@ -64,7 +64,7 @@ EdgeDetector::EdgeDetector(const EdgeOptions& options) : options_(options) {
 
 namespace {
 
-EdgeImage unmarked(const DepthImage& image) {
+EdgeImage unmarked(const camera::DepthImage& image) {
   EdgeImage edges{image.width(), image.height(), {}};
   edges.labels.resize(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
   return edges;
@@ -72,13 +72,13 @@ EdgeImage unmarked(const DepthImage& image) {
 
 // Standard deviation of the angle between two normals at 1 m [rad]; it grows with the depth. The slope of a plane
 // fitted to a window of n = 2 r + 1 pixels a side has the variance 3 sigma^2 / (n^2 r (r + 1)); a pixel is 1 / f wide.
-double angleSigma(const DepthImage& image, const EdgeOptions& options) {
+double angleSigma(const camera::DepthImage& image, const EdgeOptions& options) {
   const double r = options.window_radius, n = 2 * r + 1;
   const double slope = std::sqrt(3 * options.noise().meanVariance() / (n * n * r * (r + 1)));
   return std::sqrt(2.0) * slope * std::max(std::abs(image.camera().fx), std::abs(image.camera().fy));
 }
 
-void markHighCurvature(const planes::InverseDepth& inverse, const DepthImage& image, const EdgeOptions& options,
+void markHighCurvature(const planes::InverseDepth& inverse, const camera::DepthImage& image, const EdgeOptions& options,
                        EdgeImage& edges) {
   const NormalImage normals = NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
   edges::labelCurvatureEdges(inverse, image.camera(), normals,
@@ -99,7 +99,8 @@ void markRgb(const planes::InverseDepth& inverse, edges::Candidates found, EdgeI
   }
 }
 
-EdgeImage geometricEdges(const planes::InverseDepth& inverse, const DepthImage& image, const EdgeOptions& options) {
+EdgeImage geometricEdges(const planes::InverseDepth& inverse, const camera::DepthImage& image,
+                         const EdgeOptions& options) {
   EdgeImage edges = unmarked(image);
   if (options.jumps) {
     const double of_difference = std::sqrt(2 * options.noise().pixelVariance());
@@ -114,11 +115,11 @@ EdgeImage geometricEdges(const planes::InverseDepth& inverse, const DepthImage& 
 
 }  // namespace
 
-EdgeImage EdgeDetector::detect(const DepthImage& image) const {
+EdgeImage EdgeDetector::detect(const camera::DepthImage& image) const {
   return geometricEdges(planes::invert(image, options_.min_depth, options_.max_depth), image, options_);
 }
 
-EdgeImage EdgeDetector::detect(const DepthImage& image, const ColourImage& colour) const {
+EdgeImage EdgeDetector::detect(const camera::DepthImage& image, const camera::ColourImage& colour) const {
   if (colour.width != image.width() || colour.height != image.height()) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "the picture has " + std::to_string(colour.width) + " x " + std::to_string(colour.height) +

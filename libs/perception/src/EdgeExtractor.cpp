@@ -1,11 +1,11 @@
 #include <mrpt/maps/CSimplePointsMap.h>
+#include <omnimapper/camera/DepthScan.h>
+#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/perception/EdgeExtractor.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "DepthScan.h"
-#include "RangeScan.h"
 #include "edges/Canny.h"
 
 namespace omnimapper::perception {
@@ -15,7 +15,7 @@ namespace {
 // Counts the edge pixels of a picture in rectangles, by a summed-area table.
 class EdgeSums {
  public:
-  EdgeSums(edges::Candidates& found, const ColourImage& picture)
+  EdgeSums(edges::Candidates& found, const camera::ColourImage& picture)
       : width_(picture.width), height_(picture.height), stride_(static_cast<std::size_t>(width_) + 1) {
     sums_.resize(stride_ * (static_cast<std::size_t>(height_) + 1), 0);
     for (int y = 0; y < height_; ++y) {
@@ -29,7 +29,7 @@ class EdgeSums {
   }
 
   /// Whether an edge pixel is at most `half` columns and rows from the place.
-  bool isNear(const ScanColours::Place& place, int half) {
+  bool isNear(const camera::ScanColours::Place& place, int half) {
     const int left = std::max(0, place.x - half), right = std::min(width_, place.x + half + 1);
     const int top = std::max(0, place.y - half), bottom = std::min(height_, place.y + half + 1);
     return at(right, bottom) - at(left, bottom) > at(right, top) - at(left, top);
@@ -45,14 +45,15 @@ class EdgeSums {
 
 // Half of the width of a depth pixel in the picture, without the middle pixel [px]. It is limited to the size of the
 // picture, since the colour camera's calibration may be anything.
-int halfWidth(const ScanColours& colours, const ColourImage& picture) {
+int halfWidth(const camera::ScanColours& colours, const camera::ColourImage& picture) {
   const double half = 0.5 * colours.pixelsPerDepthPixel() - 0.5;
   return half > 0 ? static_cast<int>(std::lround(std::min<double>(half, std::max(picture.width, picture.height)))) : 0;
 }
 
 // Adds the edges of a picture whose pixels do not coincide with those of the depth image.
-void addRgb(const ScanDepth& depth, const ScanColours& colours, const EdgeOptions& options, EdgeImage& edges) {
-  const ColourImage picture = colours.picture();
+void addRgb(const camera::ScanDepth& depth, const camera::ScanColours& colours, const EdgeOptions& options,
+            EdgeImage& edges) {
+  const camera::ColourImage picture = colours.picture();
   auto found = edges::canny(picture, static_cast<int>(options.rgb_low), static_cast<int>(options.rgb_high));
   EdgeSums sums(found, picture);
   const int half = halfWidth(colours, picture);
@@ -83,14 +84,15 @@ std::string labelOf(const mrpt::obs::CObservation3DRangeScan& scan, EdgeKind kin
 
 std::vector<std::string> EdgeExtractor::labelsOf(const mrpt::obs::CObservation3DRangeScan& scan) const {
   std::vector<std::string> labels;
-  for (const EdgeKind kind : wantedKinds(options_, ScanColours(scan).exist())) labels.push_back(labelOf(scan, kind));
+  for (const EdgeKind kind : wantedKinds(options_, camera::ScanColours(scan).exist()))
+    labels.push_back(labelOf(scan, kind));
   return labels;
 }
 
 std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
     const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const ScanDepth depth(scan);
-  const ScanColours colours(scan);
+  const camera::ScanDepth depth(scan);
+  const camera::ScanColours colours(scan);
   const bool same_view = options_.rgb && colours.areOfDepthView();
   EdgeImage edges = same_view ? detector_.detect(depth.image(), colours.picture()) : detector_.detect(depth.image());
   if (options_.rgb && colours.exist() && !same_view) addRgb(depth, colours, options_, edges);
@@ -100,7 +102,7 @@ std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
     auto cloud = mrpt::maps::CSimplePointsMap::Create();
     cloud->reserve(points.size());
     for (const auto& point : points) {
-      const Eigen::Vector3f p = toSensor(point);
+      const Eigen::Vector3f p = camera::toSensor(point);
       cloud->insertPointFast(p.x(), p.y(), p.z());
     }
     auto derived = mrpt::obs::CObservationPointCloud::Create();
@@ -114,17 +116,17 @@ std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
 }
 
 bool EdgeExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  return depthScanOf(raw) != nullptr;
+  return camera::depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> EdgeExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  const auto clouds = extract(*depthScanOf(raw));
+  const auto clouds = extract(*camera::depthScanOf(raw));
   return {clouds.begin(), clouds.end()};
 }
 
 std::vector<DerivedName> EdgeExtractor::namesOf(const mrpt::obs::CObservation& raw) const {
   std::vector<DerivedName> names;
-  for (auto& label : labelsOf(*depthScanOf(raw)))
+  for (auto& label : labelsOf(*camera::depthScanOf(raw)))
     names.push_back({CLASS_ID(mrpt::obs::CObservationPointCloud), std::move(label)});
   return names;
 }

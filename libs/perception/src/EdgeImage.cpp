@@ -22,14 +22,14 @@ const char* nameOf(EdgeKind kind) {
   return "";
 }
 
-std::vector<Eigen::Vector3f> edgePoints(const EdgeImage& edges, const DepthImage& image, unsigned kinds) {
+std::vector<Eigen::Vector3f> edgePoints(const EdgeImage& edges, const camera::DepthImage& image, unsigned kinds) {
   if (image.width() != edges.width || image.height() != edges.height) {
     throw base::Error(base::ExitCode::unreadable_input,
                       "edges of " + std::to_string(edges.width) + " x " + std::to_string(edges.height) +
                           " pixels, but a depth image of " + std::to_string(image.width()) + " x " +
                           std::to_string(image.height()));
   }
-  const Pinhole& camera = image.camera();
+  const camera::Pinhole& camera = image.camera();
   std::vector<Eigen::Vector3f> points;
   points.reserve(static_cast<std::size_t>(std::count_if(edges.labels.begin(), edges.labels.end(),
                                                         [&](std::uint8_t label) { return (label & kinds) != 0; })));

@@ -21,7 +21,7 @@ constexpr double kSigmas = 4;
 /// before.
 class Spreading {
  public:
-  Spreading(const planes::InverseDepth& inverse, const Pinhole& camera, double tolerance, int most_steps,
+  Spreading(const planes::InverseDepth& inverse, const camera::Pinhole& camera, double tolerance, int most_steps,
             NormalImage& normals)
       : inverse_(inverse),
         tolerance_(static_cast<float>(tolerance)),
@@ -104,7 +104,7 @@ NormalEstimator::NormalEstimator(const NormalOptions& options) : options_(option
   refuseDepths("normals", options);
 }
 
-NormalImage NormalEstimator::estimate(const DepthImage& image) const {
+NormalImage NormalEstimator::estimate(const camera::DepthImage& image) const {
   NormalImage normals;
   normals.width = image.width();
   normals.height = image.height();
@@ -114,7 +114,7 @@ NormalImage NormalEstimator::estimate(const DepthImage& image) const {
   // that was freed before.
   normals.values.reset(new float[3 * normals.size()]);
   const planes::InverseDepth inverse = planes::invert(image, options_.min_depth, options_.max_depth);
-  const DepthNoise noise{options_.noise_at_1m, options_.step_at_1m, 0, 1};
+  const camera::DepthNoise noise{options_.noise_at_1m, options_.step_at_1m, 0, 1};
   const double tolerance = kSigmas * std::sqrt(noise.pixelVariance());
   planes::WindowPlanes windows(inverse, image.camera(), options_.radius, 1 / options_.min_depth, tolerance);
   float* const to = normals.values.get();

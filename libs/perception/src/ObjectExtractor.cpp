@@ -1,8 +1,8 @@
+#include <omnimapper/camera/DepthScan.h>
+#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/ObjectExtractor.h>
 
-#include "DepthScan.h"
-#include "RangeScan.h"
 #include "planes/PlaneObservation.h"
 
 namespace omnimapper::perception {
@@ -21,24 +21,24 @@ Eigen::Vector3d upInOptical(const mrpt::poses::CPose3D& base_from_sensor) {
   return base_from_optical.transpose() * Eigen::Vector3d::UnitZ();
 }
 
-Eigen::Vector3d pointOf(const DepthImage& image, int pixel, double depth) {
-  const Pinhole& camera = image.camera();
+Eigen::Vector3d pointOf(const camera::DepthImage& image, int pixel, double depth) {
+  const camera::Pinhole& camera = image.camera();
   const int x = pixel % image.width(), y = pixel / image.width();
   return {(x - camera.cx) / camera.fx * depth, (y - camera.cy) / camera.fy * depth, depth};
 }
 
 // Adds points with colours, at most max_points, and the mean colour of all pixels.
-void addPoints(const ObjectRegion& region, const ScanDepth& depth, const ScanColours& colours, int max_points,
-               obs::ObservedObject& object) {
+void addPoints(const ObjectRegion& region, const camera::ScanDepth& depth, const camera::ScanColours& colours,
+               int max_points, obs::ObservedObject& object) {
   const int count = static_cast<int>(region.pixels.size()), step = (count + max_points - 1) / max_points;
-  ColourSum sum;
+  camera::ColourSum sum;
   for (int i = 0; i < count; ++i) {
     const int pixel = region.pixels[static_cast<std::size_t>(i)];
     const double z = depth.at(static_cast<std::size_t>(pixel));
     const auto colour = colours.at(pixel % depth.image().width(), pixel / depth.image().width(), z);
     if (colour) sum.add(*colour);
     if (i % step != 0) continue;
-    object.points.push_back(toSensor(pointOf(depth.image(), pixel, z)).cast<float>());
+    object.points.push_back(camera::toSensor(pointOf(depth.image(), pixel, z)).cast<float>());
     if (colour) object.colours.push_back(*colour);
   }
   if (object.colours.size() != object.points.size()) object.colours.clear();
@@ -48,8 +48,8 @@ void addPoints(const ObjectRegion& region, const ScanDepth& depth, const ScanCol
 }  // namespace
 
 ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const ScanDepth depth(scan);
-  const ScanColours colours(scan);
+  const camera::ScanDepth depth(scan);
+  const camera::ScanColours colours(scan);
   const PlaneSegmentation planes = segmenter_.segment(depth.image());
   Found found;
   found.planes = planes::observe(planes, scan, depth, colours, options_.outlines.tolerance);
@@ -64,7 +64,7 @@ ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DR
   found.has_surface = finder_.hasSurface(planes, up);
   for (const ObjectRegion& region : finder_.find(depth.image(), planes, up)) {
     obs::ObservedObject object;
-    object.centroid = toSensor(region.centroid);
+    object.centroid = camera::toSensor(region.centroid);
     object.covariance = turn * region.covariance * turn.transpose();
     object.sensor_from_box = sensor_from_optical * region.sensor_from_box;
     object.box_size = region.box_size;
@@ -76,11 +76,11 @@ ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DR
 }
 
 bool ObjectExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  return depthScanOf(raw) != nullptr;
+  return camera::depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> ObjectExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  const auto found = extract(*depthScanOf(raw));
+  const auto found = extract(*camera::depthScanOf(raw));
   ++scans_;
   with_surface_ += found.has_surface;
   return {found.planes, found.objects};

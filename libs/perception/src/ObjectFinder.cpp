@@ -88,7 +88,7 @@ Clusters pixelsOf(const std::vector<std::int32_t>& labels) {
   return clusters;
 }
 
-Clusters clustersOf(const DepthImage& image, const ClusterComparator& near, const ObjectOptions& options,
+Clusters clustersOf(const camera::DepthImage& image, const ClusterComparator& near, const ObjectOptions& options,
                     const PlaneOptions& sensor) {
   const int width = image.width(), height = image.height();
   if (options.comparator == ObjectOptions::Comparator::euclidean)
@@ -154,7 +154,7 @@ class OuterSum {
 // Covariance of the mean of `all` points, from a sample `points` and its `mean`. Noise moves each point along its ray
 // independently; systematic distortion and the scale of depths move all points alike.
 Eigen::Matrix3d covarianceOfMean(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& mean,
-                                 std::size_t all, const DepthNoise& noise) {
+                                 std::size_t all, const camera::DepthNoise& noise) {
   const auto count = static_cast<double>(points.size());
   OuterSum independent;
   Eigen::Vector3d common = Eigen::Vector3d::Zero();
@@ -226,7 +226,7 @@ bool ObjectFinder::hasSurface(const PlaneSegmentation& planes, const Eigen::Vect
   return !objects::findSurfaces(planes, options_, sensor_.distortion_at_1m, up).empty();
 }
 
-std::vector<ObjectRegion> ObjectFinder::find(const DepthImage& image, const PlaneSegmentation& planes,
+std::vector<ObjectRegion> ObjectFinder::find(const camera::DepthImage& image, const PlaneSegmentation& planes,
                                              const Eigen::Vector3d& up) const {
   std::vector<ObjectRegion> found;
   if (image.width() == 0 || image.height() == 0) return found;

@@ -47,9 +47,9 @@ void projectRow(const RowTask& row, float* x, float* y, float* z) {
 
 }  // namespace
 
-OrganizedPoints backProject(const DepthImage& image, double min_depth, double max_depth) {
+OrganizedPoints backProject(const camera::DepthImage& image, double min_depth, double max_depth) {
   const planes::InverseDepth inverse = planes::invert(image, min_depth, max_depth);
-  const Pinhole& camera = image.camera();
+  const camera::Pinhole& camera = image.camera();
   OrganizedPoints points;
   points.width = image.width();
   points.height = image.height();

@@ -1,8 +1,8 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/camera/DepthScan.h>
+#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 
-#include "DepthScan.h"
-#include "RangeScan.h"
 #include "planes/PlaneObservation.h"
 
 namespace omnimapper::perception {
@@ -16,8 +16,8 @@ const base::OptionTable<OutlineOptions>& OutlineOptions::table() {
 }
 
 std::shared_ptr<obs::CObservationPlanes> PlaneExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const ScanDepth depth(scan);
-  const ScanColours colours(scan);
+  const camera::ScanDepth depth(scan);
+  const camera::ScanColours colours(scan);
   if (!segmenter_.needsColours())
     return planes::observe(segmenter_.segment(depth.image()), scan, depth, colours, outlines_.tolerance);
   if (!colours.exist()) {
@@ -31,11 +31,11 @@ std::shared_ptr<obs::CObservationPlanes> PlaneExtractor::extract(const mrpt::obs
 }
 
 bool PlaneExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  return depthScanOf(raw) != nullptr;
+  return camera::depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> PlaneExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  return {extract(*depthScanOf(raw))};
+  return {extract(*camera::depthScanOf(raw))};
 }
 
 std::vector<DerivedName> PlaneExtractor::namesOf(const mrpt::obs::CObservation& raw) const {

@@ -40,7 +40,7 @@ PlaneSegmenter::PlaneSegmenter(const PlaneOptions& options, const PlaneCompariso
   refuseDepths("planes", options);
 }
 
-PlaneSegmentation PlaneSegmenter::segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const {
+PlaneSegmentation PlaneSegmenter::segment(const camera::DepthImage& image, const std::vector<obs::Rgb>& colours) const {
   const int width = image.width(), height = image.height();
   if (width == 0 || height == 0) return {width, height, {}, {}};
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -48,7 +48,7 @@ constexpr int kLeastSeed = 200;      // fewest pixels of a component from which 
 constexpr float kStanding = 0.423F;  // cosine of 65 degrees: surfaces steeper than this to the ground stand on it
 constexpr int kFootRows = 6;         // [px] rows of a foot, see feetOf()
 
-NormalImage normalsOf(const DepthImage& image, const RoadOptions& options) {
+NormalImage normalsOf(const camera::DepthImage& image, const RoadOptions& options) {
   return NormalEstimator(normalsBy(options, options.window_radius)).estimate(image);
 }
 
@@ -77,7 +77,7 @@ std::vector<std::uint8_t> feetOf(const NormalImage& normals, const Eigen::Vector
 }
 
 // The expected ground in image coordinates, from which residuals are computed: 1/z = -n . ray / d.
-planes::CellRegions expectedRegion(const geometry::Plane3& expected, const Pinhole& camera) {
+planes::CellRegions expectedRegion(const geometry::Plane3& expected, const camera::Pinhole& camera) {
   const Eigen::Vector3d w = -expected.normal / std::max(1e-3, expected.distance);
   planes::CellRegions regions;
   regions.regions.push_back({{}, {w.x() / camera.fx, w.y() / camera.fy, w.z()}});
@@ -94,7 +94,7 @@ RoadSegmenter::RoadSegmenter(const RoadOptions& options) : options_(options) {
   }
 }
 
-RoadSegmentation RoadSegmenter::segment(const DepthImage& image, const geometry::Plane3& expected) const {
+RoadSegmentation RoadSegmenter::segment(const camera::DepthImage& image, const geometry::Plane3& expected) const {
   RoadSegmentation result;
   result.ground.width = image.width();
   result.ground.height = image.height();

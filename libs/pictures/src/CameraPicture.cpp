@@ -3,6 +3,7 @@
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/camera/PictureView.h>
 #include <omnimapper/draw/Drawing.h>
 #include <omnimapper/draw/Legend.h>
 #include <omnimapper/geometry/Conversions.h>
@@ -11,7 +12,6 @@
 #include <omnimapper/obs/CObservationObjects.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/perception/EdgeExtractor.h>
-#include <omnimapper/perception/PictureView.h>
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,7 @@ bool canBeDrawnOver(const mrpt::img::CImage& image) {
 }
 
 bool showsTheDepth(const CObservation3DRangeScan& scan) {
-  return perception::isPictureOfDepthView(scan) && canBeDrawnOver(scan.intensityImage);
+  return camera::isPictureOfDepthView(scan) && canBeDrawnOver(scan.intensityImage);
 }
 
 draw::Image colourPicture(const mrpt::img::CImage& colours) {
@@ -217,7 +217,7 @@ draw::Image drawCameraPicture(const CObservation3DRangeScan& scan,
     } else if (const auto* markers = dynamic_cast<const mrpt::obs::CObservationBearingRange*>(observation.get())) {
       drawMarkers(picture, scan.cameraParams, geometry::fromMrpt(scan.sensorPose), *markers, legend);
     } else if (const auto* signs = dynamic_cast<const obs::CObservationDoorSigns*>(observation.get())) {
-      if (perception::isPictureOfDepthView(scan)) drawSigns(picture, *signs, legend);
+      if (camera::isPictureOfDepthView(scan)) drawSigns(picture, *signs, legend);
     } else if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get())) {
       if (!cloud->pointcloud) continue;
       const CloudStyle style = styleOfCloud(cloud->sensorLabel, clouds++);

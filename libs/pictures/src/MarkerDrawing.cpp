@@ -1,8 +1,8 @@
 #include "MarkerDrawing.h"
 
+#include <omnimapper/camera/PictureView.h>
 #include <omnimapper/draw/Drawing.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/perception/PictureView.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -32,7 +32,7 @@ void drawMarkers(draw::Image& picture, const mrpt::img::TCamera& camera, const g
   const auto camera_from_finder = geometry::inverse(base_from_camera) * geometry::fromMrpt(found.sensorLocationOnRobot);
   std::size_t drawn = 0;
   for (const auto& measured : found.sensedData) {
-    const auto pixel = perception::pixelOf(camera, camera_from_finder * pointInSensor(measured));
+    const auto pixel = camera::pixelOf(camera, camera_from_finder * pointInSensor(measured));
     // A point far outside the picture is skipped: its pixel may not even be representable.
     if (!pixel || !(pixel->cwiseAbs().maxCoeff() < 2 * std::max(picture.width, picture.height))) continue;
     ++drawn;

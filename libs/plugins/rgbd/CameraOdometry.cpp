@@ -193,7 +193,7 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   const auto prediction = predictionOf(base_from_camera, scan.timestamp);
   ImageMotion tracked;
   try {
-    tracked = track(perception::RgbdView(*lens_.straightened(image)), scan.timestamp, prediction);
+    tracked = track(camera::RgbdView(*lens_.straightened(image)), scan.timestamp, prediction);
   } catch (const base::Error& error) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;

@@ -2,13 +2,13 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/camera/LensStraightener.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/Gyroscope.h>
 #include <omnimapper/matching/PoseTimeline.h>
 #include <omnimapper/matching/PredictedMotion.h>
 #include <omnimapper/matching/WheelOdometry.h>
-#include <omnimapper/perception/LensStraightener.h>
-#include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/plugin/PosePlugin.h>
 
 #include <cstddef>
@@ -87,7 +87,7 @@ class CameraOdometry : public mapper::PosePlugin {
  private:
   /// Whether track() looks for earlier views.
   virtual bool seeksReturns() const { return true; }
-  virtual ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
+  virtual ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
                             const std::optional<matching::PredictedMotion>& prediction) = 0;
   /// Motion of the base by wheels and gyroscope; the rotation is the gyroscope's if there is one.
   struct BaseMotion {
@@ -116,7 +116,7 @@ class CameraOdometry : public mapper::PosePlugin {
   matching::Gyroscope gyroscope_;
   std::optional<base::Stamp> turn_begun_;  // since then all images were tracked in all directions
   Eigen::Quaterniond turned_;              // rotation of the base since turn_begun_
-  perception::LensStraightener lens_;
+  camera::LensStraightener lens_;
   std::vector<base::Stamp> lost_images_;  // stamps since the last tracked image
   std::vector<Loop> loops_;
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0, found_ = 0,

@@ -42,7 +42,7 @@ CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
   }
 }
 
-ImageMotion CloudOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp,
+ImageMotion CloudOdometryPlugin::track(const camera::RgbdView& view, base::Stamp stamp,
                                        const std::optional<matching::PredictedMotion>& prediction) {
   using How = matching::CloudTracker::Tracked::How;
   auto cloud = std::make_shared<const matching::MatchCloud>(matching::cloudOf(view.depth(), view.colour(), source_));

@@ -28,7 +28,7 @@ class CloudOdometryPlugin : public CameraOdometry {
 
  private:
   bool seeksReturns() const override { return false; }
-  ImageMotion track(const perception::RgbdView& view, base::Stamp stamp,
+  ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
                     const std::optional<matching::PredictedMotion>& prediction) override;
 
   matching::CloudSourceOptions source_;

@@ -1,9 +1,9 @@
 #include "ViewLinksPlugin.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/RgbdView.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <algorithm>
@@ -83,7 +83,7 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObserv
                                        const mapper::View& view) {
   const CObservation3DRangeScan::ConstPtr borrowed(CObservation3DRangeScan::ConstPtr{}, &scan);
   const auto straight = lens_.straightened(borrowed);
-  const perception::RgbdView seen(*straight);
+  const camera::RgbdView seen(*straight);
   const matching::RgbdPyramid pyramid(seen.depth(), seen.colour());
   const auto depth = pyramid.medianDepth();
   if (!depth) return {};

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/camera/LensStraightener.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/DenseMatcher.h>
 #include <omnimapper/matching/RgbdTracker.h>
-#include <omnimapper/perception/LensStraightener.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
 #include <memory>
@@ -96,7 +96,7 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   matching::RgbdTrackerOptions tracking_;
   matching::DenseMatcher matcher_;
   mapper::PluginContext context_;
-  perception::LensStraightener lens_;
+  camera::LensStraightener lens_;
   std::string label_;             // of the camera; empty until its first image
   std::vector<KeyImage> recent_;  // in order of arrival, the newest last
   std::vector<KeyImage> views_;   // older images, each of a different view

@@ -12,7 +12,7 @@ VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
                                            const matching::FeatureMatcherOptions& features)
     : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching, features) {}
 
-ImageMotion VisualOdometryPlugin::track(const perception::RgbdView& view, base::Stamp stamp,
+ImageMotion VisualOdometryPlugin::track(const camera::RgbdView& view, base::Stamp stamp,
                                         const std::optional<matching::PredictedMotion>& prediction) {
   using How = matching::RgbdTracker::Tracked::How;
   const auto tracked = tracker_.track(stamp, matching::RgbdPyramid(view.depth(), view.colour()), prediction);

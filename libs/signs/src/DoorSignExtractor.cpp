@@ -1,9 +1,9 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/LibraryBeside.h>
 #include <omnimapper/base/Names.h>
+#include <omnimapper/camera/LensModel.h>
+#include <omnimapper/camera/PictureView.h>
 #include <omnimapper/net/Network.h>
-#include <omnimapper/perception/LensModel.h>
-#include <omnimapper/perception/PictureView.h>
 #include <omnimapper/signs/DoorSignExtractor.h>
 #ifdef OMNIMAPPER_HAS_SALIENCY
 #include <omnimapper/signs/SalientSignDetector.h>
@@ -80,8 +80,8 @@ cv::Mat inBgr(const mrpt::img::CImage& image) {
   return picture;
 }
 
-std::optional<Eigen::Vector3d> rayTo(const Corners& quad, const perception::LensModel& lens) {
-  perception::Corners corners;
+std::optional<Eigen::Vector3d> rayTo(const Corners& quad, const camera::LensModel& lens) {
+  camera::Corners corners;
   for (std::size_t i = 0; i < quad.size(); ++i) corners[i] = quad[i].cast<double>();
   const auto rays = lens.raysOf(corners);
   if (!rays) return std::nullopt;
@@ -130,7 +130,7 @@ class DoorSignExtractor::Finder {
         detector_(networkOf("text_detector.onnx")),
         reader_(readerFor(Alphabet(validLetters(options.letters)))) {}
 
-  std::vector<ObservedDoorSign> signsIn(const cv::Mat& picture, const perception::LensModel& lens) const {
+  std::vector<ObservedDoorSign> signsIn(const cv::Mat& picture, const camera::LensModel& lens) const {
     struct Line {
       double score;  // as text
       obs::ReadText text;
@@ -138,8 +138,8 @@ class DoorSignExtractor::Finder {
     const bool is_salient = salient_ != nullptr;
     std::vector<SignRegion> salient;
     if (is_salient) {
-      salient = salient_->detect({picture.data, picture.cols, picture.rows, static_cast<int>(picture.step),
-                                  perception::ColourImage::Order::bgr});
+      salient = salient_->detect(
+          {picture.data, picture.cols, picture.rows, static_cast<int>(picture.step), camera::ColourImage::Order::bgr});
       if (salient.empty()) return {};
     }
     std::vector<Line> lines;
@@ -238,7 +238,7 @@ class DoorSignExtractor::Finder {
 
 namespace {
 
-void measureRanges(const mrpt::obs::CObservation3DRangeScan& scan, const perception::LensModel& lens,
+void measureRanges(const mrpt::obs::CObservation3DRangeScan& scan, const camera::LensModel& lens,
                    std::vector<ObservedDoorSign>& signs) {
   try {
     const PlateRanges ranges(scan, lens);
@@ -281,7 +281,7 @@ DoorSignExtractor::DoorSignExtractor(const DoorSignOptions& options)
 DoorSignExtractor::~DoorSignExtractor() = default;
 
 CObservationDoorSigns::Ptr DoorSignExtractor::signsIn(const mrpt::obs::CObservation& raw) const {
-  const auto view = perception::pictureOf(raw);
+  const auto view = camera::pictureOf(raw);
   auto observation = CObservationDoorSigns::Create();
   observation->timestamp = raw.timestamp;
   observation->sensorLabel = raw.sensorLabel + kSignsSuffix;
@@ -291,7 +291,7 @@ CObservationDoorSigns::Ptr DoorSignExtractor::signsIn(const mrpt::obs::CObservat
   try {
     const cv::Mat picture = inBgr(*view.image);
     if (picture.empty()) return observation;
-    const perception::LensModel lens(fittingCamera(*view.camera, picture, raw.sensorLabel), raw.sensorLabel);
+    const camera::LensModel lens(fittingCamera(*view.camera, picture, raw.sensorLabel), raw.sensorLabel);
     observation->signs = finder_->signsIn(picture, lens);
     const auto* depth_scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan*>(&raw);
     if (depth_scan != nullptr && !observation->signs.empty()) measureRanges(*depth_scan, lens, observation->signs);
@@ -303,7 +303,7 @@ CObservationDoorSigns::Ptr DoorSignExtractor::signsIn(const mrpt::obs::CObservat
 }
 
 bool DoorSignExtractor::wants(const mrpt::obs::CObservation& raw) const {
-  return perception::bringsPicture(raw);
+  return camera::bringsPicture(raw);
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> DoorSignExtractor::extract(const mrpt::obs::CObservation& raw) const {

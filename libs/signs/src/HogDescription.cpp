@@ -74,7 +74,7 @@ const base::OptionTable<HogOptions>& HogOptions::table() {
   return table;
 }
 
-std::vector<SignFeatures> describe(const perception::ColourImage& picture, const std::vector<Corners>& regions,
+std::vector<SignFeatures> describe(const camera::ColourImage& picture, const std::vector<Corners>& regions,
                                    const HogOptions& options) {
   const cv::Mat grey = greyOf(matOf(picture), picture.order);
   const cv::Size cell(options.cell, options.cell), window(options.columns * options.cell, options.rows * options.cell);

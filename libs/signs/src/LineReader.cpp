@@ -50,8 +50,8 @@ cv::Mat stretched(const cv::Mat& patch) {
   return result;
 }
 
-perception::ColourImage viewOf(const cv::Mat& patch) {
-  return {patch.data, patch.cols, patch.rows, static_cast<int>(patch.step), perception::ColourImage::Order::bgr};
+camera::ColourImage viewOf(const cv::Mat& patch) {
+  return {patch.data, patch.cols, patch.rows, static_cast<int>(patch.step), camera::ColourImage::Order::bgr};
 }
 
 std::string trimmed(const std::string& text) {

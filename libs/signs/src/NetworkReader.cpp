@@ -37,7 +37,7 @@ NetworkReader::NetworkReader(std::shared_ptr<const net::Network> network, const 
   }
 }
 
-Reading NetworkReader::read(const perception::ColourImage& image) const {
+Reading NetworkReader::read(const camera::ColourImage& image) const {
   if (image.width < 1 || image.height < 1) return {};
   const cv::Mat patch(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels),
                       static_cast<std::size_t>(image.stride));

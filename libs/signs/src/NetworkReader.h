@@ -20,7 +20,7 @@ class NetworkReader : public TextReader {
   NetworkReader(std::shared_ptr<const net::Network> network, const std::string& letters_file, const Alphabet& alphabet);
 
   /// A patch that is more than 6.6 times as wide as tall is compressed in width.
-  Reading read(const perception::ColourImage& patch) const override;
+  Reading read(const camera::ColourImage& patch) const override;
 
  private:
   std::shared_ptr<const net::Network> network_;

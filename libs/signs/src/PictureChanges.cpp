@@ -1,7 +1,7 @@
 #include "PictureChanges.h"
 
 #include <mrpt/img/CImage.h>
-#include <omnimapper/perception/PictureView.h>
+#include <omnimapper/camera/PictureView.h>
 
 #include <algorithm>
 #include <exception>
@@ -15,7 +15,7 @@ PictureChanges::View PictureChanges::viewOf(const mrpt::obs::CObservation& raw) 
   constexpr int kColumns = 64;
   View view;
   try {
-    const auto picture = perception::pictureOf(raw);
+    const auto picture = camera::pictureOf(raw);
     if (picture.image == nullptr) return view;
     const auto pixels = picture.image->asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
     if (pixels.depth() != CV_8U || (pixels.channels() != 1 && pixels.channels() != 3)) return view;

@@ -8,7 +8,7 @@
 
 namespace omnimapper::signs {
 
-using perception::ColourImage;
+using camera::ColourImage;
 
 cv::Mat matOf(const ColourImage& picture) {
   if (picture.width == 0 || picture.height == 0) return {};

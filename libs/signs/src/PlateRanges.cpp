@@ -1,10 +1,10 @@
 #include "PlateRanges.h"
 
+#include <omnimapper/camera/DepthNoise.h>
+#include <omnimapper/camera/PictureView.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/DepthNoise.h>
-#include <omnimapper/perception/PictureView.h>
-#include <omnimapper/perception/RgbdView.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,12 +25,12 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
-PlateRanges::PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const perception::LensModel& lens) {
+PlateRanges::PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const camera::LensModel& lens) {
   if (!scan.hasRangeImage) return;
-  const perception::RgbdView view(scan);
+  const camera::RgbdView view(scan);
   const auto& image = view.depth();
   const auto& camera = image.camera();
-  const bool is_one_view = perception::isPictureOfDepthView(scan);
+  const bool is_one_view = camera::isPictureOfDepthView(scan);
   // Both frames are optical frames of their cameras.
   const geometry::Se3 picture_from_depth =
       geometry::inverse(geometry::fromMrpt(scan.relativePoseIntensityWRTDepth)) * geometry::sensorFromOptical();
@@ -62,7 +62,7 @@ std::optional<PlateRange> PlateRanges::of(const Corners& plate, const Eigen::Vec
   const auto count = static_cast<double>(depths.size());
   for (auto& value : depths) value = std::abs(value - depth);
   if (medianOf(depths) > kMostSpread * depth) return std::nullopt;
-  const perception::DepthNoise noise;
+  const camera::DepthNoise noise;
   const double relative =
       std::hypot(depth * std::sqrt(noise.meanVariance() / count + noise.distortionVariance()), noise.scale);
   return PlateRange{depth / ray.z(), relative * depth / ray.z()};

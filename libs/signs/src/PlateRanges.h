@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <omnimapper/perception/LensModel.h>
+#include <omnimapper/camera/LensModel.h>
 #include <omnimapper/signs/SignDetector.h>
 
 #include <Eigen/Core>
@@ -20,11 +20,11 @@ class PlateRanges {
  public:
   /// `lens` is that of the picture. Throws Error(missing_images) for a depth image in a file that was not loaded, and
   /// Error(unreadable_input) for a camera without a calibration.
-  PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const perception::LensModel& lens);
+  PlateRanges(const mrpt::obs::CObservation3DRangeScan& scan, const camera::LensModel& lens);
 
   /// Distance from the picture's camera along this ray (unit vector in its optical frame) to the plate with these
   /// corners [px]. None if the depth image has too few pixels of it, or their distances differ too much. The noise is
-  /// that of perception::DepthNoise.
+  /// that of camera::DepthNoise.
   std::optional<PlateRange> of(const Corners& plate, const Eigen::Vector3d& ray) const;
 
  private:

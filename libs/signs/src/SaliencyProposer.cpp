@@ -76,7 +76,7 @@ Corners cornersOf(const cv::Rect2f& box) {
 
 }  // namespace
 
-std::vector<Corners> SaliencyProposer::propose(const perception::ColourImage& picture) const {
+std::vector<Corners> SaliencyProposer::propose(const camera::ColourImage& picture) const {
   const cv::Mat pixels = matOf(picture);
   if (std::min(pixels.cols, pixels.rows) < kLeastPicture) return {};
   const cv::Mat grey = greyOf(pixels, picture.order);

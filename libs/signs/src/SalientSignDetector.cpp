@@ -25,7 +25,7 @@ SalientSignDetector::SalientSignDetector(const SalientSignOptions& options)
 SalientSignDetector::SalientSignDetector(const SalientSignOptions& options, SignClassifier classifier)
     : options_(options), proposer_(options.saliency), classifier_(std::move(classifier)) {}
 
-std::vector<SignRegion> SalientSignDetector::detect(const perception::ColourImage& picture) const {
+std::vector<SignRegion> SalientSignDetector::detect(const camera::ColourImage& picture) const {
   const std::vector<Corners> regions = proposer_.propose(picture);
   const std::vector<double> scores = classifier_.probabilities(picture, regions);
   std::vector<SignRegion> signs;

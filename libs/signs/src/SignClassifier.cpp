@@ -59,7 +59,7 @@ double SignClassifier::probability(const SignFeatures& features) const {
   return 1 / (1 + std::exp(model_.slope * decision(features) + model_.offset));
 }
 
-std::vector<double> SignClassifier::probabilities(const perception::ColourImage& picture,
+std::vector<double> SignClassifier::probabilities(const camera::ColourImage& picture,
                                                   const std::vector<Corners>& regions) const {
   std::vector<double> probabilities;
   for (const SignFeatures& features : describe(picture, regions, model_.hog))

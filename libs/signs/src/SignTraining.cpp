@@ -53,7 +53,7 @@ void keepSome(std::vector<Corners>& regions, int count, base::SplitMix& random) 
 
 void add(const TrainingPicture& picture, const SignTrainingOptions& options, base::SplitMix& random, RegionSet& set) {
   const mrpt::img::CImage image = picture.load();
-  const perception::ColourImage pixels = pixelsOf(image);
+  const camera::ColourImage pixels = pixelsOf(image);
   const std::vector<Sign> signs = signsOf(picture, set.name);
   std::vector<Corners> regions, others;
   std::vector<const Sign*> of_regions;

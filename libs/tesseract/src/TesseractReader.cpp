@@ -14,7 +14,7 @@ constexpr int kRows = 64, kMargin = 12;  // [px] height of the patch that Tesser
 
 // The patch as dark text on light background with a margin of the background's colour, as in the documents that
 // Tesseract was trained on.
-cv::Mat documentOf(const perception::ColourImage& patch) {
+cv::Mat documentOf(const camera::ColourImage& patch) {
   const cv::Mat colours(patch.height, patch.width, CV_8UC3, const_cast<std::uint8_t*>(patch.pixels),
                         static_cast<std::size_t>(patch.stride));
   cv::Mat grey;
@@ -65,7 +65,7 @@ std::unique_ptr<tesseract::TessBaseAPI> TesseractReader::take() const {
   return engine;
 }
 
-signs::Reading TesseractReader::read(const perception::ColourImage& patch) const {
+signs::Reading TesseractReader::read(const camera::ColourImage& patch) const {
   if (patch.width < 1 || patch.height < 1) return {};
   const cv::Mat document = documentOf(patch);
   auto engine = take();

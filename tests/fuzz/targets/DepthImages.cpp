@@ -12,6 +12,7 @@ namespace omnimapper::fuzz {
 
 namespace {
 
+using namespace camera;
 using namespace perception;
 
 /// An image and the pixels to which it refers.

@@ -13,6 +13,7 @@ namespace omnimapper::fuzz {
 
 namespace {
 
+using namespace camera;
 using namespace perception;
 using mrpt::obs::CObservation3DRangeScan;
 

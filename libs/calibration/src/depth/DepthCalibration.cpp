@@ -13,7 +13,7 @@ namespace omnimapper::calibration {
 
 namespace {
 
-using perception::DepthDistortion;
+using camera::DepthDistortion;
 
 constexpr std::size_t kFewestImages = 12, kFewestPatches = 8, kFewestOfPart = 3;
 constexpr double kLooseBound = 0.010,

@@ -1,6 +1,6 @@
 #include "DepthCells.h"
 
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/DepthNoise.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNearest = 0.2, kFarthest = 12;  // [m]
 
-double inverseDepthAt(const perception::DepthImage& image, std::size_t pixel) {
+double inverseDepthAt(const camera::DepthImage& image, std::size_t pixel) {
   constexpr std::uint16_t kNotMeasured = 65535;
   double metres = 0;
   if (image.units() == nullptr) {
@@ -24,7 +24,7 @@ double inverseDepthAt(const perception::DepthImage& image, std::size_t pixel) {
 }
 
 // Fits the plane through the pixels of a square whose upper left corner is at this column and row.
-DepthCell cellAt(const perception::DepthImage& image, int column, int row, int side) {
+DepthCell cellAt(const camera::DepthImage& image, int column, int row, int side) {
   constexpr double kLeastShare = 0.6;  // of the pixels
   constexpr double kNotFlat = 9;       // times the variance of a pixel
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -46,7 +46,7 @@ DepthCell cellAt(const perception::DepthImage& image, int column, int row, int s
   DepthCell cell;
   if (count < kLeastShare * side * side) return cell;
   const Eigen::Vector3d plane = normal.ldlt().solve(right);
-  static const perception::DepthNoise noise;
+  static const camera::DepthNoise noise;
   const double variance = std::max(0.0, squares - plane.dot(right)) / count;
   cell.is_flat = plane.allFinite() && variance < kNotFlat * noise.pixelVariance();
   cell.inverse_depth = right[0] / count;
@@ -59,7 +59,7 @@ DepthCell cellAt(const perception::DepthImage& image, int column, int row, int s
 
 }  // namespace
 
-DepthCells cellsOf(const perception::DepthImage& image) {
+DepthCells cellsOf(const camera::DepthImage& image) {
   constexpr int kLeastSide = 4;
   DepthCells all;
   all.width = image.width();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -28,7 +28,7 @@ struct DepthCells {
   }
 };
 
-DepthCells cellsOf(const perception::DepthImage& image);
+DepthCells cellsOf(const camera::DepthImage& image);
 
 /// Whether two images of one size show different scenes, or the same scene from different poses: the median cell has
 /// changed by more than noise. Many images of a camera at rest have no more information than one.

@@ -1,8 +1,8 @@
 #include "DepthLog.h"
 
 #include <omnimapper/base/Config.h>
-#include <omnimapper/perception/CameraCalibration.h>
-#include <omnimapper/perception/RgbdView.h>
+#include <omnimapper/camera/CameraCalibration.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
 
@@ -33,7 +33,7 @@ void DepthImageChooser::add(const CObservation3DRangeScan& scan) {
     return;
   }
   try {
-    const perception::RgbdView view(depths);
+    const camera::RgbdView view(depths);
     auto cells = cellsOf(view.depth());
     if (!last_.cells.empty() && (cells.width != last_.width || cells.height != last_.height)) {
       leaveOut("it has " + std::to_string(cells.width) + " x " + std::to_string(cells.height) + " pixels and not " +
@@ -61,10 +61,10 @@ std::vector<DepthCells> DepthImageChooser::take() {
 
 namespace {
 
-void readIniValues(const std::string& ini, const perception::CameraCalibration& known, DepthLog& log) {
+void readIniValues(const std::string& ini, const camera::CameraCalibration& known, DepthLog& log) {
   const auto config = base::Config::fromFile(ini);
   const auto section = config.section("calibration");
-  for (const auto& spec : perception::CameraCalibrationOptions::table().specs()) {
+  for (const auto& spec : camera::CameraCalibrationOptions::table().specs()) {
     std::string text;
     if (spec.key == "label" || spec.key == "depth_distortion_per_m" || !section.find(spec.key, text)) continue;
     log.ini_values.emplace_back(spec.key, text);
@@ -87,8 +87,8 @@ void readIniValues(const std::string& ini, const perception::CameraCalibration& 
 }  // namespace
 
 DepthLog readDepthLog(const DepthRequest& request, base::Progress& progress, const std::function<bool()>& stop) {
-  perception::CameraCalibration known;
-  if (!request.ini.empty()) known = perception::CameraCalibration::read(base::Config::fromFile(request.ini));
+  camera::CameraCalibration known;
+  if (!request.ini.empty()) known = camera::CameraCalibration::read(base::Config::fromFile(request.ini));
   source::SourceOptions options;
   options.start = request.start;
   options.end = request.end;

@@ -16,7 +16,7 @@ namespace omnimapper::calibration {
 namespace {
 
 using base::fixed;
-using perception::DepthDistortion;
+using camera::DepthDistortion;
 
 constexpr int kPartsAcross = 8, kPartsDown = 6;  // parts of the image for which a standard deviation is reported
 constexpr double kSure = 5e-4;                   // [1/m] largest standard deviation that counts as small: 2 mm at 2 m

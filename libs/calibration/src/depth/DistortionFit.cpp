@@ -13,7 +13,7 @@ namespace omnimapper::calibration {
 
 namespace {
 
-using perception::DepthDistortion;
+using camera::DepthDistortion;
 
 constexpr double kPrior = 0.02;  // [1/m] of each coefficient; the largest known ones are a third of it
 constexpr double kLoss = 2;      // standard deviations beyond which a sample counts less and less

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthDistortion.h>
+#include <omnimapper/camera/DepthDistortion.h>
 
 #include <Eigen/Core>
 #include <functional>
@@ -11,7 +11,7 @@
 namespace omnimapper::calibration {
 
 struct DistortionFit {
-  perception::DepthDistortion distortion;
+  camera::DepthDistortion distortion;
   Eigen::MatrixXd covariance;  ///< of its coefficients [1/m^2]
   double scale = 0;            ///< [1/m] robust standard deviation of a sample about its plane
 

@@ -10,7 +10,7 @@ namespace omnimapper::calibration {
 
 namespace {
 
-using perception::DepthDistortion;
+using camera::DepthDistortion;
 
 constexpr double kSteeper = 0.006;  // [1/m] largest difference of the slopes of cell and plane, across a cell
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthDistortion.h>
+#include <omnimapper/camera/DepthDistortion.h>
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -25,11 +25,11 @@ struct FlatPatch {
 /// Grows planes in an image, each over cells that are within `bound` [1/m] of it and have about the same slope. `bound`
 /// must be loose enough that a plane which the sensor distorts stays one patch. `known` is the distortion as far as it
 /// is known. Patches that are smaller than a twenty-fifth of the image are left out.
-std::vector<FlatPatch> growPatches(const DepthCells& image, const perception::DepthDistortion& known, double bound);
+std::vector<FlatPatch> growPatches(const DepthCells& image, const camera::DepthDistortion& known, double bound);
 
 /// Fits the plane a + b x + c y to the samples corrected by `known`, by least squares with a loss beyond `scale` [1/m].
-Eigen::Vector3d fitPlane(const FlatPatch& patch, const perception::DepthDistortion& known, double scale);
+Eigen::Vector3d fitPlane(const FlatPatch& patch, const camera::DepthDistortion& known, double scale);
 /// Inverse depths of the corrected samples minus those of that plane, in the order of the samples [1/m].
-std::vector<double> missesOf(const FlatPatch& patch, const perception::DepthDistortion& known, double scale);
+std::vector<double> missesOf(const FlatPatch& patch, const camera::DepthDistortion& known, double scale);
 
 }  // namespace omnimapper::calibration

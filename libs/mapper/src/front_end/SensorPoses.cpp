@@ -91,7 +91,7 @@ const base::OptionTable<SensorPoseOptions>& SensorPoseOptions::table() {
 }
 
 SensorPoses::SensorPoses(const std::vector<std::string>& sections, const base::Config& config)
-    : calibration_(perception::CameraCalibration::read(config)) {
+    : calibration_(camera::CameraCalibration::read(config)) {
   for (const auto& name : sections) {
     const auto options = config.section(name).read<SensorPoseOptions>();
     if (options.label.empty()) {

@@ -398,7 +398,7 @@ const FixedSections& fixedSections() {
                                       {"live", live::LiveOptions::table().specs()},
                                       {"NAME OF A LIVE SENSOR", live::SensorOptions::table().specs()},
                                       {"NAME OF A SENSOR", SensorPoseOptions::table().specs()},
-                                      {"calibration", perception::CameraCalibrationOptions::table().specs()}};
+                                      {"calibration", camera::CameraCalibrationOptions::table().specs()}};
   return sections;
 }
 

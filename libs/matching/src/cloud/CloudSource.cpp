@@ -10,7 +10,7 @@
 
 namespace omnimapper::matching {
 
-using perception::DepthImage;
+using camera::DepthImage;
 
 const base::OptionTable<CloudSourceOptions>& CloudSourceOptions::table() {
   using Options = CloudSourceOptions;
@@ -46,7 +46,7 @@ namespace {
 // Covariance of the point of a pixel.
 class PointNoise {
  public:
-  PointNoise(const perception::Pinhole& camera, const CloudSourceOptions& options)
+  PointNoise(const camera::Pinhole& camera, const CloudSourceOptions& options)
       : across_(static_cast<float>(options.pixel_noise / camera.fx)),
         along_(static_cast<float>(std::sqrt(options.noise.pixelVariance()))) {}
   Eigen::Matrix3f of(const Eigen::Vector3f& point) const {
@@ -75,7 +75,7 @@ perception::EdgeOptions edgeOptions(const CloudSourceOptions& options) {
 
 // Points of edge pixels. Their covariances include the spread of the pixels of the same edge around them, which is long
 // along the edge.
-CloudPoints edgesOf(const DepthImage& depth, const perception::ColourImage* colour, const CloudSourceOptions& options) {
+CloudPoints edgesOf(const DepthImage& depth, const camera::ColourImage* colour, const CloudSourceOptions& options) {
   const perception::EdgeDetector detector(edgeOptions(options));
   if (options.source == CloudSource::rgb_edges && colour == nullptr)
     throw base::Error(base::ExitCode::unreadable_input, "edges of the picture are requested, but there is no picture");
@@ -217,7 +217,7 @@ CloudPoints voxelsOf(const DepthImage& depth, const CloudSourceOptions& options)
 
 }  // namespace
 
-CloudPoints cloudOf(const DepthImage& depth, const perception::ColourImage* colour, const CloudSourceOptions& options) {
+CloudPoints cloudOf(const DepthImage& depth, const camera::ColourImage* colour, const CloudSourceOptions& options) {
   if (options.source == CloudSource::voxels) return voxelsOf(depth, options);
   if (options.source == CloudSource::all_points) return allOf(depth, options);
   return edgesOf(depth, colour, options);

@@ -74,7 +74,7 @@ std::vector<CornerPair> alikeCorners(const FeatureSet& reference, const FeatureS
 /// Errors of pairs of corners, in standard deviations.
 class CornerErrors {
  public:
-  CornerErrors(const perception::Pinhole& camera, const FeatureMatcherOptions& options)
+  CornerErrors(const camera::Pinhole& camera, const FeatureMatcherOptions& options)
       : camera_(camera),
         pixel_(std::sqrt(2.0) * options.pixel_noise),
         depth_(std::sqrt(2 * options.noise.pixelVariance())) {}
@@ -104,7 +104,7 @@ class CornerErrors {
   }
 
  private:
-  perception::Pinhole camera_;
+  camera::Pinhole camera_;
   double pixel_, depth_;  // [px] [1/m] of a difference
 };
 

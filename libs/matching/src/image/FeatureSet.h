@@ -1,7 +1,7 @@
 #pragma once
 
+#include <omnimapper/camera/DepthImage.h>
 #include <omnimapper/matching/RgbdPyramid.h>
-#include <omnimapper/perception/DepthImage.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -23,7 +23,7 @@ class FeatureSet {
   /// At most `most` corners that have a depth, spread over the image.
   FeatureSet(const RgbdPyramid& image, int most);
 
-  perception::Pinhole camera;
+  camera::Pinhole camera;
   std::vector<Corner> corners;
   std::vector<Descriptor> descriptors;
 };

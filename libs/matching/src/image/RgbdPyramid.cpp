@@ -9,8 +9,8 @@ namespace omnimapper::matching {
 
 namespace {
 
-using perception::ColourImage;
-using perception::DepthImage;
+using camera::ColourImage;
+using camera::DepthImage;
 
 constexpr int kSmallest = 20;  // [px] columns and rows of the coarsest level
 // Largest relative difference of two inverse depths of one surface: that of neighbouring pixels at half a metre on a

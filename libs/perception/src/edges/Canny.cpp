@@ -17,18 +17,18 @@ void writeGrey(const std::uint8_t* from, int n, std::uint8_t* to) {
   }
 }
 
-cv::Mat greyOf(const ColourImage& image) {
+cv::Mat greyOf(const camera::ColourImage& image) {
   cv::Mat grey(image.height, image.width, CV_8UC1);
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* from = image.pixels + static_cast<std::ptrdiff_t>(y) * image.stride;
     switch (image.order) {
-      case ColourImage::Order::grey:
+      case camera::ColourImage::Order::grey:
         std::copy(from, from + image.width, grey.ptr(y));
         break;
-      case ColourImage::Order::rgb:
+      case camera::ColourImage::Order::rgb:
         writeGrey<77, 29>(from, image.width, grey.ptr(y));
         break;
-      case ColourImage::Order::bgr:
+      case camera::ColourImage::Order::bgr:
         writeGrey<29, 77>(from, image.width, grey.ptr(y));
         break;
     }
@@ -38,7 +38,7 @@ cv::Mat greyOf(const ColourImage& image) {
 
 }  // namespace
 
-Candidates canny(const ColourImage& image, int low, int high) {
+Candidates canny(const camera::ColourImage& image, int low, int high) {
   Candidates candidates(image.width, image.height);
   if (image.width == 0 || image.height == 0) return candidates;
   cv::Mat edges;

@@ -74,7 +74,7 @@ float squaredChord(double angle) {
 
 class CurvatureEdgeFinder {
  public:
-  CurvatureEdgeFinder(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
+  CurvatureEdgeFinder(const planes::InverseDepth& inverse, const camera::Pinhole& camera, const NormalImage& normals,
                       const CurvatureThresholds& thresholds, std::uint8_t* labels)
       : inverse_(inverse),
         camera_(camera),
@@ -225,7 +225,7 @@ class CurvatureEdgeFinder {
   }
 
   const planes::InverseDepth& inverse_;
-  const Pinhole& camera_;
+  const camera::Pinhole& camera_;
   const NormalImage& normals_;
   const CurvatureThresholds& thresholds_;
   float least_, noise_;
@@ -237,7 +237,7 @@ class CurvatureEdgeFinder {
 
 }  // namespace
 
-void labelCurvatureEdges(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
+void labelCurvatureEdges(const planes::InverseDepth& inverse, const camera::Pinhole& camera, const NormalImage& normals,
                          const CurvatureThresholds& thresholds, std::uint8_t* labels) {
   CurvatureEdgeFinder(inverse, camera, normals, thresholds, labels).find();
 }

@@ -17,7 +17,7 @@ struct CurvatureThresholds {
 
 /// Adds kHighCurvature to the labels of an image's pixels (no padding); see EdgeDetector. The labels of depth
 /// discontinuities must be there already, since no curvature edge may cross one.
-void labelCurvatureEdges(const planes::InverseDepth& inverse, const Pinhole& camera, const NormalImage& normals,
+void labelCurvatureEdges(const planes::InverseDepth& inverse, const camera::Pinhole& camera, const NormalImage& normals,
                          const CurvatureThresholds& thresholds, std::uint8_t* labels);
 
 }  // namespace omnimapper::perception::edges

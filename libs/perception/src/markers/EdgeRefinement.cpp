@@ -17,7 +17,7 @@ constexpr double kStep = 0.25;     // [px] between the samples of a profile
 constexpr double kLeastStep = 10;  // of the grey value, from black to white
 
 // Grey value, interpolated between the pixels; those at the border continue outside.
-double greyAt(const ColourImage& picture, const Vector2d& place) {
+double greyAt(const camera::ColourImage& picture, const Vector2d& place) {
   const double u = std::clamp<double>(place.x(), 0, picture.width - 1.001);
   const double v = std::clamp<double>(place.y(), 0, picture.height - 1.001);
   const int column = static_cast<int>(u), row = static_cast<int>(v);
@@ -33,7 +33,8 @@ struct Line {
 
 // The line along a side, from one corner to the next with the inside of the marker on the right; none where the picture
 // shows no step from black to white. `border` [px]: width of the marker's black border.
-std::optional<Line> sideBetween(const ColourImage& picture, const Vector2d& from, const Vector2d& to, double border) {
+std::optional<Line> sideBetween(const camera::ColourImage& picture, const Vector2d& from, const Vector2d& to,
+                                double border) {
   const Vector2d along = to - from;
   const double length = along.norm();
   if (!(length > 1)) return std::nullopt;
@@ -76,10 +77,10 @@ std::optional<Vector2d> crossing(const Line& a, const Line& b) {
 
 }  // namespace
 
-Corners refinedByEdges(const ColourImage& picture, const Corners& corners, int cells) {
+camera::Corners refinedByEdges(const camera::ColourImage& picture, const camera::Corners& corners, int cells) {
   constexpr int kRounds = 3;
   constexpr double kFarthest = 3;  // [px] that a corner may move
-  Corners result = corners;
+  camera::Corners result = corners;
   for (int round = 0; round < kRounds; ++round) {
     std::array<Line, 4> sides;
     for (std::size_t i = 0; i < 4; ++i) {

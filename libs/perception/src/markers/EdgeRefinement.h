@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/perception/ColourImage.h>
-#include <omnimapper/perception/LensModel.h>
+#include <omnimapper/camera/ColourImage.h>
+#include <omnimapper/camera/LensModel.h>
 
 namespace omnimapper::perception::markers {
 
@@ -11,6 +11,6 @@ namespace omnimapper::perception::markers {
 /// farther inside a small one, which then seems farther away; this method does not. `picture` is grey; `corners` are
 /// accurate to 1.5 px; `cells`: number of cells along a side, each as wide as the black border. If a side shows no step
 /// or a corner would move by 3 px or more, all corners are returned unchanged.
-Corners refinedByEdges(const ColourImage& picture, const Corners& corners, int cells);
+camera::Corners refinedByEdges(const camera::ColourImage& picture, const camera::Corners& corners, int cells);
 
 }  // namespace omnimapper::perception::markers

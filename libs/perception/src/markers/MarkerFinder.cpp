@@ -74,8 +74,8 @@ cv::Mat greyOf(const mrpt::img::CImage& picture) {
   return grey;
 }
 
-ColourImage viewOf(const cv::Mat& grey) {
-  return {grey.data, grey.cols, grey.rows, static_cast<int>(grey.step), ColourImage::Order::grey};
+camera::ColourImage viewOf(const cv::Mat& grey) {
+  return {grey.data, grey.cols, grey.rows, static_cast<int>(grey.step), camera::ColourImage::Order::grey};
 }
 
 double shortestSide(const std::vector<cv::Point2f>& corners) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <mrpt/img/CImage.h>
+#include <omnimapper/camera/LensModel.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
-#include <omnimapper/perception/LensModel.h>
 
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace omnimapper::perception::markers {
 
 struct FoundMarker {
   int id;
-  Corners corners;  ///< [px]
+  camera::Corners corners;  ///< [px]
 };
 
 /// Finds the markers of the dictionary in a picture, in the order of their ids. Pictures that are not of 8 bits with 1

@@ -23,7 +23,7 @@ std::array<Vector3d, 4> cornersOfMarker(double side) {
 }
 
 // The marker's pose if it faced the camera.
-Se3 facing(const Corners& rays, double side) {
+Se3 facing(const camera::Corners& rays, double side) {
   const Eigen::Vector2d right = 0.5 * (rays[1] - rays[0] + rays[2] - rays[3]);
   const Eigen::Vector2d middle = 0.25 * (rays[0] + rays[1] + rays[2] + rays[3]);
   const Eigen::Vector2d along = right.normalized();
@@ -34,7 +34,7 @@ Se3 facing(const Corners& rays, double side) {
 
 // Initial guesses: OpenCV's two poses, which are wrong if the marker faces the camera almost exactly, and therefore
 // also the pose that faces it.
-std::vector<Se3> guesses(const Corners& rays, double side) {
+std::vector<Se3> guesses(const camera::Corners& rays, double side) {
   std::vector<cv::Point3d> corners;
   std::vector<cv::Point2d> places;
   for (const auto& corner : cornersOfMarker(side)) corners.emplace_back(corner.x(), corner.y(), corner.z());
@@ -59,7 +59,7 @@ struct Fit {
 };
 
 // None if a corner is not in front of the camera.
-std::optional<Fit> fitAt(const Se3& pose, const LensModel& lens, const Corners& in_image, double side) {
+std::optional<Fit> fitAt(const Se3& pose, const camera::LensModel& lens, const camera::Corners& in_image, double side) {
   constexpr double kNearest = 1e-3;  // relative to the side
   const Eigen::Matrix3d turn = pose.rotation.toRotationMatrix();
   Fit fit;
@@ -84,7 +84,7 @@ struct Refined {
 };
 
 // Refines a pose by the Levenberg-Marquardt method.
-std::optional<Refined> refined(Se3 pose, const LensModel& lens, const Corners& in_image, double side) {
+std::optional<Refined> refined(Se3 pose, const camera::LensModel& lens, const camera::Corners& in_image, double side) {
   constexpr int kSteps = 50;
   constexpr double kSettled = 1e-10;  // relative decrease of the squared error
   constexpr double kMostDamping = 1e6;
@@ -114,7 +114,7 @@ std::optional<Refined> refined(Se3 pose, const LensModel& lens, const Corners& i
 
 }  // namespace
 
-std::optional<MarkerPose> poseOfMarker(const LensModel& lens, const Corners& in_image, double side,
+std::optional<MarkerPose> poseOfMarker(const camera::LensModel& lens, const camera::Corners& in_image, double side,
                                        double corner_sigma) {
   const auto rays = lens.raysOf(in_image);
   if (!rays) return std::nullopt;

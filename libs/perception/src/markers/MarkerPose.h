@@ -1,7 +1,7 @@
 #pragma once
 
+#include <omnimapper/camera/LensModel.h>
 #include <omnimapper/geometry/Se3.h>
-#include <omnimapper/perception/LensModel.h>
 
 #include <optional>
 
@@ -16,7 +16,7 @@ struct MarkerPose {
 /// Estimates a marker's pose by least squares of the reprojection errors of its four corners. For a square seen from
 /// afar two poses may fit (Collins, Bartoli: Infinitesimal plane-based pose estimation, 2014): the better one is
 /// returned. `side` [m], `corner_sigma` [px]. None if the corners are not those of a square in front of the camera.
-std::optional<MarkerPose> poseOfMarker(const LensModel& lens, const Corners& in_image, double side,
+std::optional<MarkerPose> poseOfMarker(const camera::LensModel& lens, const camera::Corners& in_image, double side,
                                        double corner_sigma);
 
 }  // namespace omnimapper::perception::markers

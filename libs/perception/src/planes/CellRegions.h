@@ -20,12 +20,12 @@ struct CellRegions {
 
 /// Largest sum of squares [1/m^2] by which a shared plane may fit the n pixels of a cell worse than the cell's own
 /// plane does: noise of the three plane parameters, plus a systematic distortion [1/m] of all n pixels.
-double excessAllowed(const DepthNoise& noise, double n, double distortion);
+double excessAllowed(const camera::DepthNoise& noise, double n, double distortion);
 
 /// Grows regions from the flattest blocks of cells. A cell joins if it is near the plane of the cells before it.
-CellRegions growRegions(const CellGrid& grid, const DepthNoise& noise);
+CellRegions growRegions(const CellGrid& grid, const camera::DepthNoise& noise);
 
 /// Merges adjacent regions that one plane explains, and drops regions that turn out curved.
-CellRegions mergeRegions(const CellGrid& grid, const DepthNoise& noise, CellRegions grown);
+CellRegions mergeRegions(const CellGrid& grid, const camera::DepthNoise& noise, CellRegions grown);
 
 }  // namespace omnimapper::perception::planes

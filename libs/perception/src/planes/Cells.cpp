@@ -100,7 +100,7 @@ void sumRowOfCells(const float* from, int stride, int columns, float* origins, P
 
 }  // namespace
 
-CellGrid fitCells(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise) {
+CellGrid fitCells(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise) {
   CellGrid grid;
   grid.columns = inverse.stride / kCell;
   grid.rows = inverse.rows / kCell;

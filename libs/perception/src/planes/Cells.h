@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/DepthNoise.h>
 
 #include <vector>
 
@@ -24,6 +24,6 @@ struct CellGrid {
 };
 
 /// Divides the image into cells of kCell x kCell pixels and fits a plane to each.
-CellGrid fitCells(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise);
+CellGrid fitCells(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise);
 
 }  // namespace omnimapper::perception::planes

@@ -32,7 +32,8 @@ std::vector<std::uint16_t> cropped(PixelLabels labels, int width, int height) {
   return std::move(labels.values);
 }
 
-Contour onPlane(std::vector<PixelCorner> corners, const ImagePlane& plane, const Pinhole& camera, double max_depth) {
+Contour onPlane(std::vector<PixelCorner> corners, const ImagePlane& plane, const camera::Pinhole& camera,
+                double max_depth) {
   Contour contour;
   contour.polygon_in_sensor.vertices.reserve(corners.size());
   for (const PixelCorner& corner : corners) {
@@ -57,7 +58,7 @@ void clearOthers(const Components& components, PixelLabels& labels) {
   std::fill(done, labels.values.end(), std::uint16_t(0));
 }
 
-PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
+PlaneSegmentation describe(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
                            const CellRegions& regions, PixelLabels labels, const Components& components,
                            const DescriptionLimits& limits) {
   PlaneSegmentation result;

@@ -19,7 +19,7 @@ void clearOthers(const Components& components, PixelLabels& labels);
 
 /// Fits a plane to each connected component of labelled pixels and traces its outlines. All pixels of a component have
 /// the same label; label - 1 is the index in `regions` of the plane that the fit starts from.
-PlaneSegmentation describe(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
+PlaneSegmentation describe(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
                            const CellRegions& regions, PixelLabels labels, const Components& components,
                            const DescriptionLimits& limits);
 

@@ -60,7 +60,7 @@ int wholeCells(int pixels) {
 
 }  // namespace
 
-InverseDepth invert(const DepthImage& image, double min_depth, double max_depth) {
+InverseDepth invert(const camera::DepthImage& image, double min_depth, double max_depth) {
   InverseDepth inverse;
   inverse.width = image.width();
   inverse.height = image.height();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <memory>
 
@@ -21,6 +21,6 @@ struct InverseDepth {
 };
 
 /// Depths outside [min_depth, max_depth] [m] count as not measured.
-InverseDepth invert(const DepthImage& image, double min_depth, double max_depth);
+InverseDepth invert(const camera::DepthImage& image, double min_depth, double max_depth);
 
 }  // namespace omnimapper::perception::planes

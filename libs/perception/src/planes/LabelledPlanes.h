@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
 
 #include "CellRegions.h"
@@ -16,10 +16,11 @@ struct LabelledPlanes {
 };
 
 /// Finds planes by growing and merging cells, then assigns the pixels to them. `inverse` is made from `image`.
-LabelledPlanes planesOfCells(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options);
+LabelledPlanes planesOfCells(const camera::DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options);
 
 /// The thesis's method (3.4.3, 3.4.4): SmoothComparator connects pixels by their normals and offsets. Large components
 /// that are flat, not merely smooth, become planes, which then grow over the adjacent pixels that lie on them.
-LabelledPlanes planesOfNormals(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options);
+LabelledPlanes planesOfNormals(const camera::DepthImage& image, const InverseDepth& inverse,
+                               const PlaneOptions& options);
 
 }  // namespace omnimapper::perception::planes

@@ -18,8 +18,8 @@ constexpr int kEnoughToPassOn = 3 * kCell * kCell / 10;
 
 class PixelLabelling {
  public:
-  PixelLabelling(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise, const CellGrid& grid,
-                 const CellRegions& regions)
+  PixelLabelling(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
+                 const CellGrid& grid, const CellRegions& regions)
       : inverse_(inverse), camera_(camera), grid_(grid), regions_(regions), candidates_(grid.cells.size()) {
     const double sigma = std::sqrt(noise.pixelVariance() + noise.distortion * noise.distortion);
     border_tolerance_ = static_cast<float>(kBorderSigmas * sigma);
@@ -151,7 +151,7 @@ class PixelLabelling {
   }
 
   const InverseDepth& inverse_;
-  const Pinhole& camera_;
+  const camera::Pinhole& camera_;
   const CellGrid& grid_;
   const CellRegions& regions_;
   std::vector<Candidates> candidates_;
@@ -161,7 +161,7 @@ class PixelLabelling {
 
 }  // namespace
 
-PixelLabels labelPixels(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
+PixelLabels labelPixels(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
                         const CellGrid& grid, const CellRegions& regions) {
   return PixelLabelling(inverse, camera, noise, grid, regions).label();
 }

@@ -16,7 +16,7 @@ struct PixelLabels {
 /// Assigns each pixel to the plane it fits, among those of its own cell and the cells around it (thesis 3.4.4: planes
 /// grow to where they end). Where two planes cross, the pixels are divided by the line of intersection, not by noise
 /// or by the sensor's quantization steps.
-PixelLabels labelPixels(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
+PixelLabels labelPixels(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
                         const CellGrid& grid, const CellRegions& regions);
 
 }  // namespace omnimapper::perception::planes

@@ -10,8 +10,9 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-std::vector<ColourSum> coloursOf(const PlaneSegmentation& found, const ScanDepth& depth, const ScanColours& colours) {
-  std::vector<ColourSum> sums(found.planes.size());
+std::vector<camera::ColourSum> coloursOf(const PlaneSegmentation& found, const camera::ScanDepth& depth,
+                                         const camera::ScanColours& colours) {
+  std::vector<camera::ColourSum> sums(found.planes.size());
   if (!colours.exist() || sums.empty()) return sums;
   std::size_t i = 0;
   for (int y = 0; y < found.height; ++y) {
@@ -27,15 +28,16 @@ std::vector<ColourSum> coloursOf(const PlaneSegmentation& found, const ScanDepth
 geometry::Polygon3 polygonOf(const Contour& contour, double tolerance) {
   geometry::Polygon3 polygon;
   for (const std::size_t i : cornersNeeded(contour.corners, tolerance))
-    polygon.vertices.push_back(toSensor(contour.polygon_in_sensor.vertices[i]));
+    polygon.vertices.push_back(camera::toSensor(contour.polygon_in_sensor.vertices[i]));
   return polygon;
 }
 
 }  // namespace
 
 std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
-                                                 const mrpt::obs::CObservation3DRangeScan& scan, const ScanDepth& depth,
-                                                 const ScanColours& colours, double outline_tolerance) {
+                                                 const mrpt::obs::CObservation3DRangeScan& scan,
+                                                 const camera::ScanDepth& depth, const camera::ScanColours& colours,
+                                                 double outline_tolerance) {
   auto derived = obs::CObservationPlanes::Create();
   derived->timestamp = scan.timestamp;
   derived->sensorPose = scan.sensorPose;
@@ -46,9 +48,9 @@ std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
     const PlaneRegion& region = found.planes[i];
     obs::ObservedPlane plane;
-    plane.plane_in_sensor = {toSensor(region.plane_in_sensor.normal), region.plane_in_sensor.distance};
+    plane.plane_in_sensor = {camera::toSensor(region.plane_in_sensor.normal), region.plane_in_sensor.distance};
     plane.covariance = geometry::transportCovariance(sensor_from_optical, region.plane_in_sensor, region.covariance);
-    plane.centroid = toSensor(region.centroid);
+    plane.centroid = camera::toSensor(region.centroid);
     plane.outline = polygonOf(region.outline, outline_tolerance);
     for (const Contour& hole : region.holes) plane.holes.push_back(polygonOf(hole, outline_tolerance));
     plane.inliers = static_cast<std::uint32_t>(region.inliers);

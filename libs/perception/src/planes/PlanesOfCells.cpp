@@ -3,8 +3,9 @@
 
 namespace omnimapper::perception::planes {
 
-LabelledPlanes planesOfCells(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options) {
-  const DepthNoise noise = options.noise();
+LabelledPlanes planesOfCells(const camera::DepthImage& image, const InverseDepth& inverse,
+                             const PlaneOptions& options) {
+  const camera::DepthNoise noise = options.noise();
   const CellGrid grid = fitCells(inverse, image.camera(), noise);
   const CellRegions merged = mergeRegions(grid, noise, growRegions(grid, noise));
   LabelledPlanes planes;

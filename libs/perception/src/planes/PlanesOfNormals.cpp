@@ -19,7 +19,8 @@ constexpr int kRadius = 7;                  // [px] of the windows in which norm
 constexpr float kMinCosine = 0.9962F;       // of the largest angle between neighbours' normals, 5 deg
 constexpr std::size_t kMostPlanes = 65535;  // labels have 16 bits
 
-std::vector<PlaneMoments> momentsOf(const Components& components, const InverseDepth& inverse, const Pinhole& camera) {
+std::vector<PlaneMoments> momentsOf(const Components& components, const InverseDepth& inverse,
+                                    const camera::Pinhole& camera) {
   std::vector<PlaneMoments> moments(components.pixels.size());
   for (const PixelRun& run : components.runs) {
     PlaneMoments& m = moments[static_cast<std::size_t>(run.component)];
@@ -35,7 +36,7 @@ std::vector<PlaneMoments> momentsOf(const Components& components, const InverseD
 /// Comparator for growLabels(): whether a pixel lies on the plane of its neighbour (thesis 3.4.4).
 struct RefinementComparator {
   const InverseDepth& inverse;
-  const Pinhole& camera;
+  const camera::Pinhole& camera;
   const std::vector<CellRegions::Region>& regions;
   const std::vector<std::int32_t>& labels;
   double tolerance;  // [1/m]
@@ -67,7 +68,8 @@ PixelLabels padded(const std::vector<std::int32_t>& labels, const InverseDepth& 
 
 }  // namespace
 
-LabelledPlanes planesOfNormals(const DepthImage& image, const InverseDepth& inverse, const PlaneOptions& options) {
+LabelledPlanes planesOfNormals(const camera::DepthImage& image, const InverseDepth& inverse,
+                               const PlaneOptions& options) {
   const OrganizedPoints points = backProject(image, options.min_depth, options.max_depth);
   const NormalImage normals = NormalEstimator(normalsBy(options, kRadius)).estimate(image);
   const double variance = options.noise().pixelVariance() + options.distortion_at_1m * options.distortion_at_1m;

@@ -22,7 +22,7 @@ struct RegionSums {
   double z = 0, uz = 0, vz = 0;
 };
 
-void addRun(const PixelRun& run, const InverseDepth& inverse, const Pinhole& camera, const ImagePlane& plane,
+void addRun(const PixelRun& run, const InverseDepth& inverse, const camera::Pinhole& camera, const ImagePlane& plane,
             RegionSums& sums) {
   const double n = run.end - run.begin, u = run.begin - camera.cx, v = run.row - camera.cy;
   const RunSums s = sumRun(inverse.at(run.begin, run.row), run.end - run.begin, static_cast<float>(plane.at(u, v)),
@@ -45,7 +45,7 @@ void addRun(const PixelRun& run, const InverseDepth& inverse, const Pinhole& cam
 }
 
 // Covariance from pixel noise of the plane w, given by 1/z = w . ray with rays (u / fx, v / fy, 1).
-Eigen::Matrix3d covarianceOfRayPlane(const PlaneMoments& m, const Pinhole& camera, double variance) {
+Eigen::Matrix3d covarianceOfRayPlane(const PlaneMoments& m, const camera::Pinhole& camera, double variance) {
   const double fx = camera.fx, fy = camera.fy;
   Eigen::Matrix3d information;
   information << m.uu / (fx * fx), m.uv / (fx * fy), m.u / fx,  //
@@ -56,8 +56,8 @@ Eigen::Matrix3d covarianceOfRayPlane(const PlaneMoments& m, const Pinhole& camer
 
 // Covariance of w from errors that all pixels share: systematic distortion about the middle of the region, and the
 // scale of depths.
-Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& w, const PlaneMoments& m, const Pinhole& camera,
-                                 const DepthNoise& noise) {
+Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& w, const PlaneMoments& m, const camera::Pinhole& camera,
+                                 const camera::DepthNoise& noise) {
   const Eigen::Vector2d middle(m.u / (m.n * camera.fx), m.v / (m.n * camera.fy));
   Eigen::Matrix2d spread;
   spread << m.uu / (camera.fx * camera.fx), m.uv / (camera.fx * camera.fy),  //
@@ -72,8 +72,8 @@ Eigen::Matrix3d sharedCovariance(const Eigen::Vector3d& w, const PlaneMoments& m
 }
 
 // n . p + d = 0 for p = z ray gives 1/z = -n . ray / d: w = -n / d.
-void setPlane(const ImagePlane& plane, const PlaneMoments& m, const Pinhole& camera, const DepthNoise& noise,
-              PlaneRegion& region) {
+void setPlane(const ImagePlane& plane, const PlaneMoments& m, const camera::Pinhole& camera,
+              const camera::DepthNoise& noise, PlaneRegion& region) {
   const Eigen::Vector3d w(plane.a * camera.fx, plane.b * camera.fy, plane.c);
   const double d = 1 / w.norm();
   const Eigen::Vector3d normal = -d * w;
@@ -88,7 +88,7 @@ void setPlane(const ImagePlane& plane, const PlaneMoments& m, const Pinhole& cam
 }
 
 FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const ImagePlane& correction,
-                 const Pinhole& camera, const DepthNoise& noise) {
+                 const camera::Pinhole& camera, const camera::DepthNoise& noise) {
   const PlaneMoments& m = sums.residuals;
   FittedRegion fitted;
   fitted.plane = {of_cells.a + correction.a, of_cells.b + correction.b, of_cells.c + correction.c};
@@ -102,7 +102,7 @@ FittedRegion fit(const RegionSums& sums, const ImagePlane& of_cells, const Image
 
 // Adds the RMS distances from the fitted planes, not from the planes of the cells: the expected ground of a road may be
 // far from the ground that was fitted.
-void addRms(const InverseDepth& inverse, const Pinhole& camera, const Components& components,
+void addRms(const InverseDepth& inverse, const camera::Pinhole& camera, const Components& components,
             const std::vector<int>& place, std::vector<FittedRegion>& fitted) {
   std::vector<double> squares(fitted.size(), 0);
   for (const PixelRun& run : components.runs) {
@@ -120,9 +120,9 @@ void addRms(const InverseDepth& inverse, const Pinhole& camera, const Components
 
 }  // namespace
 
-std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
-                                     const Components& components, const PixelLabels& labels,
-                                     const CellRegions& regions, int min_pixels) {
+std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const camera::Pinhole& camera,
+                                     const camera::DepthNoise& noise, const Components& components,
+                                     const PixelLabels& labels, const CellRegions& regions, int min_pixels) {
   std::vector<int> place(components.pixels.size(), kNone), component;
   for (std::size_t i = 0; i < components.pixels.size(); ++i) {
     if (components.pixels[i] < min_pixels) continue;

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/perception/ConnectedComponents.h>
-#include <omnimapper/perception/DepthNoise.h>
 #include <omnimapper/perception/PlaneRegion.h>
 
 #include <vector>
@@ -20,8 +20,8 @@ struct FittedRegion {
 
 /// Fits a plane to each component with at least `min_pixels` pixels that are not collinear. The plane with the most
 /// pixels comes first.
-std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
-                                     const Components& components, const PixelLabels& labels,
-                                     const CellRegions& regions, int min_pixels);
+std::vector<FittedRegion> fitRegions(const InverseDepth& inverse, const camera::Pinhole& camera,
+                                     const camera::DepthNoise& noise, const Components& components,
+                                     const PixelLabels& labels, const CellRegions& regions, int min_pixels);
 
 }  // namespace omnimapper::perception::planes

@@ -22,7 +22,7 @@ struct Seed {
 
 class Growth {
  public:
-  Growth(const CellGrid& grid, const DepthNoise& noise) : grid_(grid), noise_(noise) {
+  Growth(const CellGrid& grid, const camera::DepthNoise& noise) : grid_(grid), noise_(noise) {
     result_.of_cell.assign(grid.cells.size(), kNoRegion);
   }
 
@@ -106,18 +106,18 @@ class Growth {
   }
 
   const CellGrid& grid_;
-  const DepthNoise& noise_;
+  const camera::DepthNoise& noise_;
   CellRegions result_;
   std::vector<std::array<int, 2>> queue_;
 };
 
 }  // namespace
 
-double excessAllowed(const DepthNoise& noise, double n, double distortion) {
+double excessAllowed(const camera::DepthNoise& noise, double n, double distortion) {
   return kChi2Cell * noise.meanVariance() + n * distortion * distortion;
 }
 
-CellRegions growRegions(const CellGrid& grid, const DepthNoise& noise) {
+CellRegions growRegions(const CellGrid& grid, const camera::DepthNoise& noise) {
   Growth growth(grid, noise);
   for (const Block& block : kBlocks) growth.growFrom(block);
   return growth.take();

@@ -22,7 +22,7 @@ struct Adjacency {
 
 class Merging {
  public:
-  Merging(const CellGrid& grid, const DepthNoise& noise, CellRegions& regions)
+  Merging(const CellGrid& grid, const camera::DepthNoise& noise, CellRegions& regions)
       : grid_(grid), noise_(noise), r_(regions) {}
 
   void mergeAll() {
@@ -144,14 +144,14 @@ class Merging {
   }
 
   const CellGrid& grid_;
-  const DepthNoise& noise_;
+  const camera::DepthNoise& noise_;
   CellRegions& r_;
   std::map<std::pair<int, int>, Adjacency> adjacencies_;  // keyed by the lower and the higher index
 };
 
 }  // namespace
 
-CellRegions mergeRegions(const CellGrid& grid, const DepthNoise& noise, CellRegions grown) {
+CellRegions mergeRegions(const CellGrid& grid, const camera::DepthNoise& noise, CellRegions grown) {
   Merging merging(grid, noise, grown);
   merging.mergeAll();
   merging.dropCurved();

@@ -17,8 +17,8 @@ constexpr double kRegionSigmas = 3;
 
 class SmallRegions {
  public:
-  SmallRegions(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise, const CellGrid& grid,
-               CellRegions& regions)
+  SmallRegions(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
+               const CellGrid& grid, CellRegions& regions)
       : inverse_(inverse),
         camera_(camera),
         tolerance_(static_cast<float>(kRegionSigmas * std::sqrt(noise.pixelVariance()))),
@@ -91,7 +91,7 @@ class SmallRegions {
   }
 
   const InverseDepth& inverse_;
-  const Pinhole& camera_;
+  const camera::Pinhole& camera_;
   float tolerance_;
   const CellGrid& grid_;
   CellRegions& r_;
@@ -101,7 +101,7 @@ class SmallRegions {
 
 }  // namespace
 
-CellRegions dropExplained(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
+CellRegions dropExplained(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
                           const CellGrid& grid, CellRegions regions) {
   SmallRegions(inverse, camera, noise, grid, regions).drop();
   return regions;

@@ -6,7 +6,7 @@ namespace omnimapper::perception::planes {
 
 /// Drops regions of a few cells whose pixels lie on the planes of larger regions around them: cells across an edge can
 /// look like a separate plane.
-CellRegions dropExplained(const InverseDepth& inverse, const Pinhole& camera, const DepthNoise& noise,
+CellRegions dropExplained(const InverseDepth& inverse, const camera::Pinhole& camera, const camera::DepthNoise& noise,
                           const CellGrid& grid, CellRegions regions);
 
 }  // namespace omnimapper::perception::planes

@@ -149,7 +149,7 @@ std::unique_ptr<float[]> filled(int n, float value) {
 }  // namespace
 
 // The window starts above the image, where nothing is measured, and slides in.
-WindowPlanes::WindowPlanes(const InverseDepth& inverse, const Pinhole& camera, int radius, double highest,
+WindowPlanes::WindowPlanes(const InverseDepth& inverse, const camera::Pinhole& camera, int radius, double highest,
                            double tolerance)
     : width_(inverse.width),
       stride_(inverse.stride),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include "InverseDepth.h"
 
@@ -20,7 +20,8 @@ class WindowPlanes {
  public:
   /// `highest` [1/m]: the largest inverse depth. `tolerance` [1/m]: how far the pixels of a window may be from its
   /// plane.
-  WindowPlanes(const InverseDepth& inverse, const Pinhole& camera, int radius, double highest, double tolerance);
+  WindowPlanes(const InverseDepth& inverse, const camera::Pinhole& camera, int radius, double highest,
+               double tolerance);
 
   /// Writes the normals of the next row, NaN where the window is not fully measured or not flat. Images narrower than
   /// the window plus seven pixels have none.
@@ -31,7 +32,7 @@ class WindowPlanes {
   const float* row(int y) const { return whole_.get() + static_cast<std::ptrdiff_t>(y) * stride_; }
 
   int width_, stride_, rows_, radius_, y_ = 0;
-  Pinhole camera_;
+  camera::Pinhole camera_;
   float tolerance_;
   std::unique_ptr<float[]> whole_;  // inverse depths, scaled and rounded to whole numbers
   // Sums over the rows of the window for each column: unmeasured pixels, values, values times their row.

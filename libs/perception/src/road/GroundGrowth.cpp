@@ -67,7 +67,7 @@ bool isAboveOnAverage(const WindowSums::Sum& sum, double correlation_area) {
 
 }  // namespace
 
-planes::PixelLabels growGround(const planes::InverseDepth& inverse, const Pinhole& camera,
+planes::PixelLabels growGround(const planes::InverseDepth& inverse, const camera::Pinhole& camera,
                                const std::vector<std::uint8_t>& seeds, const std::vector<std::uint8_t>& barred,
                                const GrowthLimits& limits) {
   planes::PixelLabels labels;

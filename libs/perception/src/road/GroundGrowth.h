@@ -20,7 +20,7 @@ struct GrowthLimits {
 /// without a seed whose window is above that ground on average by as many standard deviations of its mean: a pixel of a
 /// wall is within the tolerance up to a dozen rows above the wall's foot. `seeds` and `barred` have a value for each
 /// pixel, row by row.
-planes::PixelLabels growGround(const planes::InverseDepth& inverse, const Pinhole& camera,
+planes::PixelLabels growGround(const planes::InverseDepth& inverse, const camera::Pinhole& camera,
                                const std::vector<std::uint8_t>& seeds, const std::vector<std::uint8_t>& barred,
                                const GrowthLimits& limits);
 

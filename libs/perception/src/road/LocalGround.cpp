@@ -17,7 +17,7 @@ constexpr double kEnough = 300;  // ground pixels for a plane
 
 class Fitting {
  public:
-  Fitting(const planes::InverseDepth& inverse, const Pinhole& camera, const std::vector<std::uint8_t>& seeds)
+  Fitting(const planes::InverseDepth& inverse, const camera::Pinhole& camera, const std::vector<std::uint8_t>& seeds)
       : inverse_(inverse),
         camera_(camera),
         columns_(inverse.stride / kCell),
@@ -95,7 +95,7 @@ class Fitting {
   }
 
   const planes::InverseDepth& inverse_;
-  const Pinhole& camera_;
+  const camera::Pinhole& camera_;
   int columns_, rows_;
   std::vector<PlaneMoments> moments_;  // of the seeds in each cell
 };
@@ -118,7 +118,7 @@ double LocalGround::between(double x, double y) const {
   return sum / weights;
 }
 
-LocalGround fitGround(const planes::InverseDepth& inverse, const Pinhole& camera,
+LocalGround fitGround(const planes::InverseDepth& inverse, const camera::Pinhole& camera,
                       const std::vector<std::uint8_t>& seeds, double reach) {
   return Fitting(inverse, camera, seeds).fit(reach);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,7 @@ struct LocalGround {
   int width = 0, height = 0;
   double step = 0;            ///< [1/m] unit of the distances in `offs`
   int columns = 0, rows = 0;  ///< of cells of planes::kCell pixels
-  Pinhole camera;
+  camera::Pinhole camera;
   std::vector<std::optional<planes::ImagePlane>>
       planes;  ///< of each cell, row by row; none where little ground is near
   /// How much nearer than the ground each pixel is, row by row, as a difference of 1/z in units of `step`, clipped to
@@ -38,7 +38,7 @@ struct LocalGround {
 
 /// `seeds`: 1 for pixels that are surely ground, row by row. `reach` [1/m]: the distance from the
 /// ground that is kSteps steps.
-LocalGround fitGround(const planes::InverseDepth& inverse, const Pinhole& camera,
+LocalGround fitGround(const planes::InverseDepth& inverse, const camera::Pinhole& camera,
                       const std::vector<std::uint8_t>& seeds, double reach);
 
 }  // namespace omnimapper::perception::road

@@ -4,7 +4,7 @@
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/perception/CameraCalibration.h>
+#include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/source/SourceOptions.h>
 
 #include <map>
@@ -51,7 +51,7 @@ class SensorPoses {
   std::map<std::string, Track> tracks_;  // a static pose is a track with one entry
   std::map<std::string, double> clock_offsets_;
   std::map<std::string, double> apertures_;  // [rad] of the sensors for which the INI gives one
-  perception::CameraCalibration calibration_;
+  camera::CameraCalibration calibration_;
 };
 
 /// The section [source], with the clocks of the sensors that `[mapper] sensors` names.

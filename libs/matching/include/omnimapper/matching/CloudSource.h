@@ -1,10 +1,10 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/camera/ColourImage.h>
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/matching/MatchCloud.h>
-#include <omnimapper/perception/ColourImage.h>
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/DepthNoise.h>
 #include <omnimapper/perception/EdgeDetector.h>
 
 namespace omnimapper::matching {
@@ -20,12 +20,12 @@ enum class CloudSource {
 
 struct CloudSourceOptions {
   CloudSource source = CloudSource::rgb_edges;
-  double voxel = 0.02;           ///< [m] side of the cubes
-  double max_depth = 5;          ///< [m] points with a larger depth are left out as too noisy
-  double pixel_noise = 1;        ///< [px] standard deviation across the rays
-  perception::DepthNoise noise;  ///< noise along the rays
-  double slide = 0.03;           ///< [m] standard deviation of a point along its surface
-  double edge_slide = 3;         ///< that of a point along its edge, as a factor on the spread of the edge pixels
+  double voxel = 0.02;       ///< [m] side of the cubes
+  double max_depth = 5;      ///< [m] points with a larger depth are left out as too noisy
+  double pixel_noise = 1;    ///< [px] standard deviation across the rays
+  camera::DepthNoise noise;  ///< noise along the rays
+  double slide = 0.03;       ///< [m] standard deviation of a point along its surface
+  double edge_slide = 3;     ///< that of a point along its edge, as a factor on the spread of the edge pixels
   perception::EdgeOptions edges = easilyFound();  ///< `source` selects which kinds of edges are detected
 
   /// Options for edges that are detected again in most images, at the price of some false edges.
@@ -37,7 +37,7 @@ struct CloudSourceOptions {
 /// Extracts the points of a depth image that `options` select, in the camera's optical frame, with covariances. Points
 /// of surfaces also get normals, NaN where there is none. `colour`: the picture of the same view, or null. Throws
 /// Error(unreadable_input) if edges of a picture are requested and there is no picture.
-CloudPoints cloudOf(const perception::DepthImage& depth, const perception::ColourImage* colour,
+CloudPoints cloudOf(const camera::DepthImage& depth, const camera::ColourImage* colour,
                     const CloudSourceOptions& options);
 
 }  // namespace omnimapper::matching

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/RgbdPyramid.h>
-#include <omnimapper/perception/DepthNoise.h>
 
 #include <memory>
 #include <vector>
@@ -16,7 +16,7 @@ struct DenseMatcherOptions {
   int finest_level = 2;             ///< pyramid level at which a match ends; 0 is the full resolution
   int max_points = 3000;            ///< largest number of points of the reference on each level
   int max_iterations = 12;          ///< on each level
-  perception::DepthNoise noise;     ///< of the depth camera
+  camera::DepthNoise noise;         ///< of the depth camera
   double grey_noise = 3;            ///< smallest standard deviation of brightness (0 to 255)
   double min_overlap = 0.2;         ///< smallest share of the reference's points that the image must show
   double max_outlier_share = 0.35;  ///< largest share of points that may be off by more than 8 % of their depth

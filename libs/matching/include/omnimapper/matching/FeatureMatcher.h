@@ -1,9 +1,9 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/matching/RgbdPyramid.h>
-#include <omnimapper/perception/DepthNoise.h>
 
 #include <cstddef>
 #include <memory>
@@ -11,11 +11,11 @@
 namespace omnimapper::matching {
 
 struct FeatureMatcherOptions {
-  int max_features = 1000;       ///< largest number of corners of an image
-  int min_inliers = 15;          ///< smallest number of corner pairs that must agree on one motion
-  double max_ratio = 0.8;        ///< largest ratio of the distances to the nearest and second nearest descriptor
-  double pixel_noise = 1;        ///< [px] standard deviation of a corner's position
-  perception::DepthNoise noise;  ///< of the depth camera
+  int max_features = 1000;   ///< largest number of corners of an image
+  int min_inliers = 15;      ///< smallest number of corner pairs that must agree on one motion
+  double max_ratio = 0.8;    ///< largest ratio of the distances to the nearest and second nearest descriptor
+  double pixel_noise = 1;    ///< [px] standard deviation of a corner's position
+  camera::DepthNoise noise;  ///< of the depth camera
 
   static const base::OptionTable<FeatureMatcherOptions>& table();
 };

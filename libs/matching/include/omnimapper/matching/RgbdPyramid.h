@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/perception/ColourImage.h>
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/ColourImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <cstddef>
 #include <optional>
@@ -18,7 +18,7 @@ struct RgbdPyramidOptions {
 /// One level of an image pyramid, in the order of pixels, row by row.
 struct RgbdLevel {
   int width = 0, height = 0;
-  perception::Pinhole camera;
+  camera::Pinhole camera;
   std::vector<float> inverse_depth;  ///< 1/z [1/m] in the optical frame; 0 where nothing was measured
   std::vector<float> grey;           ///< 0 to 255; empty without a picture
 
@@ -33,7 +33,7 @@ class RgbdPyramid {
  public:
   /// `colour` may be null if there is no picture. Throws Error(unreadable_input) if the picture's size is not that of
   /// the depth image.
-  RgbdPyramid(const perception::DepthImage& depth, const perception::ColourImage* colour,
+  RgbdPyramid(const camera::DepthImage& depth, const camera::ColourImage* colour,
               const RgbdPyramidOptions& options = {});
 
   /// From the finest to the coarsest; the coarsest has at least 20 columns and rows, unless the image has fewer.

@@ -1,20 +1,20 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/perception/ColourImage.h>
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/ColourImage.h>
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/perception/EdgeImage.h>
 
 namespace omnimapper::perception {
 
 struct EdgeOptions {
-  double noise_at_1m = DepthNoise().sigma;             ///< [m]
-  double step_at_1m = DepthNoise().step;               ///< [m]
-  double correlation_area = DepthNoise().correlation;  ///< [px^2]
-  double min_depth = 0.2;                              ///< [m]
-  double max_depth = 12;                               ///< [m]
-  bool jumps = true;                                   ///< whether to look for occluding, occluded and boundary edges
+  double noise_at_1m = camera::DepthNoise().sigma;             ///< [m]
+  double step_at_1m = camera::DepthNoise().step;               ///< [m]
+  double correlation_area = camera::DepthNoise().correlation;  ///< [px^2]
+  double min_depth = 0.2;                                      ///< [m]
+  double max_depth = 12;                                       ///< [m]
+  bool jumps = true;       ///< whether to look for occluding, occluded and boundary edges
   double jump_sigmas = 3;  ///< smallest depth discontinuity, in standard deviations of the difference of two pixels
   double relative_jump = 0.03;  ///< smallest depth discontinuity, relative to the depth (thesis: tau_dd)
   int max_hole = 50;            ///< [px] holes up to this width are bridged along rows and columns
@@ -28,7 +28,7 @@ struct EdgeOptions {
   double rgb_low = 40;    ///< edges continue above this gradient, |gx| + |gy| of Sobel's 3 x 3 operators on 8-bit grey
   double rgb_high = 100;  ///< edges start above this gradient
 
-  DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area}; }
+  camera::DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area}; }
   static const base::OptionTable<EdgeOptions>& table();
 };
 
@@ -52,9 +52,9 @@ class EdgeDetector {
   explicit EdgeDetector(const EdgeOptions& options);
 
   /// Finds the kinds of edges that the options ask for, except RGB. Both overloads are thread-safe.
-  EdgeImage detect(const DepthImage& image) const;
+  EdgeImage detect(const camera::DepthImage& image) const;
   /// Finds RGB edges, too. Throws Error(unreadable_input) if the picture does not have the size of the depth image.
-  EdgeImage detect(const DepthImage& image, const ColourImage& colour) const;
+  EdgeImage detect(const camera::DepthImage& image, const camera::ColourImage& colour) const;
 
  private:
   EdgeOptions options_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -32,6 +32,6 @@ struct EdgeImage {
 /// The points [m] of all pixels with one of `kinds`, row by row, in the camera's optical frame: x right, y down, z
 /// forward. Every pixel on an edge has a depth. Throws Error(unreadable_input) if `image` does not have the size of
 /// `edges`.
-std::vector<Eigen::Vector3f> edgePoints(const EdgeImage& edges, const DepthImage& image, unsigned kinds);
+std::vector<Eigen::Vector3f> edgePoints(const EdgeImage& edges, const camera::DepthImage& image, unsigned kinds);
 
 }  // namespace omnimapper::perception

@@ -1,18 +1,18 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/DepthNoise.h>
 
 #include <memory>
 
 namespace omnimapper::perception {
 
 struct NormalOptions {
-  double noise_at_1m = DepthNoise().sigma;  ///< [m]
-  double step_at_1m = DepthNoise().step;    ///< [m]
-  double min_depth = 0.2;                   ///< [m]
-  double max_depth = 12;                    ///< [m]
-  int radius = 4;                           ///< [px] 1 to 7; the square window has 2 radius + 1 pixels a side
+  double noise_at_1m = camera::DepthNoise().sigma;  ///< [m]
+  double step_at_1m = camera::DepthNoise().step;    ///< [m]
+  double min_depth = 0.2;                           ///< [m]
+  double max_depth = 12;                            ///< [m]
+  int radius = 4;                                   ///< [px] 1 to 7; the square window has 2 radius + 1 pixels a side
 };
 
 /// Unit normals of an image's pixels, row by row. They point towards the sensor and are in its optical frame (x right,
@@ -39,7 +39,7 @@ class NormalEstimator {
   explicit NormalEstimator(const NormalOptions& options);
 
   /// Thread-safe.
-  NormalImage estimate(const DepthImage& image) const;
+  NormalImage estimate(const camera::DepthImage& image) const;
 
  private:
   NormalOptions options_;

@@ -59,7 +59,7 @@ class ObjectFinder {
   /// `planes` are those that a PlaneSegmenter with the same PlaneOptions found in this image. `up` is a unit vector in
   /// the optical frame. Throws Error(unreadable_input) if the planes are those of an image of another size.
   /// Thread-safe; the same input gives the same bits.
-  std::vector<ObjectRegion> find(const DepthImage& image, const PlaneSegmentation& planes,
+  std::vector<ObjectRegion> find(const camera::DepthImage& image, const PlaneSegmentation& planes,
                                  const Eigen::Vector3d& up) const;
   /// Whether any of these planes is a level surface that objects may stand on.
   bool hasSurface(const PlaneSegmentation& planes, const Eigen::Vector3d& up) const;

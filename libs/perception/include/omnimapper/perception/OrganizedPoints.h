@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <limits>
 #include <vector>
@@ -15,7 +15,7 @@ struct OrganizedPoints {
 };
 
 /// Computes the points of a depth image. Depths outside [min_depth, max_depth] [m] count as not measured.
-OrganizedPoints backProject(const DepthImage& image, double min_depth = 0,
+OrganizedPoints backProject(const camera::DepthImage& image, double min_depth = 0,
                             double max_depth = std::numeric_limits<double>::infinity());
 
 }  // namespace omnimapper::perception

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/camera/DepthImage.h>
 #include <omnimapper/perception/ConnectedComponents.h>
-#include <omnimapper/perception/DepthImage.h>
 #include <omnimapper/perception/GrowLabels.h>
 #include <omnimapper/perception/PlanePixels.h>
 #include <omnimapper/perception/SameLabel.h>
@@ -28,7 +28,7 @@ struct PlaneComparisonOptions {
 /// is called once for an image; the comparator that decides about single pixels is inlined in it.
 struct PlaneComparison {
   /// Finds the planes of an image and which pixels lie on each; see planes/LabelledPlanes.h.
-  planes::LabelledPlanes (*find)(const DepthImage& image, const planes::InverseDepth& inverse,
+  planes::LabelledPlanes (*find)(const camera::DepthImage& image, const planes::InverseDepth& inverse,
                                  const PlaneOptions& options);
   /// Finds which pixels of a plane belong together. Pixels in no component are removed from their plane.
   Components (*connect)(const PlanePixels& pixels, const PlaneComparisonOptions& options);

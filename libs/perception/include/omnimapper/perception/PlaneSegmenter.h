@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/perception/Normals.h>
 #include <omnimapper/perception/PlaneComparison.h>
 #include <omnimapper/perception/PlaneRegion.h>
@@ -12,17 +12,19 @@
 namespace omnimapper::perception {
 
 struct PlaneOptions {
-  double noise_at_1m = DepthNoise().sigma;             ///< [m]
-  double step_at_1m = DepthNoise().step;               ///< [m]
-  double distortion_at_1m = DepthNoise().distortion;   ///< [m]
-  double correlation_area = DepthNoise().correlation;  ///< [px^2]
-  double scale_sigma = DepthNoise().scale;             ///< [-]
-  double min_depth = 0.2;                              ///< [m]
-  double max_depth = 12;                               ///< [m]
-  int min_pixels = 1000;                               ///< least number of a plane's pixels
-  int min_hole_pixels = 30;                            ///< smaller holes are not outlined
+  double noise_at_1m = camera::DepthNoise().sigma;             ///< [m]
+  double step_at_1m = camera::DepthNoise().step;               ///< [m]
+  double distortion_at_1m = camera::DepthNoise().distortion;   ///< [m]
+  double correlation_area = camera::DepthNoise().correlation;  ///< [px^2]
+  double scale_sigma = camera::DepthNoise().scale;             ///< [-]
+  double min_depth = 0.2;                                      ///< [m]
+  double max_depth = 12;                                       ///< [m]
+  int min_pixels = 1000;                                       ///< least number of a plane's pixels
+  int min_hole_pixels = 30;                                    ///< smaller holes are not outlined
 
-  DepthNoise noise() const { return {noise_at_1m, step_at_1m, distortion_at_1m, correlation_area, scale_sigma}; }
+  camera::DepthNoise noise() const {
+    return {noise_at_1m, step_at_1m, distortion_at_1m, correlation_area, scale_sigma};
+  }
   static const base::OptionTable<PlaneOptions>& table();
 };
 
@@ -39,10 +41,10 @@ class PlaneSegmenter {
   explicit PlaneSegmenter(const PlaneOptions& options, const PlaneComparisonOptions& comparison = {});
 
   /// Thread-safe. For an image without planes, such as one without pixels, the result has no planes.
-  PlaneSegmentation segment(const DepthImage& image) const { return segment(image, {}); }
+  PlaneSegmentation segment(const camera::DepthImage& image) const { return segment(image, {}); }
   /// `colours` has the colour of each pixel, row by row, black where it is not known. Throws Error(unreadable_input) if
   /// the comparison needs colours and there are not as many colours as pixels.
-  PlaneSegmentation segment(const DepthImage& image, const std::vector<obs::Rgb>& colours) const;
+  PlaneSegmentation segment(const camera::DepthImage& image, const std::vector<obs::Rgb>& colours) const;
   bool needsColours() const { return comparison_.comparison->needs_colours; }
 
  private:

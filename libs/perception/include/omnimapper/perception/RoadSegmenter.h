@@ -1,8 +1,8 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/DepthNoise.h>
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/DepthNoise.h>
 #include <omnimapper/perception/PlaneRegion.h>
 
 namespace omnimapper::perception {
@@ -10,13 +10,13 @@ namespace omnimapper::perception {
 /// The default noise is that of a stereo camera whose focal length times baseline is 60 px m, with a quarter of a pixel
 /// of noise and steps of 1/16 px in disparity.
 struct RoadOptions {
-  double noise_at_1m = 0.0042;              ///< [m]
-  double step_at_1m = 0.001;                ///< [m]
-  double correlation_area = 16;             ///< [px^2]
-  double scale_sigma = DepthNoise().scale;  ///< [-]
-  double min_depth = 0.4;                   ///< [m]
-  double max_depth = 20;                    ///< [m]
-  int window_radius = 7;                    ///< [px] radius of the square window from which a normal is estimated
+  double noise_at_1m = 0.0042;                      ///< [m]
+  double step_at_1m = 0.001;                        ///< [m]
+  double correlation_area = 16;                     ///< [px^2]
+  double scale_sigma = camera::DepthNoise().scale;  ///< [-]
+  double min_depth = 0.4;                           ///< [m]
+  double max_depth = 20;                            ///< [m]
+  int window_radius = 7;  ///< [px] radius of the square window from which a normal is estimated
   /// [rad] Largest angle between a pixel's normal and the normal of the expected ground.
   double max_tilt = 25 * base::option_text::kRadiansPerDegree;
   /// [rad] Largest angle between the normals of neighbours.
@@ -28,7 +28,7 @@ struct RoadOptions {
   int min_pixels = 200;       ///< least number of pixels of a piece of ground
   int min_hole_pixels = 100;  ///< smaller holes are not outlined
 
-  DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area, scale_sigma}; }
+  camera::DepthNoise noise() const { return {noise_at_1m, step_at_1m, 0, correlation_area, scale_sigma}; }
   static const base::OptionTable<RoadOptions>& table();
 };
 
@@ -52,7 +52,7 @@ class RoadSegmenter {
 
   /// `expected`: the ground that the wheels stand on, in the camera's optical frame (x right, y down, z forward), with
   /// the normal up. Thread-safe; the same bits on every x86-64.
-  RoadSegmentation segment(const DepthImage& image, const geometry::Plane3& expected) const;
+  RoadSegmentation segment(const camera::DepthImage& image, const geometry::Plane3& expected) const;
 
  private:
   RoadOptions options_;

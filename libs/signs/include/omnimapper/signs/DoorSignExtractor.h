@@ -55,7 +55,7 @@ class DoorSignExtractor : public perception::Extractor {
   explicit DoorSignExtractor(const DoorSignOptions& options);
   ~DoorSignExtractor() override;
 
-  /// The signs in the image of `raw` (perception::pictureOf()); no signs if there is no image.
+  /// The signs in the image of `raw` (camera::pictureOf()); no signs if there is no image.
   obs::CObservationDoorSigns::Ptr signsIn(const mrpt::obs::CObservation& raw) const;
 
   bool wants(const mrpt::obs::CObservation& raw) const override;

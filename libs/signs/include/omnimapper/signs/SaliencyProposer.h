@@ -31,7 +31,7 @@ class SaliencyProposer {
 
   /// Of several regions that overlap by at least 0.9 (intersection over union), only the first is returned. Throws as
   /// SignDetector::detect().
-  std::vector<Corners> propose(const perception::ColourImage& picture) const;
+  std::vector<Corners> propose(const camera::ColourImage& picture) const;
 
  private:
   SaliencyOptions options_;

@@ -19,7 +19,7 @@ class SalientSignDetector : public SignDetector {
   explicit SalientSignDetector(const SalientSignOptions& options);
   SalientSignDetector(const SalientSignOptions& options, SignClassifier classifier);
 
-  std::vector<SignRegion> detect(const perception::ColourImage& picture) const override;
+  std::vector<SignRegion> detect(const camera::ColourImage& picture) const override;
 
  private:
   SalientSignOptions options_;

@@ -31,7 +31,7 @@ struct HogOptions {
 using SignFeatures = std::vector<std::uint8_t>;
 
 /// The features of each region. Throws as SignDetector::detect().
-std::vector<SignFeatures> describe(const perception::ColourImage& picture, const std::vector<Corners>& regions,
+std::vector<SignFeatures> describe(const camera::ColourImage& picture, const std::vector<Corners>& regions,
                                    const HogOptions& options);
 
 /// A support vector machine with a radial basis function as kernel (thesis, equation 2), and the function that maps the
@@ -70,7 +70,7 @@ class SignClassifier {
   /// Probability that the region is a sign, 0 to 1.
   double probability(const SignFeatures& features) const;
   /// The probability of each region. Throws as SignDetector::detect().
-  std::vector<double> probabilities(const perception::ColourImage& picture, const std::vector<Corners>& regions) const;
+  std::vector<double> probabilities(const camera::ColourImage& picture, const std::vector<Corners>& regions) const;
 
  private:
   SignModel model_;

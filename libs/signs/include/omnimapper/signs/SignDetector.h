@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/img/CImage.h>
-#include <omnimapper/perception/ColourImage.h>
+#include <omnimapper/camera/ColourImage.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -25,12 +25,12 @@ class SignDetector {
   virtual ~SignDetector() = default;
   /// The signs, best score first; none in a picture without pixels. Throws Error(unreadable_input) if the description
   /// of the picture is invalid: a size below 0, rows longer than their stride, or no memory.
-  virtual std::vector<SignRegion> detect(const perception::ColourImage& picture) const = 0;
+  virtual std::vector<SignRegion> detect(const camera::ColourImage& picture) const = 0;
 };
 
 /// A view of the pixels of `picture`, which must outlive the view. Throws Error(unreadable_input) if the picture does
 /// not have 8 bits and one or three channels, and Error(missing_images) if the picture is in a file that was not loaded
 /// and is missing.
-perception::ColourImage pixelsOf(const mrpt::img::CImage& picture);
+camera::ColourImage pixelsOf(const mrpt::img::CImage& picture);
 
 }  // namespace omnimapper::signs

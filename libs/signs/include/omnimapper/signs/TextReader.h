@@ -1,6 +1,6 @@
 #pragma once
 
-#include <omnimapper/perception/ColourImage.h>
+#include <omnimapper/camera/ColourImage.h>
 
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ class TextReader {
  public:
   virtual ~TextReader() = default;
   /// `patch` is BGR, upright, and shows only the line. Thread-safe.
-  virtual Reading read(const perception::ColourImage& patch) const = 0;
+  virtual Reading read(const camera::ColourImage& patch) const = 0;
 };
 
 /// The letters that a text may consist of. Some letters outside of the alphabet are replaced by a letter of it.

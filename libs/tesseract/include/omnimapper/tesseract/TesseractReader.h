@@ -20,7 +20,7 @@ class TesseractReader : public signs::TextReader {
   explicit TesseractReader(const signs::Alphabet& alphabet);
   ~TesseractReader() override;
 
-  signs::Reading read(const perception::ColourImage& patch) const override;
+  signs::Reading read(const camera::ColourImage& patch) const override;
 
  private:
   std::unique_ptr<tesseract::TessBaseAPI> take() const;

@@ -1,10 +1,10 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <cmath>
 #include <string>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 namespace {
 
@@ -52,4 +52,4 @@ DepthImage::DepthImage(const float* metres, int width, int height, const Pinhole
   check(metres, width, height, camera);
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

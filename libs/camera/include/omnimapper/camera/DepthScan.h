@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// The scan of a range camera with a depth image; null for any other observation.
 inline const mrpt::obs::CObservation3DRangeScan* depthScanOf(const mrpt::obs::CObservation& raw) {
@@ -10,4 +10,4 @@ inline const mrpt::obs::CObservation3DRangeScan* depthScanOf(const mrpt::obs::CO
   return scan != nullptr && scan->hasRangeImage ? scan : nullptr;
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

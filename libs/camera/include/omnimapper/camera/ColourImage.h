@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// A colour picture that somebody else owns: rows from the top, `stride` bytes apart, each pixel one byte (grey) or
 /// three.
@@ -14,4 +14,4 @@ struct ColourImage {
   Order order = Order::rgb;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

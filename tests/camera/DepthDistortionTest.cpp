@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/CameraCalibration.h>
-#include <omnimapper/perception/DepthDistortion.h>
+#include <omnimapper/camera/CameraCalibration.h>
+#include <omnimapper/camera/DepthDistortion.h>
 
 #include <cmath>
 #include <limits>
 
 #include "RangeScans.h"
 
-namespace omnimapper::perception::depth_distortion_test {
+namespace omnimapper::camera::depth_distortion_test {
 namespace {
 
 // A scan of 4 x 2 pixels in mm. Its columns are at x = -3/4, -1/4, 1/4, 3/4, its rows at y = -1/2, 1/2.
@@ -145,4 +145,4 @@ TEST(DepthDistortion, ABadOneOfAnIniIsRefusedByFileAndKey) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::depth_distortion_test
+}  // namespace omnimapper::camera::depth_distortion_test

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// A pinhole camera, in pixels. The centre of the pixel in column u and row v has the image point (u, v); the ray
 /// through it is ((u - cx) / fx, (v - cy) / fy, 1) in the optical frame: x right, y down, z forward.
@@ -45,4 +45,4 @@ class DepthImage {
   Pinhole camera_;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

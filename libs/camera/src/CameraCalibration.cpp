@@ -1,10 +1,10 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/CameraCalibration.h>
+#include <omnimapper/camera/CameraCalibration.h>
 
 #include <algorithm>
 #include <array>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 namespace {
 
@@ -173,4 +173,4 @@ void CameraCalibration::applyTo(mrpt::obs::CObservation3DRangeScan& scan) const 
   }
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

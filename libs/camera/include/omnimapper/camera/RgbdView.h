@@ -1,12 +1,12 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <omnimapper/perception/ColourImage.h>
-#include <omnimapper/perception/DepthImage.h>
+#include <omnimapper/camera/ColourImage.h>
+#include <omnimapper/camera/DepthImage.h>
 
 #include <memory>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// The depth image of a range camera's observation, in its optical frame, and the colour of each of its pixels.
 class RgbdView {
@@ -28,4 +28,4 @@ class RgbdView {
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,4 +1,5 @@
-#include <omnimapper/perception/LensStraightener.h>
+#include <omnimapper/camera/LensStraightener.h>
+#include <omnimapper/camera/RangeScan.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "RangeScan.h"
-
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 using mrpt::obs::CObservation3DRangeScan;
 
@@ -140,4 +139,4 @@ CObservation3DRangeScan::ConstPtr LensStraightener::straightened(const CObservat
   return straight;
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// Errors of depth cameras that triangulate (Kinect, stereo). Their size is the same at all depths if they are stated
 /// as errors of the disparity, hence also as errors of the inverse depth 1/z. Errors of the depth itself grow with its
@@ -26,4 +26,4 @@ struct DepthNoise {
   double distortionVariance() const { return 0.25 * distortion * distortion; }
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace omnimapper::perception::scans {
+namespace omnimapper::camera::scans {
 
 constexpr int kWidth = 160, kHeight = 120;
 constexpr double kFocal = 100;   // [px]
@@ -50,4 +50,4 @@ inline void addColours(mrpt::obs::CObservation3DRangeScan& scan, int width = kWi
   scan.cameraParamsIntensity = camera(width, height, kFocal * width / kWidth);
 }
 
-}  // namespace omnimapper::perception::scans
+}  // namespace omnimapper::camera::scans

@@ -1,11 +1,10 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/LensModel.h>
-#include <omnimapper/perception/PictureView.h>
+#include <omnimapper/camera/LensModel.h>
+#include <omnimapper/camera/PictureView.h>
+#include <omnimapper/camera/RangeScan.h>
 
-#include "RangeScan.h"
-
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 namespace {
 
@@ -58,4 +57,4 @@ std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const E
   }
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,8 +1,7 @@
-#include <omnimapper/perception/RgbdView.h>
+#include <omnimapper/camera/RangeScan.h>
+#include <omnimapper/camera/RgbdView.h>
 
-#include "RangeScan.h"
-
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 struct RgbdView::Parts {
   explicit Parts(const mrpt::obs::CObservation3DRangeScan& scan) : depth(scan), colours(scan) {}
@@ -37,4 +36,4 @@ const ColourImage* RgbdView::colour() const {
   return parts_->picture.pixels == nullptr ? nullptr : &parts_->picture;
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/camera/ColourImage.h>
+#include <omnimapper/camera/DepthImage.h>
+#include <omnimapper/camera/PictureView.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/obs/Rgb.h>
-#include <omnimapper/perception/ColourImage.h>
-#include <omnimapper/perception/DepthImage.h>
-#include <omnimapper/perception/PictureView.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// Turns a vector from a camera's optical frame (x right, y down, z forward) to MRPT's frame of a range camera (x
 /// forward, y left, z up), which observations use: geometry::sensorFromOptical() without rounding errors.
@@ -115,4 +115,4 @@ class ColourSum {
   std::uint64_t red_ = 0, green_ = 0, blue_ = 0, count_ = 0;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// The corners of a marker or a sign: top left, top right, bottom right, bottom left. They are columns and rows in an
 /// image [px], or x and y of rays at z = 1 in the optical frame (x right, y down, z forward).
@@ -34,4 +34,4 @@ class LensModel {
   mrpt::img::TCamera camera_;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/CameraCalibration.h>
+#include <omnimapper/camera/CameraCalibration.h>
 
 #include <cmath>
 
-namespace omnimapper::perception::camera_calibration_test {
+namespace omnimapper::camera::camera_calibration_test {
 namespace {
 
 constexpr double kDegree = base::option_text::kRadiansPerDegree;
@@ -132,4 +132,4 @@ TEST(CameraCalibration, BadValuesAreRefusedByFileAndKey) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::camera_calibration_test
+}  // namespace omnimapper::camera::camera_calibration_test

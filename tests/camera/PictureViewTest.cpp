@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <omnimapper/perception/PictureView.h>
+#include <omnimapper/camera/PictureView.h>
 
-namespace omnimapper::perception::picture_view_test {
+namespace omnimapper::camera::picture_view_test {
 namespace {
 
 mrpt::img::TCamera camera() {
@@ -32,4 +32,4 @@ TEST(PixelOf, OfACameraWithoutCalibrationIsNone) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::picture_view_test
+}  // namespace omnimapper::camera::picture_view_test

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// The systematic error of a camera that triangulates (structured light, stereo), as a smooth function of the pixel:
 /// 1/z = 1/z_measured + s(x, y), where x runs from -1 to 1 from the left to the right edge of the image, and y from the
@@ -56,4 +56,4 @@ class DepthDistortion {
   mutable std::shared_ptr<const Table> table_;  // read and replaced atomically
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

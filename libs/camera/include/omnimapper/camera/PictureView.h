@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// The picture of an observation, and the camera that took it.
 struct Picture {
@@ -40,4 +40,4 @@ std::optional<Eigen::Vector2d> pixelOf(const mrpt::img::TCamera& camera, const E
 /// `file`, which was not loaded.
 [[noreturn]] void refuseMissing(const std::string& label, const std::string& what, const std::string& file);
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/LensStraightener.h>
+#include <omnimapper/camera/LensStraightener.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::perception::lens_straightener_test {
+namespace omnimapper::camera::lens_straightener_test {
 namespace {
 
 using mrpt::obs::CObservation3DRangeScan;
@@ -138,4 +138,4 @@ TEST(LensStraightener, ALensBeyondReasonLeavesNoDepthsRatherThanWrongOnes) {
 }
 
 }  // namespace
-}  // namespace omnimapper::perception::lens_straightener_test
+}  // namespace omnimapper::camera::lens_straightener_test

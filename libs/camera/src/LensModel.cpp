@@ -1,11 +1,11 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/LensModel.h>
+#include <omnimapper/camera/LensModel.h>
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 namespace {
 
@@ -77,4 +77,4 @@ LensModel::Projection LensModel::project(const Eigen::Vector3d& point) const {
   return projection;
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

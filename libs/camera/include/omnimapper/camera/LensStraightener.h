@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// Removes the lens distortion from the images of one range camera (radial and tangential, or fisheye, in OpenCV's and
 /// MRPT's models), so that they look as if taken by pinhole cameras with the same focal lengths and centres.
@@ -33,4 +33,4 @@ class LensStraightener {
   std::unique_ptr<Map> depth_, picture_;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

@@ -1,12 +1,11 @@
-#include "RangeScan.h"
-
 #include <omnimapper/base/Error.h>
+#include <omnimapper/camera/PictureView.h>
+#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/PictureView.h>
 
 #include <cmath>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 namespace {
 
@@ -127,4 +126,4 @@ std::optional<obs::Rgb> ColourSum::mean() const {
   return obs::Rgb{rounded(red_), rounded(green_), rounded(blue_)};
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

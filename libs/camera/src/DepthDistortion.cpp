@@ -1,12 +1,12 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/DepthDistortion.h>
+#include <omnimapper/camera/DepthDistortion.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 using mrpt::obs::CObservation3DRangeScan;
 
@@ -133,4 +133,4 @@ void DepthDistortion::applyTo(CObservation3DRangeScan& scan) const {
   scan.resizePoints3DVectors(0);
 }
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera

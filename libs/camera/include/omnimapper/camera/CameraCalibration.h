@@ -4,13 +4,13 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/perception/DepthDistortion.h>
+#include <omnimapper/camera/DepthDistortion.h>
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace omnimapper::perception {
+namespace omnimapper::camera {
 
 /// Section [calibration] of an INI file: a calibration of a depth camera, which replaces the calibration in the
 /// camera's observations. Numbers that the section does not give stay as they are in the log.
@@ -60,4 +60,4 @@ class CameraCalibration {
   bool is_set_ = false;
 };
 
-}  // namespace omnimapper::perception
+}  // namespace omnimapper::camera
