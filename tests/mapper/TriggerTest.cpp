@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/mapper/Trigger.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 
 #include <vector>
 
@@ -24,12 +24,12 @@ TriggerOptions halfMetreOr30Degrees() {
 }
 
 // A timeline with the interface that the engine uses.
-Trigger::MotionBetween asked(const matching::PoseTimeline& timeline) {
+Trigger::MotionBetween asked(const motion::PoseTimeline& timeline) {
   return [&timeline](base::Stamp begin, base::Stamp end) { return timeline.between(begin, end); };
 }
 
-matching::PoseTimeline even(double seconds, const CPose3D& motion_per_second) {
-  matching::PoseTimeline timeline;
+motion::PoseTimeline even(double seconds, const CPose3D& motion_per_second) {
+  motion::PoseTimeline timeline;
   for (double t = 0; t < seconds; t += 1) {
     timeline.insert(at(t), at(t + 1), {motion_per_second, Eigen::Matrix<double, 6, 6>::Zero()});
   }
@@ -58,7 +58,7 @@ TEST(Trigger, FiresAtTheAngle) {
 }
 
 TEST(Trigger, CountsTheDistanceFromTheLastKeyFrameNotTheDistanceTravelled) {
-  matching::PoseTimeline timeline;  // to and fro by 0.3 m
+  motion::PoseTimeline timeline;  // to and fro by 0.3 m
   for (int i = 0; i < 10; ++i) {
     timeline.insert(at(i), at(i + 1),
                     {CPose3D(i % 2 ? -0.3 : 0.3, 0, 0, 0, 0, 0), Eigen::Matrix<double, 6, 6>::Zero()});
@@ -99,9 +99,9 @@ TEST(Trigger, EachLabelHasItsOwnState) {
 }
 
 TEST(Trigger, WhereNoOdometryMeasuresTheMotionTimeFiresUntilItIsBack) {
-  matching::PoseTimeline timeline;  // no motion between 2 s and 6 s
-  timeline.insert(at(0), at(2), matching::identityMotion());
-  timeline.insert(at(6), at(20), matching::identityMotion());
+  motion::PoseTimeline timeline;  // no motion between 2 s and 6 s
+  timeline.insert(at(0), at(2), motion::identityMotion());
+  timeline.insert(at(6), at(20), motion::identityMotion());
   Trigger trigger(halfMetreOr30Degrees());
   const auto fired = firings(trigger, 0.5, 30, asked(timeline));
   // From 2.5 s on a part of the span since the key frame at 0 s is uncovered, and more than a second has passed; after
@@ -120,7 +120,7 @@ TEST(Trigger, AsksForEachStretchOfMotionOnce) {
     asked_until = end;
     asked_seconds += base::secondsBetween(begin, end);
     ++calls;
-    return matching::identityMotion();
+    return motion::identityMotion();
   };
   constexpr int kCount = 10000;
   for (int i = 0; i < kCount; ++i) trigger.fires("laser", at(0.1 * i), motion);

@@ -5,7 +5,7 @@
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/WheelOdometry.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
 
@@ -80,7 +80,7 @@ class Metres {
   }
 
   std::map<base::Stamp, Eigen::Vector3d> given_;  // of the base [m]
-  matching::WheelOdometry wheels_;
+  motion::WheelOdometry wheels_;
 };
 
 [[noreturn]] void refuse(const CalibrationRequest& request, const std::string& why,

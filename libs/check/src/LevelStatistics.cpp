@@ -55,16 +55,16 @@ const LevelStatistics::Pose* LevelStatistics::poseAt(const std::vector<Pose>& po
   return std::abs(base::secondsBetween(best->stamp, stamp)) < kNear ? &*best : nullptr;
 }
 
-LevelFacts LevelStatistics::byImu(const std::string& label, const matching::SteadySpans& spans,
+LevelFacts LevelStatistics::byImu(const std::string& label, const motion::SteadySpans& spans,
                                   const std::vector<Pose>* poses) const {
-  std::vector<matching::RotatedSpan> rotated;
+  std::vector<motion::RotatedSpan> rotated;
   for (const auto& span : spans.all()) {
     const Pose* pose = poses ? poseAt(*poses, span.stamp) : nullptr;
     if (poses && !pose) continue;
     rotated.push_back(
         {pose ? geometry::fromMrpt(pose->reference_from_base).rotation : Eigen::Quaterniond::Identity(), span});
   }
-  const auto gravity = matching::gravityOf(rotated);
+  const auto gravity = motion::gravityOf(rotated);
   LevelFacts facts;
   facts.by = "the accelerometer " + check::quoted(label);
   facts.reason = gravity.reason;

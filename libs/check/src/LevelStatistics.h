@@ -2,7 +2,7 @@
 
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/check/LogFacts.h>
-#include <omnimapper/matching/Gravity.h>
+#include <omnimapper/motion/Gravity.h>
 
 #include <map>
 #include <string>
@@ -26,11 +26,11 @@ class LevelStatistics {
     mrpt::poses::CPose3D reference_from_base;
   };
   const Pose* poseAt(const std::vector<Pose>& poses, base::Stamp stamp) const;
-  LevelFacts byImu(const std::string& label, const matching::SteadySpans& spans, const std::vector<Pose>* poses) const;
+  LevelFacts byImu(const std::string& label, const motion::SteadySpans& spans, const std::vector<Pose>* poses) const;
   LevelFacts byPlanes(const std::vector<SampledImage>& images, const std::vector<Pose>* poses) const;
 
-  std::map<std::string, matching::SteadySpans> imus_;  // by label
-  std::map<std::string, std::vector<Pose>> poses_;     // by label
+  std::map<std::string, motion::SteadySpans> imus_;  // by label
+  std::map<std::string, std::vector<Pose>> poses_;   // by label
 };
 
 }  // namespace omnimapper::check

@@ -2,7 +2,7 @@
 
 #include <mrpt/poses/CPose2D.h>
 #include <omnimapper/check/LogFacts.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/WheelOdometry.h>
 
 #include <optional>
 #include <string>
@@ -31,7 +31,7 @@ class OdometryStatistics {
   std::optional<mrpt::poses::CPose2D> previous_;
   base::Stamp previous_stamp_;
   std::vector<base::Stamp> stamps_;
-  matching::WheelOdometry source_{matching::WheelOdometryOptions()};
+  motion::WheelOdometry source_{motion::WheelOdometryOptions()};
 };
 
 /// Compares two odometries over spans of a second or more that begin and end with readings of the one that has fewer;

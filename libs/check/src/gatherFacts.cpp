@@ -4,7 +4,7 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/geometry/Rotation3.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/matching/Gyroscope.h>
+#include <omnimapper/motion/Gyroscope.h>
 
 #include <algorithm>
 #include <cmath>
@@ -157,7 +157,7 @@ class FactGatherer::Statistics {
   }
 
   struct Gyroscope {
-    matching::Gyroscope sensor{{}};
+    motion::Gyroscope sensor{{}};
     std::vector<base::Stamp> stamps;
 
     Headings headings() const {

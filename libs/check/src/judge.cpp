@@ -2,7 +2,7 @@
 #include <omnimapper/check/fittingInis.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/WheelOdometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -256,7 +256,7 @@ class Judge {
     if (motion.mounting && std::abs(motion.mounting->scale - 1) > 0.05) {
       add(Weight::warning, who + "measures " + fixed(motion.mounting->scale, 2) + " m where the scans measure 1 m");
     }
-    const matching::WheelOdometryOptions defaults;
+    const motion::WheelOdometryOptions defaults;
     const auto noise = [&](const std::optional<double>& measured, double value, const std::string& what, int decimals,
                            double unit) {
       if (!measured || *measured < 2 * value) return;

@@ -5,7 +5,7 @@
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/WheelOdometry.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 
 #include <algorithm>
@@ -276,7 +276,7 @@ class Proposal {
     }
     // The noise hardly matters if this odometry only fills gaps of the laser's odometry.
     if (motions.empty() || (plugins_.odometry_is_fallback && laser_odometry_ && !lasers_.empty())) return;
-    const matching::WheelOdometryOptions defaults;
+    const motion::WheelOdometryOptions defaults;
     const auto propose = [&](const std::string& key, const std::optional<double>& measured, double value, double unit) {
       constexpr double kALot = 2;
       if (measured && *measured > kALot * value) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
-#include <omnimapper/matching/Gravity.h>
+#include <omnimapper/motion/Gravity.h>
 
 #include <map>
 #include <string>
@@ -14,13 +14,13 @@ class LevelEvidence {
   /// Adds an observation, which must have its final sensor pose.
   void add(const mrpt::obs::CObservation& observation);
   /// The steady spans of each inertial sensor, by label.
-  const std::map<std::string, matching::SteadySpans>& imus() const { return imus_; }
+  const std::map<std::string, motion::SteadySpans>& imus() const { return imus_; }
   /// Why the robot is assumed to run on wheels: the name of its wheel odometry or of a laser that scans a level plane;
   /// empty if it has neither.
   const std::string& levelBase() const { return level_base_; }
 
  private:
-  std::map<std::string, matching::SteadySpans> imus_;
+  std::map<std::string, motion::SteadySpans> imus_;
   std::string level_base_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <mrpt/poses/CPose3D.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
 #include <map>
@@ -45,7 +45,7 @@ class GivenMotionPlugin : public mapper::PosePlugin {
   Poses poses_;                       // reference_from_base
   bool forgotten_ = false;            // true: poses before the first of poses_ were dropped
   std::optional<Span> news_;
-  matching::PoseTimeline timeline_;
+  motion::PoseTimeline timeline_;
 };
 
 class GivenMotionPluginFactory : public mapper::PosePluginFactory {

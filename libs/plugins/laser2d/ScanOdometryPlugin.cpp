@@ -135,7 +135,7 @@ void ScanOdometryPlugin::processUntil(base::Stamp stamp) {
   }
   for (auto& odometry : odometries_) {
     followTurns(odometry);
-    const auto kept = base::durationFromSeconds(matching::OdometryClock::kMost);
+    const auto kept = base::durationFromSeconds(motion::OdometryClock::kMost);
     odometry.source.forgetBefore(last_.value_or(stamp) - kept);
   }
 }

@@ -2,14 +2,14 @@
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <omnimapper/matching/OdometryCalibration.h>
-#include <omnimapper/matching/OdometryClock.h>
-#include <omnimapper/matching/OdometryErrors.h>
-#include <omnimapper/matching/PoseTimeline.h>
 #include <omnimapper/matching/ScanMatcherOptions.h>
 #include <omnimapper/matching/ScanTracker.h>
 #include <omnimapper/matching/SpanContradiction.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/OdometryCalibration.h>
+#include <omnimapper/motion/OdometryClock.h>
+#include <omnimapper/motion/OdometryErrors.h>
+#include <omnimapper/motion/PoseTimeline.h>
+#include <omnimapper/motion/WheelOdometry.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
@@ -88,13 +88,13 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
     std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const;
 
     std::string label;
-    matching::WheelOdometry source;
+    motion::WheelOdometry source;
     std::size_t readings = 0;  // that were taken
     base::Stamp begun;         // stamp of the first of them
     Predictor predictor;
-    matching::OdometryCalibration calibration;
-    matching::OdometryErrors errors;
-    matching::OdometryClock clock;
+    motion::OdometryCalibration calibration;
+    motion::OdometryErrors errors;
+    motion::OdometryClock clock;
     double learned_at = 0;                        // [s] offset of the clock at which the errors were learned
     std::optional<mrpt::math::TPose2D> measured;  // motion to the next scan, before it is corrected
     mrpt::math::TPose2D unseen;                   // motion up to the last scan since the ranges of the laser changed
@@ -180,7 +180,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   mrpt::math::TPose2D velocity_;  // [m/s] [rad/s] in the base
   Predictor by_velocity_;
   double noise_;  // [m] deviation of points from their walls, in recent matches
-  matching::PoseTimeline timeline_;
+  motion::PoseTimeline timeline_;
 };
 
 class ScanOdometryPluginFactory : public mapper::PosePluginFactory {

@@ -23,7 +23,7 @@ std::optional<mapper::RelativeMotion> ScanOdometryPlugin::Odometry::between(base
 // Gives the clock of an odometry the turns that have arrived. Between rare readings the turns are not known: an offset
 // would only choose how they are interpolated.
 void ScanOdometryPlugin::followTurns(Odometry& odometry) {
-  constexpr double kStep = matching::OdometryClock::kStep;
+  constexpr double kStep = motion::OdometryClock::kStep;
   constexpr double kRare = 0.25;  // [s] between readings
   const auto covered = odometry.source.coveredUntil();
   if (!covered) return;
@@ -45,13 +45,13 @@ void ScanOdometryPlugin::addOdometry(const mrpt::obs::CObservation& observation)
   if (!options_.odometry_label.empty() && label != options_.odometry_label) return;
   for (auto& known : odometries_) {
     if (known.label != label) continue;
-    known.readings += known.source.add(observation) == matching::WheelOdometry::Taken::taken;
+    known.readings += known.source.add(observation) == motion::WheelOdometry::Taken::taken;
     return;
   }
-  matching::WheelOdometryOptions odometry;
+  motion::WheelOdometryOptions odometry;
   odometry.label = label;
-  matching::WheelOdometry source(odometry);
-  if (source.add(observation) != matching::WheelOdometry::Taken::not_mine)
+  motion::WheelOdometry source(odometry);
+  if (source.add(observation) != motion::WheelOdometry::Taken::not_mine)
     odometries_.push_back({label, std::move(source), 1, observation.timestamp, {}, {}, {}, {}, 0, {}, {}});
 }
 

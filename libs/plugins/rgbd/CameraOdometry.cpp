@@ -67,8 +67,8 @@ double unconstrainedVariance(base::Stamp begin, base::Stamp end) {
   return kUsualSpeed * kUsualSpeed * kWhile * base::secondsBetween(begin, end);
 }
 
-matching::WheelOdometryOptions wheelsOf(const std::string& label) {
-  matching::WheelOdometryOptions wheels;
+motion::WheelOdometryOptions wheelsOf(const std::string& label) {
+  motion::WheelOdometryOptions wheels;
   wheels.label = label;
   return wheels;
 }
@@ -147,8 +147,8 @@ std::optional<CameraOdometry::BaseMotion> CameraOdometry::measuredBetween(base::
   return motion;
 }
 
-std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
-                                                                      base::Stamp stamp) const {
+std::optional<motion::PredictedMotion> CameraOdometry::predictionOf(const geometry::Se3& base_from_camera,
+                                                                    base::Stamp stamp) const {
   constexpr double kStampError = 0.02;                 // [s] between the clocks of wheels and images
   constexpr double kPosition = 0.002, kAngle = 0.002;  // [m] [rad] as a base also pitches and sways
   const auto measured = last_ ? measuredBetween(*last_, stamp) : std::nullopt;
@@ -162,8 +162,8 @@ std::optional<matching::PredictedMotion> CameraOdometry::predictionOf(const geom
   covariance.diagonal().tail<3>().array() += kAngle * kAngle;
   const geometry::Se3 camera_from_base = inverse(base_from_camera);
   const geometry::Matrix6d ad = adjoint(camera_from_base);
-  return matching::PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose(),
-                                   measured->only_turn};
+  return motion::PredictedMotion{camera_from_base * motion * base_from_camera, ad * covariance * ad.transpose(),
+                                 measured->only_turn};
 }
 
 // Estimates the gyroscope's bias over a second or so, because images share the error of the key frame they were
@@ -286,7 +286,7 @@ bool CameraOdometry::bridgeByWheels(base::Stamp stamp) {
 // frame counts once for all images that were registered with it.
 mapper::RelativeMotion CameraOdometry::motionOf(const ImageMotion& tracked, base::Stamp stamp,
                                                 const geometry::Se3& base_from_camera,
-                                                const std::optional<matching::PredictedMotion>& prediction) const {
+                                                const std::optional<motion::PredictedMotion>& prediction) const {
   const geometry::Se3& moved = tracked.last_from_camera;
   const double travel = moved.translation.norm(), turn = geometry::logSo3(moved.rotation).norm();
   const auto variance = [&](double at_rest, double per_root_m, double per_root_turn) {

@@ -5,10 +5,10 @@
 #include <omnimapper/camera/LensStraightener.h>
 #include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Se3.h>
-#include <omnimapper/matching/Gyroscope.h>
-#include <omnimapper/matching/PoseTimeline.h>
-#include <omnimapper/matching/PredictedMotion.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/Gyroscope.h>
+#include <omnimapper/motion/PoseTimeline.h>
+#include <omnimapper/motion/PredictedMotion.h>
+#include <omnimapper/motion/WheelOdometry.h>
 #include <omnimapper/plugin/PosePlugin.h>
 
 #include <cstddef>
@@ -26,8 +26,8 @@ struct CameraOdometryOptions {
   std::string label;           ///< of the camera; empty: the first one observed
   std::string odometry_label;  ///< of the wheel odometry used for prediction; empty: the first one observed
   std::string imu_label;       ///< of the gyroscope used for prediction; empty: the first one observed
-  double turn_rate_noise = matching::GyroscopeOptions{}.noise_per_root_s;  ///< [rad / sqrt(s)]
-  double turn_rate_bias = matching::GyroscopeOptions{}.bias_sigma;         ///< [rad/s]
+  double turn_rate_noise = motion::GyroscopeOptions{}.noise_per_root_s;  ///< [rad / sqrt(s)]
+  double turn_rate_bias = motion::GyroscopeOptions{}.bias_sigma;         ///< [rad/s]
   double max_speed = 1.5;                                            ///< [m/s] of a camera; faster motions are errors
   double position_noise = 0.001;                                     ///< [m] between two images
   double angle_noise = 0.05 * base::option_text::kRadiansPerDegree;  ///< [rad] between two images
@@ -88,7 +88,7 @@ class CameraOdometry : public mapper::PosePlugin {
   /// Whether track() looks for earlier views.
   virtual bool seeksReturns() const { return true; }
   virtual ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
-                            const std::optional<matching::PredictedMotion>& prediction) = 0;
+                            const std::optional<motion::PredictedMotion>& prediction) = 0;
   /// Motion of the base by wheels and gyroscope; the rotation is the gyroscope's if there is one.
   struct BaseMotion {
     geometry::Se3 begin_from_end;
@@ -102,9 +102,9 @@ class CameraOdometry : public mapper::PosePlugin {
   void follow(const mrpt::obs::CObservation3DRangeScan::ConstPtr& image);
   std::optional<mapper::RelativeMotion> wheelsBetween(base::Stamp begin, base::Stamp end) const;
   bool bridgeByWheels(base::Stamp stamp);
-  std::optional<matching::PredictedMotion> predictionOf(const geometry::Se3& base_from_camera, base::Stamp stamp) const;
+  std::optional<motion::PredictedMotion> predictionOf(const geometry::Se3& base_from_camera, base::Stamp stamp) const;
   mapper::RelativeMotion motionOf(const ImageMotion& tracked, base::Stamp stamp, const geometry::Se3& base_from_camera,
-                                  const std::optional<matching::PredictedMotion>& prediction) const;
+                                  const std::optional<motion::PredictedMotion>& prediction) const;
 
   CameraOdometryOptions options_;
   std::string what_;
@@ -112,8 +112,8 @@ class CameraOdometry : public mapper::PosePlugin {
   std::map<base::Stamp, mrpt::obs::CObservation3DRangeScan::ConstPtr> queue_;  // not yet processed
   std::optional<base::Stamp> reached_, begun_;  // stamps of the last processed and the first image
   std::optional<base::Stamp> last_;             // stamp of the last tracked image
-  matching::WheelOdometry wheels_;
-  matching::Gyroscope gyroscope_;
+  motion::WheelOdometry wheels_;
+  motion::Gyroscope gyroscope_;
   std::optional<base::Stamp> turn_begun_;  // since then all images were tracked in all directions
   Eigen::Quaterniond turned_;              // rotation of the base since turn_begun_
   camera::LensStraightener lens_;
@@ -124,7 +124,7 @@ class CameraOdometry : public mapper::PosePlugin {
   bool has_begun_ = false, is_lost_ = false;
   double first_gap_ = 0;        // [s] after the first image
   std::string why_unreadable_;  // of the first unreadable image
-  matching::PoseTimeline timeline_;
+  motion::PoseTimeline timeline_;
 };
 
 }  // namespace omnimapper::plugins

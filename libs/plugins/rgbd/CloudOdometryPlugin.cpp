@@ -43,7 +43,7 @@ CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
 }
 
 ImageMotion CloudOdometryPlugin::track(const camera::RgbdView& view, base::Stamp stamp,
-                                       const std::optional<matching::PredictedMotion>& prediction) {
+                                       const std::optional<motion::PredictedMotion>& prediction) {
   using How = matching::CloudTracker::Tracked::How;
   auto cloud = std::make_shared<const matching::MatchCloud>(matching::cloudOf(view.depth(), view.colour(), source_));
   const auto tracked = tracker_.track(stamp, std::move(cloud), prediction);

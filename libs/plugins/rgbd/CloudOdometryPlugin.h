@@ -29,7 +29,7 @@ class CloudOdometryPlugin : public CameraOdometry {
  private:
   bool seeksReturns() const override { return false; }
   ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
-                    const std::optional<matching::PredictedMotion>& prediction) override;
+                    const std::optional<motion::PredictedMotion>& prediction) override;
 
   matching::CloudSourceOptions source_;
   matching::CloudTracker tracker_;

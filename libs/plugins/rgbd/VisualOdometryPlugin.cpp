@@ -13,7 +13,7 @@ VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
     : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching, features) {}
 
 ImageMotion VisualOdometryPlugin::track(const camera::RgbdView& view, base::Stamp stamp,
-                                        const std::optional<matching::PredictedMotion>& prediction) {
+                                        const std::optional<motion::PredictedMotion>& prediction) {
   using How = matching::RgbdTracker::Tracked::How;
   const auto tracked = tracker_.track(stamp, matching::RgbdPyramid(view.depth(), view.colour()), prediction);
   ImageMotion motion;

@@ -18,7 +18,7 @@ class VisualOdometryPlugin : public CameraOdometry {
 
  private:
   ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
-                    const std::optional<matching::PredictedMotion>& prediction) override;
+                    const std::optional<motion::PredictedMotion>& prediction) override;
 
   matching::RgbdTracker tracker_;
 };

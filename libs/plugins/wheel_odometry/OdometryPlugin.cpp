@@ -16,7 +16,7 @@ const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
 }
 
 OdometryPlugin::Taken OdometryPlugin::add(const mrpt::obs::CObservation::ConstPtr& observation) {
-  using Of = matching::WheelOdometry::Taken;
+  using Of = motion::WheelOdometry::Taken;
   switch (odometry_.add(*observation)) {
     case Of::taken:
       return Taken::taken;

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/WheelOdometry.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
 namespace omnimapper::plugins {
 
-struct OdometryOptions : matching::WheelOdometryOptions {
+struct OdometryOptions : motion::WheelOdometryOptions {
   bool fallback = false;  ///< used only where no other source measures the motion
 
   static const base::OptionTable<OdometryOptions>& table();
 };
 
-/// matching::WheelOdometry as a continuous pose source.
+/// motion::WheelOdometry as a continuous pose source.
 class OdometryPlugin : public mapper::PosePlugin {
  public:
   explicit OdometryPlugin(const OdometryOptions& options) : odometry_(options), is_fallback_(options.fallback) {}
@@ -27,7 +27,7 @@ class OdometryPlugin : public mapper::PosePlugin {
   void forgetBefore(base::Stamp stamp) override { odometry_.forgetBefore(stamp); }
 
  private:
-  matching::WheelOdometry odometry_;
+  motion::WheelOdometry odometry_;
   bool is_fallback_;
 };
 

@@ -287,7 +287,7 @@ TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {
   const auto whole = plugin.between(at(2.03), at(5.56)), first = plugin.between(at(2.03), at(4.4)),
              second = plugin.between(at(4.4), at(5.56));
   ASSERT_TRUE(whole && first && second);
-  const auto sum = matching::compose(*first, *second);
+  const auto sum = motion::compose(*first, *second);
   EXPECT_LT((sum.begin_from_end - whole->begin_from_end).norm(), 1e-9);
   EXPECT_LT((sum.covariance - whole->covariance).norm(), 1e-6 * whole->covariance.norm());
   const auto error = CPose2D(whole->begin_from_end) - (log.truthAt(at(5.56)) - log.truthAt(at(2.03)));

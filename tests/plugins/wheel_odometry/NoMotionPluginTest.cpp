@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 
 #include "wheel_odometry/NoMotionPlugin.h"
 
@@ -29,7 +29,7 @@ TEST(NoMotionPlugin, IsLessCertainOfRestAsTimePasses) {
 
 TEST(NoMotionPlugin, SpansAddUp) {
   const auto whole = plugin().between(at(0), at(5));
-  const auto sum = matching::compose(*plugin().between(at(0), at(2)), *plugin().between(at(2), at(5)));
+  const auto sum = motion::compose(*plugin().between(at(0), at(2)), *plugin().between(at(2), at(5)));
   EXPECT_LT((whole->covariance - sum.covariance).norm(), 1e-12);
 }
 

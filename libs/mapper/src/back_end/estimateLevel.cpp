@@ -71,11 +71,11 @@ Level byGravity(const map::Map& map, const LevelEvidence& evidence) {
                    trajectory.end());
   const Rotations rotations(std::move(trajectory));
   for (const auto& [label, spans] : evidence.imus()) {
-    std::vector<matching::RotatedSpan> rotated;
+    std::vector<motion::RotatedSpan> rotated;
     for (const auto& span : spans.all()) {
       if (const auto map_from_base = rotations.at(span.stamp)) rotated.push_back({*map_from_base, span});
     }
-    const auto gravity = matching::gravityOf(rotated);
+    const auto gravity = motion::gravityOf(rotated);
     const std::string reason = "'" + label + "': " + gravity.reason;
     if (!gravity.up) {
       if (!level.isKnown()) level.reason += (level.reason.empty() ? "" : "; ") + reason;

@@ -58,7 +58,8 @@ CloudMatch CloudTracker::matchFrom(const MatchCloud& target, const MatchCloud& c
   return still;
 }
 
-std::optional<Se3> CloudTracker::motionTo(double seconds, const std::optional<PredictedMotion>& prediction) const {
+std::optional<Se3> CloudTracker::motionTo(double seconds,
+                                          const std::optional<motion::PredictedMotion>& prediction) const {
   if (prediction && !prediction->only_turn) return prediction->last_from_camera;
   if (!prediction && velocity_.isZero()) return std::nullopt;
   Se3 motion = geometry::plus(Se3{}, seconds * velocity_);
@@ -67,7 +68,7 @@ std::optional<Se3> CloudTracker::motionTo(double seconds, const std::optional<Pr
 }
 
 CloudTracker::Tracked CloudTracker::track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
-                                          const std::optional<PredictedMotion>& prediction) {
+                                          const std::optional<motion::PredictedMotion>& prediction) {
   if (!last_) return begin(stamp, std::move(cloud));
   const double seconds = base::secondsBetween(last_->stamp, stamp);
   Tracked tracked;

@@ -292,7 +292,7 @@ RgbdTracker::Expected RgbdTracker::expectedOfLate(double seconds) const {
 }
 
 RgbdTracker::Expected RgbdTracker::expectedAfter(double seconds,
-                                                 const std::optional<PredictedMotion>& prediction) const {
+                                                 const std::optional<motion::PredictedMotion>& prediction) const {
   Expected expected = expectedOfLate(seconds);
   if (!prediction) return expected;
   constexpr double kSigmas = 5;
@@ -322,7 +322,7 @@ RgbdTracker::Tracked RgbdTracker::lostAt(base::Stamp last) const {
 }
 
 RgbdTracker::Tracked RgbdTracker::track(base::Stamp stamp, const RgbdPyramid& pyramid,
-                                        const std::optional<PredictedMotion>& prediction) {
+                                        const std::optional<motion::PredictedMotion>& prediction) {
   const bool can_begin = pyramid.medianDepth().has_value();
   const Image image{pyramid};
   if (!last_ && can_begin) return begin(stamp, image, Se3{});

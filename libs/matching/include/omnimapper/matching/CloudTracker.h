@@ -3,7 +3,7 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/matching/CloudMatcher.h>
-#include <omnimapper/matching/PredictedMotion.h>
+#include <omnimapper/motion/PredictedMotion.h>
 
 #include <memory>
 #include <optional>
@@ -42,7 +42,7 @@ class CloudTracker {
   /// prediction is only a turn, this extrapolation replaces its translation. Directions that the image leaves open are
   /// taken from the prediction.
   Tracked track(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud,
-                const std::optional<PredictedMotion>& prediction = {});
+                const std::optional<motion::PredictedMotion>& prediction = {});
 
  private:
   /// An image, and its pose in the frame of the key frame.
@@ -54,7 +54,7 @@ class CloudTracker {
     base::Stamp constrained;
   };
   Tracked begin(base::Stamp stamp, std::shared_ptr<const MatchCloud> cloud);
-  std::optional<geometry::Se3> motionTo(double seconds, const std::optional<PredictedMotion>& prediction) const;
+  std::optional<geometry::Se3> motionTo(double seconds, const std::optional<motion::PredictedMotion>& prediction) const;
   /// Matches from the predicted pose and, if that does not fit, from the last pose.
   CloudMatch matchFrom(const MatchCloud& target, const MatchCloud& cloud, const geometry::Se3& target_from_last,
                        const std::optional<geometry::Se3>& predicted) const;

@@ -4,7 +4,7 @@
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/matching/DenseMatcher.h>
 #include <omnimapper/matching/FeatureMatcher.h>
-#include <omnimapper/matching/PredictedMotion.h>
+#include <omnimapper/motion/PredictedMotion.h>
 
 #include <cstddef>
 #include <deque>
@@ -61,7 +61,8 @@ class RgbdTracker {
   };
   /// Tracks the next image; stamps must rise. Without a prediction, the last velocity is extrapolated. If the
   /// prediction is only a turn, this extrapolation replaces its translation.
-  Tracked track(base::Stamp stamp, const RgbdPyramid& image, const std::optional<PredictedMotion>& prediction = {});
+  Tracked track(base::Stamp stamp, const RgbdPyramid& image,
+                const std::optional<motion::PredictedMotion>& prediction = {});
 
   std::size_t keyFrames() const { return keys_.size(); }
 
@@ -103,7 +104,7 @@ class RgbdTracker {
                                      std::optional<std::size_t> but) const;
   DenseMatch match(std::size_t key, const Image& image, const geometry::Se3& map_from_camera,
                    const geometry::Matrix6d& information, const CameraMotion& motion) const;
-  Expected expectedAfter(double seconds, const std::optional<PredictedMotion>& prediction) const;
+  Expected expectedAfter(double seconds, const std::optional<motion::PredictedMotion>& prediction) const;
   /// The expected pose if the recent velocity goes on and fades.
   Expected expectedOfLate(double seconds) const;
   std::optional<Found> follow(const Image& image, const Expected& expected, double seconds) const;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <omnimapper/matching/RelativeMotion.h>
+#include <omnimapper/motion/RelativeMotion.h>
 
 namespace omnimapper::mapper {
 
-using matching::RelativeMotion;
+using motion::RelativeMotion;
 
 }  // namespace omnimapper::mapper

@@ -1,12 +1,12 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/matching/OdometryCalibration.h>
+#include <omnimapper/motion/OdometryCalibration.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 namespace {
 
@@ -59,4 +59,4 @@ mrpt::math::TPose2D OdometryCalibration::applied(const mrpt::math::TPose2D& meas
           measured.phi + turnErrors().dot(Eigen::Vector2d(measured.x, measured.phi))};
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// Systematic errors of wheel odometry, learned from motions that are known better. The odometry measures the distance
 /// travelled too long or too short, its heading drifts with the distance travelled (wheels of different size), and it
@@ -30,4 +30,4 @@ class OdometryCalibration {
   Eigen::Vector2d turn_sum_ = Eigen::Vector2d::Zero();
 };
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

@@ -3,14 +3,14 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 struct GyroscopeOptions {
   std::string label;                                                     ///< empty: the first gyroscope's label
@@ -62,4 +62,4 @@ class Gyroscope {
   std::optional<base::Stamp> learnt_;  // end of the last turn that was learnt from
 };
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

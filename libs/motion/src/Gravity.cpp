@@ -1,11 +1,11 @@
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/matching/Gravity.h>
+#include <omnimapper/motion/Gravity.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 namespace {
 
@@ -190,4 +190,4 @@ Gravity gravityOf(const std::vector<RotatedSpan>& spans) {
   return gravity;
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

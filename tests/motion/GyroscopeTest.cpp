@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Angle.h>
 #include <omnimapper/geometry/Rotation3.h>
-#include <omnimapper/matching/Gyroscope.h>
+#include <omnimapper/motion/Gyroscope.h>
 
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::matching::gyroscope_test {
+namespace omnimapper::motion::gyroscope_test {
 namespace {
 
 using mrpt::obs::CObservationIMU;
@@ -113,4 +113,4 @@ TEST(Gyroscope, OtherSensorsLateReadingsAndNonsenseAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::gyroscope_test
+}  // namespace omnimapper::motion::gyroscope_test

@@ -1,13 +1,13 @@
 // Gravity from known accelerations.
 #include <gtest/gtest.h>
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/matching/Gravity.h>
+#include <omnimapper/motion/Gravity.h>
 
 #include <cmath>
 #include <functional>
 #include <limits>
 
-namespace omnimapper::matching::gravity_test {
+namespace omnimapper::motion::gravity_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -122,4 +122,4 @@ TEST(Gravity, ReadingsThatAreNoNumbersAndFastTurnsAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::gravity_test
+}  // namespace omnimapper::motion::gravity_test

@@ -2,7 +2,7 @@
 
 #include <omnimapper/geometry/Se3.h>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// The motion of a camera since the last tracked image, as wheels or a gyroscope measured it, in optical frames.
 struct PredictedMotion {
@@ -13,4 +13,4 @@ struct PredictedMotion {
   bool only_turn = false;
 };
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

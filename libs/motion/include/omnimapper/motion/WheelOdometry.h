@@ -2,14 +2,14 @@
 
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 
 #include <map>
 #include <optional>
 #include <string>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 struct WheelOdometryOptions {
   std::string label;                                                         ///< empty: the first odometry's label
@@ -96,4 +96,4 @@ base::OptionTable<Options>& WheelOdometryOptions::declareIn(base::OptionTable<Op
             "..._noise_per_root_... keys of this section.");
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

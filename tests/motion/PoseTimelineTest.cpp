@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <Eigen/Eigenvalues>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace omnimapper::matching::pose_timeline_test {
+namespace omnimapper::motion::pose_timeline_test {
 namespace {
 
 using mrpt::poses::CPose3D;
@@ -154,4 +154,4 @@ TEST(PoseTimeline, ForgettingLeavesLaterSpansAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::pose_timeline_test
+}  // namespace omnimapper::motion::pose_timeline_test

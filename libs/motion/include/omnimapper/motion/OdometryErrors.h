@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// Random errors of an odometry, learned where walls determined the motion: over spans of about a metre or a radian, in
 /// which the errors of the odometry add up while those of the matches do not, and from scan to scan, in which errors of
@@ -28,4 +28,4 @@ class OdometryErrors {
   double scan_position_ = 0, scan_yaw_ = 0;  // [m2] [rad2] from one scan to the next
 };
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

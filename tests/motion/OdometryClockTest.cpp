@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <omnimapper/matching/OdometryClock.h>
+#include <omnimapper/motion/OdometryClock.h>
 
 #include <cmath>
 #include <random>
 
-namespace omnimapper::matching::odometry_clock_test {
+namespace omnimapper::motion::odometry_clock_test {
 namespace {
 
 // The heading of a base that turns back and forth, each time a little faster, and rests in between.
@@ -70,4 +70,4 @@ TEST(OdometryClock, AGapInTheOdometryIsNotBridged) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::odometry_clock_test
+}  // namespace omnimapper::motion::odometry_clock_test

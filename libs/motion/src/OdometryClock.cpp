@@ -1,13 +1,13 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
-#include <omnimapper/matching/OdometryClock.h>
+#include <omnimapper/motion/OdometryClock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 namespace {
 constexpr std::size_t kKept = 400;  // headings, 20 s
@@ -85,4 +85,4 @@ void OdometryClock::choose() {
   if (std::abs(offset) >= kLeast) offset_ = offset;
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

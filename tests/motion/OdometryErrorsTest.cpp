@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <omnimapper/matching/OdometryErrors.h>
+#include <omnimapper/motion/OdometryErrors.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
 
-namespace omnimapper::matching::odometry_errors_test {
+namespace omnimapper::motion::odometry_errors_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -59,4 +59,4 @@ TEST(OdometryErrors, MotionsThatAreNotFiniteTeachNothing) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::odometry_errors_test
+}  // namespace omnimapper::motion::odometry_errors_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// The mean specific force over half a second in which the base hardly turned.
 struct SteadySpan {
@@ -63,4 +63,4 @@ struct Gravity {
 /// accelerations are not those of gravity.
 Gravity gravityOf(const std::vector<RotatedSpan>& spans);
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

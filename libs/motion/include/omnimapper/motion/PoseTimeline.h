@@ -1,12 +1,12 @@
 #pragma once
 
 #include <omnimapper/base/Stamp.h>
-#include <omnimapper/matching/RelativeMotion.h>
+#include <omnimapper/motion/RelativeMotion.h>
 
 #include <deque>
 #include <optional>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// The motion of the base as one continuous source measured it, in spans of time that follow one another. Any span of
 /// time inside can be requested, and spans add up: the motion and covariance of a..c are those of a..b and b..c
@@ -43,4 +43,4 @@ RelativeMotion compose(const RelativeMotion& a, const RelativeMotion& b);
 /// No motion, known exactly.
 RelativeMotion identityMotion();
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

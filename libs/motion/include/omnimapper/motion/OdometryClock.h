@@ -6,7 +6,7 @@
 #include <deque>
 #include <optional>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// Estimates by how much the stamps of an odometry differ from those of a laser, from the headings of both: a base that
 /// begins or ends a turn does so at one time. Only a constant offset of up to kMost is found.
@@ -46,4 +46,4 @@ class OdometryClock {
   double offset_ = 0;
 };
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

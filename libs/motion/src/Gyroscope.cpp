@@ -1,9 +1,9 @@
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/matching/Gyroscope.h>
+#include <omnimapper/motion/Gyroscope.h>
 
 #include <algorithm>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 namespace {
 
@@ -73,4 +73,4 @@ void Gyroscope::learn(base::Stamp begin, base::Stamp end, const Eigen::Quaternio
   bias_variance_ *= 1 - gain;
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

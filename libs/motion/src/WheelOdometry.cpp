@@ -1,10 +1,10 @@
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/matching/WheelOdometry.h>
+#include <omnimapper/motion/WheelOdometry.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 bool WheelOdometry::isOurs(const mrpt::obs::CObservation& observation) {
   if (!options_.label.empty()) return observation.sensorLabel == options_.label;
@@ -140,4 +140,4 @@ std::optional<RelativeMotion> WheelOdometry::between(base::Stamp begin, base::St
   return timeline_.between(begin, end);
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 /// Motion of the base over a span of time.
 struct RelativeMotion {
@@ -12,4 +12,4 @@ struct RelativeMotion {
   Eigen::Matrix<double, 6, 6> covariance;  ///< tangent at the end: x y z [m], rotation vector [rad]
 };
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

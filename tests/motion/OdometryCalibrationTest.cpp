@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 #include <mrpt/poses/CPose2D.h>
 #include <omnimapper/base/OptionTable.h>
-#include <omnimapper/matching/OdometryCalibration.h>
+#include <omnimapper/motion/OdometryCalibration.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <cmath>
 
-namespace omnimapper::matching::odometry_calibration_test {
+namespace omnimapper::motion::odometry_calibration_test {
 namespace {
 
 using mrpt::math::TPose2D;
@@ -83,4 +83,4 @@ TEST(OdometryCalibration, Fades) {
 }
 
 }  // namespace
-}  // namespace omnimapper::matching::odometry_calibration_test
+}  // namespace omnimapper::motion::odometry_calibration_test

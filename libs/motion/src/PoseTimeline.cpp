@@ -1,10 +1,10 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Covariance.h>
-#include <omnimapper/matching/PoseTimeline.h>
+#include <omnimapper/motion/PoseTimeline.h>
 
 #include <algorithm>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 namespace {
 
@@ -89,4 +89,4 @@ void PoseTimeline::forgetBefore(base::Stamp stamp) {
   while (!spans_.empty() && spans_.front().end <= stamp) spans_.pop_front();
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion

@@ -1,11 +1,11 @@
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
-#include <omnimapper/matching/OdometryErrors.h>
+#include <omnimapper/motion/OdometryErrors.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace omnimapper::matching {
+namespace omnimapper::motion {
 
 using mrpt::math::TPose2D;
 
@@ -63,4 +63,4 @@ Eigen::Matrix3d OdometryErrors::covarianceOf(const TPose2D& measured) const {
   return Eigen::Vector3d(position, position, yaw).asDiagonal();
 }
 
-}  // namespace omnimapper::matching
+}  // namespace omnimapper::motion
