@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/camera/CameraCalibration.h>
+#include <omnimapper/camera/cameraOptions.h>
 
 #include <algorithm>
 #include <array>
@@ -63,64 +64,23 @@ DepthDistortion distortionOf(const std::vector<std::string>& texts) {
 }  // namespace
 
 const base::OptionTable<Options>& Options::table() {
-  const base::Range focal{1, 1e5}, centre{-1e5, 1e5}, lens{-1000, 1000}, scale{1e-4, 1e4}, place{-10, 10};
-  static const auto table =
-      base::OptionTable<Options>()
-          .text("label", &Options::label, "Sensor label of the depth camera that is calibrated; empty for all of them.")
-          .number("depth_fx_px", &Options::depth_fx, focal, "Horizontal focal length of the depth camera.")
-          .number("depth_fy_px", &Options::depth_fy, focal, "Vertical focal length of the depth camera.")
-          .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
-          .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
-          .number("depth_k1", &Options::depth_k1, lens,
-                  "First radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_k2", &Options::depth_k2, lens,
-                  "Second radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_p1", &Options::depth_p1, lens,
-                  "First tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_p2", &Options::depth_p2, lens,
-                  "Second tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_k3", &Options::depth_k3, lens,
-                  "Third radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("picture_fx_px", &Options::picture_fx, focal, "Horizontal focal length of the picture camera.")
-          .number("picture_fy_px", &Options::picture_fy, focal, "Vertical focal length of the picture camera.")
-          .number("picture_cx_px", &Options::picture_cx, centre, "Column of the picture camera's optical axis.")
-          .number("picture_cy_px", &Options::picture_cy, centre, "Row of the picture camera's optical axis.")
-          .number("picture_k1", &Options::picture_k1, lens,
-                  "First radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
-          .number("picture_k2", &Options::picture_k2, lens,
-                  "Second radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
-          .number("picture_p1", &Options::picture_p1, lens,
-                  "First tangential distortion coefficient of the picture camera's lens, in OpenCV's model.")
-          .number("picture_p2", &Options::picture_p2, lens,
-                  "Second tangential distortion coefficient of the picture camera's lens, in OpenCV's model.")
-          .number("picture_k3", &Options::picture_k3, lens,
-                  "Third radial distortion coefficient of the picture camera's lens, in OpenCV's model.")
-          .number("depth_scale", &Options::depth_scale, scale, "True depth divided by the depth in the log.")
-          .flag("depth_is_range", &Options::depth_is_range,
-                "Whether the pixels of the depth image hold distances from the camera, although the log says that they "
-                "hold depths, which are measured along the optical axis.")
-          .flag("mirrored", &Options::mirrored,
-                "Whether the images are mirror images, with left and right exchanged. They are mirrored back.")
-          .list("depth_distortion_per_m", &Options::depth_distortion,
-                "Correction of depths that depends on the pixel: coefficients of products of Legendre polynomials, as "
-                "omnimapper-calibrate depth writes them. The sum of these products, each times its coefficient, is "
-                "added to the inverse depth of a pixel before depth_scale is applied.")
-          .number("picture_x_m", &Options::picture_x, place,
-                  "Forward position of the picture camera in the depth camera's frame (x forward, y left, z up), "
-                  "as in MRPT.")
-          .number("picture_y_m", &Options::picture_y, place,
-                  "Leftward position of the picture camera in the depth camera's frame (x forward, y left, z up).")
-          .number("picture_z_m", &Options::picture_z, place,
-                  "Upward position of the picture camera in the depth camera's frame (x forward, y left, z up).")
-          .number("picture_yaw_deg", &Options::picture_yaw, {},
-                  "Rotation about the depth camera's z axis (its frame: x forward, y left, z up) of the picture "
-                  "camera's optical frame (x right, y down, z ahead).")
-          .number("picture_pitch_deg", &Options::picture_pitch, {},
-                  "Rotation about the depth camera's y axis (its frame: x forward, y left, z up) of the picture "
-                  "camera's optical frame (x right, y down, z ahead).")
-          .number("picture_roll_deg", &Options::picture_roll, {},
-                  "Rotation about the depth camera's x axis (its frame: x forward, y left, z up) of the picture "
-                  "camera's optical frame (x right, y down, z ahead).");
+  static const auto table = [] {
+    base::OptionTable<Options> all;
+    all.text("label", &Options::label, "Sensor label of the depth camera that is calibrated; empty for all of them.");
+    addIntrinsics(all);
+    all.number("depth_scale", &Options::depth_scale, {1e-4, 1e4}, "True depth divided by the depth in the log.")
+        .flag("depth_is_range", &Options::depth_is_range,
+              "Whether the pixels of the depth image hold distances from the camera, although the log says that they "
+              "hold depths, which are measured along the optical axis.")
+        .flag("mirrored", &Options::mirrored,
+              "Whether the images are mirror images, with left and right exchanged. They are mirrored back.")
+        .list("depth_distortion_per_m", &Options::depth_distortion,
+              "Correction of depths that depends on the pixel: coefficients of products of Legendre polynomials, as "
+              "omnimapper-calibrate depth writes them. The sum of these products, each times its coefficient, is "
+              "added to the inverse depth of a pixel before depth_scale is applied.");
+    addPicturePose(all);
+    return all;
+  }();
   return table;
 }
 

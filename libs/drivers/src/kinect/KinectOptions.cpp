@@ -1,4 +1,5 @@
 #include <mrpt/core/bits_math.h>
+#include <omnimapper/camera/cameraOptions.h>
 #include <omnimapper/drivers/KinectOptions.h>
 
 #include <algorithm>
@@ -51,97 +52,56 @@ mrpt::poses::CPose3D KinectOptions::baseFromSensor() const {
 
 const base::OptionTable<KinectOptions>& KinectOptions::table() {
   using Options = KinectOptions;
-  const base::Range focal{1, 1e5}, centre{-1e5, 1e5}, lens{-1000, 1000}, place{-10, 10};
-  static const auto table =
-      base::OptionTable<Options>()
-          .integer("device_number", &Options::device_number, {0, 100},
-                   "Number of the Kinect to open, counted from 0 in the order of the USB bus.")
-          .text("serial", &Options::serial,
-                "Serial number of the Kinect's camera; if empty, device_number selects the Kinect to open.")
-          .number("pose_x", &Options::pose_x, {}, "Forward position of the depth camera on the robot [m].")
-          .number("pose_y", &Options::pose_y, {}, "Leftward position of the depth camera on the robot [m].")
-          .number("pose_z", &Options::pose_z, {}, "Upward position of the depth camera on the robot [m].")
-          .number("pose_yaw", &Options::pose_yaw, {}, "Rotation of the depth camera on the robot about z [deg].")
-          .number("pose_pitch", &Options::pose_pitch, {},
-                  "Rotation of the depth camera on the robot about y [deg], positive downwards.")
-          .number("pose_roll", &Options::pose_roll, {}, "Rotation of the depth camera on the robot about x [deg].")
-          .flag("grab_image", &Options::grab_image, "Takes the colour picture along with the depth image.")
-          .flag("grab_IMU", &Options::grab_imu,
-                "Reads the accelerometer; if false, the motor's USB device is not touched.")
-          .number("imu_rate_hz", &Options::imu_rate, {0.1, 100}, "Rate at which the accelerometer is read.")
-          .choice(
-              "registration", &Options::registration,
-              {{"none", Options::Registration::none},
-               {"ours", Options::Registration::ours},
-               {"device", Options::Registration::device}},
-              "Camera frame of the depth image: none, the depth camera's (unregistered); ours, the colour camera's, "
-              "registered with this section's calibration; device, registered by the device's own calibration (never "
-              "tried on one).")
-          .number("tilt_deg", &Options::tilt, {-30, 30},
-                  "Angle above the horizon to which the motor turns the head at the start; empty leaves the head "
-                  "as it is.")
-          .choice("led", &Options::led,
-                  {{"as_it_is", Options::Led::as_it_is},
-                   {"off", Options::Led::off},
-                   {"green", Options::Led::green},
-                   {"red", Options::Led::red},
-                   {"yellow", Options::Led::yellow},
-                   {"blink_green", Options::Led::blink_green},
-                   {"blink_red_yellow", Options::Led::blink_red_yellow}},
-                  "Colour of the Kinect's lamp while the sensor works.")
-          .number("max_range_m", &Options::max_range, {0.1, 13}, "Pixels farther than this count as having no depth.")
-          .number("pairing_s", &Options::pairing, {0, 1},
-                  "Largest time difference between a depth image and its picture; a depth image without such a "
-                  "picture has none.")
-          .number("silence_s", &Options::silence, {0.2, 60},
-                  "Time without a depth image after which the Kinect counts as lost.")
-          .number("inverse_depth_at_zero_per_m", &Options::inverse_depth_at_zero, {},
-                  "Inverse depth that corresponds to the raw value 0.")
-          .number("inverse_depth_step_per_m", &Options::inverse_depth_step, {-1, -1e-6},
-                  "Change of the inverse depth for one step of the raw value.")
-          .number("depth_fx_px", &Options::depth_fx, focal, "Horizontal focal length of the depth camera.")
-          .number("depth_fy_px", &Options::depth_fy, focal, "Vertical focal length of the depth camera.")
-          .number("depth_cx_px", &Options::depth_cx, centre, "Column of the depth camera's optical axis.")
-          .number("depth_cy_px", &Options::depth_cy, centre, "Row of the depth camera's optical axis.")
-          .number("depth_k1", &Options::depth_k1, lens,
-                  "First radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_k2", &Options::depth_k2, lens,
-                  "Second radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_p1", &Options::depth_p1, lens,
-                  "First tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_p2", &Options::depth_p2, lens,
-                  "Second tangential distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("depth_k3", &Options::depth_k3, lens,
-                  "Third radial distortion coefficient of the depth camera's lens, in OpenCV's model.")
-          .number("picture_fx_px", &Options::picture_fx, focal, "Horizontal focal length of the colour camera.")
-          .number("picture_fy_px", &Options::picture_fy, focal, "Vertical focal length of the colour camera.")
-          .number("picture_cx_px", &Options::picture_cx, centre, "Column of the colour camera's optical axis.")
-          .number("picture_cy_px", &Options::picture_cy, centre, "Row of the colour camera's optical axis.")
-          .number("picture_k1", &Options::picture_k1, lens,
-                  "First radial distortion coefficient of the colour camera's lens, in OpenCV's model.")
-          .number("picture_k2", &Options::picture_k2, lens,
-                  "Second radial distortion coefficient of the colour camera's lens, in OpenCV's model.")
-          .number("picture_p1", &Options::picture_p1, lens,
-                  "First tangential distortion coefficient of the colour camera's lens, in OpenCV's model.")
-          .number("picture_p2", &Options::picture_p2, lens,
-                  "Second tangential distortion coefficient of the colour camera's lens, in OpenCV's model.")
-          .number("picture_k3", &Options::picture_k3, lens,
-                  "Third radial distortion coefficient of the colour camera's lens, in OpenCV's model.")
-          .number("picture_x_m", &Options::picture_x, place,
-                  "Forward position of the colour camera in the depth camera's frame (x forward, y left, z up).")
-          .number("picture_y_m", &Options::picture_y, place,
-                  "Leftward position of the colour camera in the depth camera's frame (x forward, y left, z up).")
-          .number("picture_z_m", &Options::picture_z, place,
-                  "Upward position of the colour camera in the depth camera's frame (x forward, y left, z up).")
-          .number("picture_yaw_deg", &Options::picture_yaw, {},
-                  "Rotation about the depth camera's z axis (its frame: x forward, y left, z up) of the colour "
-                  "camera's optical frame (x right, y down, z ahead).")
-          .number("picture_pitch_deg", &Options::picture_pitch, {},
-                  "Rotation about the depth camera's y axis (its frame: x forward, y left, z up) of the colour "
-                  "camera's optical frame (x right, y down, z ahead).")
-          .number("picture_roll_deg", &Options::picture_roll, {},
-                  "Rotation about the depth camera's x axis (its frame: x forward, y left, z up) of the colour "
-                  "camera's optical frame (x right, y down, z ahead).");
+  static const auto table = [] {
+    base::OptionTable<Options> all;
+    all.integer("device_number", &Options::device_number, {0, 100},
+                "Number of the Kinect to open, counted from 0 in the order of the USB bus.")
+        .text("serial", &Options::serial,
+              "Serial number of the Kinect's camera; if empty, device_number selects the Kinect to open.")
+        .number("pose_x", &Options::pose_x, {}, "Forward position of the depth camera on the robot [m].")
+        .number("pose_y", &Options::pose_y, {}, "Leftward position of the depth camera on the robot [m].")
+        .number("pose_z", &Options::pose_z, {}, "Upward position of the depth camera on the robot [m].")
+        .number("pose_yaw", &Options::pose_yaw, {}, "Rotation of the depth camera on the robot about z [deg].")
+        .number("pose_pitch", &Options::pose_pitch, {},
+                "Rotation of the depth camera on the robot about y [deg], positive downwards.")
+        .number("pose_roll", &Options::pose_roll, {}, "Rotation of the depth camera on the robot about x [deg].")
+        .flag("grab_image", &Options::grab_image, "Takes the colour picture along with the depth image.")
+        .flag("grab_IMU", &Options::grab_imu,
+              "Reads the accelerometer; if false, the motor's USB device is not touched.")
+        .number("imu_rate_hz", &Options::imu_rate, {0.1, 100}, "Rate at which the accelerometer is read.")
+        .choice("registration", &Options::registration,
+                {{"none", Options::Registration::none},
+                 {"ours", Options::Registration::ours},
+                 {"device", Options::Registration::device}},
+                "Camera frame of the depth image: none, the depth camera's (unregistered); ours, the colour camera's, "
+                "registered with this section's calibration; device, registered by the device's own calibration (never "
+                "tried on one).")
+        .number("tilt_deg", &Options::tilt, {-30, 30},
+                "Angle above the horizon to which the motor turns the head at the start; empty leaves the head "
+                "as it is.")
+        .choice("led", &Options::led,
+                {{"as_it_is", Options::Led::as_it_is},
+                 {"off", Options::Led::off},
+                 {"green", Options::Led::green},
+                 {"red", Options::Led::red},
+                 {"yellow", Options::Led::yellow},
+                 {"blink_green", Options::Led::blink_green},
+                 {"blink_red_yellow", Options::Led::blink_red_yellow}},
+                "Colour of the Kinect's lamp while the sensor works.")
+        .number("max_range_m", &Options::max_range, {0.1, 13}, "Pixels farther than this count as having no depth.")
+        .number("pairing_s", &Options::pairing, {0, 1},
+                "Largest time difference between a depth image and its picture; a depth image without such a "
+                "picture has none.")
+        .number("silence_s", &Options::silence, {0.2, 60},
+                "Time without a depth image after which the Kinect counts as lost.")
+        .number("inverse_depth_at_zero_per_m", &Options::inverse_depth_at_zero, {},
+                "Inverse depth that corresponds to the raw value 0.")
+        .number("inverse_depth_step_per_m", &Options::inverse_depth_step, {-1, -1e-6},
+                "Change of the inverse depth for one step of the raw value.");
+    camera::addIntrinsics(all);
+    camera::addPicturePose(all);
+    return all;
+  }();
   return table;
 }
 
