@@ -36,9 +36,14 @@ CObservation3DRangeScan::Ptr wall(double metres = 2) {
   return scan;
 }
 
+std::vector<map::CloudPoint> cloudOf(const mrpt::obs::CObservation& observation, const CloudOptions& options) {
+  perception::Blackboard board;
+  return depthCloud(observation, options, board);
+}
+
 // Every fourth pixel is sampled, which is 16 cm on the wall.
 TEST(DepthCloud, EveryFourthPixelIsAPointInTheBaseWithItsColour) {
-  const auto cloud = depthCloud(*wall(), {0.05, 5});
+  const auto cloud = cloudOf(*wall(), {0.05, 5});
   ASSERT_EQ(cloud.size(), kWidth / 4 * kHeight / 4);
   for (const auto& point : cloud) {
     EXPECT_EQ(point.x, 2000);
@@ -51,9 +56,9 @@ TEST(DepthCloud, EveryFourthPixelIsAPointInTheBaseWithItsColour) {
 }
 
 TEST(DepthCloud, OneOfACubeAndNoneBeyondTheRange) {
-  EXPECT_TRUE(depthCloud(*wall(), {0.05, 1.9}).empty());
-  EXPECT_TRUE(depthCloud(*wall(), {0, 5}).empty());
-  const auto coarse = depthCloud(*wall(), {0.5, 5});
+  EXPECT_TRUE(cloudOf(*wall(), {0.05, 1.9}).empty());
+  EXPECT_TRUE(cloudOf(*wall(), {0, 5}).empty());
+  const auto coarse = cloudOf(*wall(), {0.5, 5});
   EXPECT_LT(coarse.size(), 40U);
   EXPECT_GT(coarse.size(), 20U) << "2.4 m by 1.8 m";
 }
@@ -61,25 +66,25 @@ TEST(DepthCloud, OneOfACubeAndNoneBeyondTheRange) {
 TEST(DepthCloud, WhatIsNoDepthAndEdgesOfDepthAreLeftOut) {
   auto scan = wall();
   scan->rangeImage.fill(0);
-  EXPECT_TRUE(depthCloud(*scan, {0.05, 5}).empty());
+  EXPECT_TRUE(cloudOf(*scan, {0.05, 5}).empty());
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) scan->rangeImage(v, u) = u % 2 == 0 ? 1000 : 3000;
   }
-  EXPECT_TRUE(depthCloud(*scan, {0.05, 5}).empty());
-  EXPECT_TRUE(depthCloud(mrpt::obs::CObservationImage(), {0.05, 5}).empty());
+  EXPECT_TRUE(cloudOf(*scan, {0.05, 5}).empty());
+  EXPECT_TRUE(cloudOf(mrpt::obs::CObservationImage(), {0.05, 5}).empty());
 }
 
 TEST(DepthCloud, WithoutAPictureItIsGrey) {
   auto scan = wall();
   scan->hasIntensityImage = false;
-  for (const auto& point : depthCloud(*scan, {0.05, 5})) EXPECT_EQ(point.red + point.green + point.blue, 3 * 128);
+  for (const auto& point : cloudOf(*scan, {0.05, 5})) EXPECT_EQ(point.red + point.green + point.blue, 3 * 128);
 }
 
 // The colour camera is 10 cm to the left of the depth camera: it sees points 2 m away 2.5 pixels further to the right.
 TEST(DepthCloud, APictureFromElsewhereIsLookedUpWhereItsCameraSeesThePoint) {
   auto scan = wall();
   scan->relativePoseIntensityWRTDepth = mrpt::poses::CPose3D(0, 0.1, 0, -M_PI / 2, 0, -M_PI / 2);
-  for (const auto& point : depthCloud(*scan, {0.05, 5})) {
+  for (const auto& point : cloudOf(*scan, {0.05, 5})) {
     if (point.y < -1100) continue;  // not in the view of the colour camera
     EXPECT_EQ(point.red, point.y > 100 ? 200 : 0) << point.y;
   }
@@ -107,7 +112,7 @@ class KeptImages : public ::testing::Test {
 
 TEST_F(KeptImages, APlaceThatWasSeenBeforeAddsNoPoints) {
   KeptObservations keeping(CloudOptions(), RawImages::none, map_);
-  const auto cloud = depthCloud(*wall(), CloudOptions());
+  const auto cloud = cloudOf(*wall(), CloudOptions());
   keeping.addCloud({0, 0}, cloud);
   EXPECT_EQ(map_.key_frames[0].cloud.size(), cloud.size());
   keeping.addCloud(add(mrpt::poses::CPose3D()), cloud);
@@ -123,7 +128,7 @@ TEST_F(KeptImages, APlaceThatWasSeenBeforeAddsNoPoints) {
 // A closure has moved the only view of the wall by a metre, so its former place is free again.
 TEST_F(KeptImages, WhatASolveHasMovedCountsWhereItIsNow) {
   KeptObservations keeping(CloudOptions(), RawImages::none, map_);
-  const auto cloud = depthCloud(*wall(), CloudOptions());
+  const auto cloud = cloudOf(*wall(), CloudOptions());
   keeping.addCloud({0, 0}, cloud);
   map_.key_frames.edit({0, 0}).map_from_base = mrpt::poses::CPose3D(1, 0, 0, 0, 0, 0);
   keeping.posesChanged();

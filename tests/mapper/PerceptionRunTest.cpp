@@ -135,8 +135,18 @@ TEST_F(PerceptionRunTest, WhatTheLogBringsIsNotWrittenTwice) {
 
 TEST_F(PerceptionRunTest, OfTwoExtractorsWithOneLabelTheFirstCounts) {
   writeRaw({wallAt(1), wallAt(2)});
+  planes_ = "min_pixels = 500\n";
   const auto result = run({raw_}, derived_, false, "planes, objects");
   expectWarning(result, ExitCode::ok, {"2 derived", "'kinect.planes' of [objects]", "[perception] extractors"});
+  EXPECT_EQ(labelsOf(derived_),
+            (std::vector<std::string>{"kinect.planes", "kinect.objects", "kinect.planes", "kinect.objects"}));
+}
+
+TEST_F(PerceptionRunTest, PlanesOfTheSameOptionsAreFoundOnce) {
+  writeRaw({wallAt(1), wallAt(2)});
+  const auto result = run({raw_}, derived_, false, "planes, objects");
+  EXPECT_EQ(result.code, ExitCode::ok);
+  EXPECT_TRUE(result.warnings.empty());
   EXPECT_EQ(labelsOf(derived_),
             (std::vector<std::string>{"kinect.planes", "kinect.objects", "kinect.planes", "kinect.objects"}));
 }

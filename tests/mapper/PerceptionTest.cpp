@@ -171,6 +171,34 @@ TEST_P(Pool, PluginsPrepareWhatTheyWantOfTheRawAndTheDerived) {
   EXPECT_EQ(perception.submit(mrpt::obs::CObservationOdometry::Create()).get().parts.front().prepared.front(), nullptr);
 }
 
+// Counts on the blackboard how often the raw observation was looked at.
+class Looker : public Suffix {
+ public:
+  struct Looked {
+    std::size_t before;
+  };
+  using Suffix::Suffix;
+  std::vector<CObservation::Ptr> extractUsing(const CObservation& raw, perception::Blackboard& board) const override {
+    std::size_t before = 0;
+    board.find<Looked>([&](const Looked& one) { return before = one.before + 1, false; });
+    board.put(std::make_shared<const Looked>(Looked{before}));
+    return {comment(dynamic_cast<const CObservationComment&>(raw).text + std::to_string(before))};
+  }
+};
+
+TEST_P(Pool, TheExtractorsOfAChainShareWhatTheyMadeOfOneObservation) {
+  const Looker one("one"), two("two");
+  base::WorkerPool workers(GetParam());
+  const Perception perception({&one, &two}, {}, workers, {});
+  std::vector<std::future<Result>> results;
+  for (int i = 0; i < 50; ++i) results.push_back(perception.submit(comment("n")));
+  for (auto& result : results) EXPECT_EQ(texts(result.get()), (std::vector<std::string>{"n0", "n1"}));
+  perception::Blackboard board;
+  board.put(std::make_shared<const Looker::Looked>(Looker::Looked{6}));
+  EXPECT_EQ(texts(perception.submit(comment("n"), {}, board).get()), (std::vector<std::string>{"n7", "n8"}))
+      << "as a pose plugin has looked at it";
+}
+
 TEST_P(Pool, WhatNoExtractorWantsGivesNothing) {
   const Suffix one(".one");
   base::WorkerPool workers(GetParam());

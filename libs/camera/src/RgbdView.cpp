@@ -1,5 +1,6 @@
-#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/camera/RgbdView.h>
+
+#include <optional>
 
 namespace omnimapper::camera {
 
@@ -8,22 +9,12 @@ struct RgbdView::Parts {
 
   ScanDepth depth;
   ScanColours colours;
-  std::vector<obs::Rgb> in_depth_view;  // colours of a picture that was taken from another view
-  ColourImage picture;
+  std::optional<std::vector<obs::Rgb>> of_depths;  // once it was requested
+  ColourImage picture;                             // in the view of the depths, once it was requested
 };
 
 RgbdView::RgbdView(const mrpt::obs::CObservation3DRangeScan& scan) : parts_(std::make_unique<Parts>(scan)) {
-  if (!parts_->colours.exist()) return;
-  if (parts_->colours.areOfDepthView()) {
-    parts_->picture = parts_->colours.picture();
-    return;
-  }
-  static_assert(sizeof(obs::Rgb) == 3, "pixels must be contiguous");
-  const auto& image = parts_->depth.image();
-  parts_->in_depth_view = parts_->colours.inDepthView(parts_->depth);
-  if (parts_->in_depth_view.empty()) return;
-  parts_->picture = {&parts_->in_depth_view.data()->red, image.width(), image.height(), 3 * image.width(),
-                     ColourImage::Order::rgb};
+  if (parts_->colours.areOfDepthView()) parts_->picture = parts_->colours.picture();
 }
 
 RgbdView::~RgbdView() = default;
@@ -32,8 +23,23 @@ const DepthImage& RgbdView::depth() const {
   return parts_->depth.image();
 }
 
+const ScanColours& RgbdView::colours() const {
+  return parts_->colours;
+}
+
+const std::vector<obs::Rgb>& RgbdView::coloursOfDepths() const {
+  if (!parts_->of_depths) parts_->of_depths = parts_->colours.inDepthView(parts_->depth);
+  return *parts_->of_depths;
+}
+
 const ColourImage* RgbdView::colour() const {
-  return parts_->picture.pixels == nullptr ? nullptr : &parts_->picture;
+  ColourImage& picture = parts_->picture;
+  if (picture.pixels != nullptr) return &picture;
+  if (!parts_->colours.exist() || coloursOfDepths().empty()) return nullptr;
+  static_assert(sizeof(obs::Rgb) == 3, "pixels must be contiguous");
+  const int width = depth().width();
+  picture = {&coloursOfDepths().data()->red, width, depth().height(), 3 * width, ColourImage::Order::rgb};
+  return &picture;
 }
 
 }  // namespace omnimapper::camera

@@ -1,7 +1,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <omnimapper/camera/DepthScan.h>
-#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/perception/EdgeExtractor.h>
+#include <omnimapper/perception/viewOf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ int halfWidth(const camera::ScanColours& colours, const camera::ColourImage& pic
 }
 
 // Adds the edges of a picture whose pixels do not coincide with those of the depth image.
-void addRgb(const camera::ScanDepth& depth, const camera::ScanColours& colours, const EdgeOptions& options,
+void addRgb(const camera::DepthImage& depth, const camera::ScanColours& colours, const EdgeOptions& options,
             EdgeImage& edges) {
   const camera::ColourImage picture = colours.picture();
   auto found = edges::canny(picture, static_cast<int>(options.rgb_low), static_cast<int>(options.rgb_high));
@@ -89,16 +89,16 @@ std::vector<std::string> EdgeExtractor::labelsOf(const mrpt::obs::CObservation3D
   return labels;
 }
 
-std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
-    const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const camera::ScanDepth depth(scan);
-  const camera::ScanColours colours(scan);
+std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::cloudsOf(
+    const mrpt::obs::CObservation3DRangeScan& scan, const camera::RgbdView& view) const {
+  const camera::DepthImage& depth = view.depth();
+  const camera::ScanColours& colours = view.colours();
   const bool same_view = options_.rgb && colours.areOfDepthView();
-  EdgeImage edges = same_view ? detector_.detect(depth.image(), colours.picture()) : detector_.detect(depth.image());
+  EdgeImage edges = same_view ? detector_.detect(depth, colours.picture()) : detector_.detect(depth);
   if (options_.rgb && colours.exist() && !same_view) addRgb(depth, colours, options_, edges);
   std::vector<mrpt::obs::CObservationPointCloud::Ptr> clouds;
   for (const EdgeKind kind : wantedKinds(options_, colours.exist())) {
-    const auto points = edgePoints(edges, depth.image(), kind);
+    const auto points = edgePoints(edges, depth, kind);
     auto cloud = mrpt::maps::CSimplePointsMap::Create();
     cloud->reserve(points.size());
     for (const auto& point : points) {
@@ -115,12 +115,24 @@ std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
   return clouds;
 }
 
+std::vector<mrpt::obs::CObservationPointCloud::Ptr> EdgeExtractor::extract(
+    const mrpt::obs::CObservation3DRangeScan& scan) const {
+  return cloudsOf(scan, camera::RgbdView(scan));
+}
+
 bool EdgeExtractor::wants(const mrpt::obs::CObservation& raw) const {
   return camera::depthScanOf(raw) != nullptr;
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> EdgeExtractor::extract(const mrpt::obs::CObservation& raw) const {
   const auto clouds = extract(*camera::depthScanOf(raw));
+  return {clouds.begin(), clouds.end()};
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> EdgeExtractor::extractUsing(const mrpt::obs::CObservation& raw,
+                                                                      Blackboard& board) const {
+  const auto& scan = *camera::depthScanOf(raw);
+  const auto clouds = cloudsOf(scan, viewOf(scan, board));
   return {clouds.begin(), clouds.end()};
 }
 

@@ -1,8 +1,9 @@
 #include <omnimapper/camera/DepthScan.h>
-#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/ObjectExtractor.h>
+#include <omnimapper/perception/viewOf.h>
 
+#include "planes/FoundPlanes.h"
 #include "planes/PlaneObservation.h"
 
 namespace omnimapper::perception {
@@ -10,6 +11,15 @@ namespace omnimapper::perception {
 const base::OptionTable<ObjectPointOptions>& ObjectPointOptions::table() {
   static const auto table = base::OptionTable<ObjectPointOptions>().integer(
       "max_points", &ObjectPointOptions::max_points, {1, 1e9}, "Largest number of points that are kept of an object.");
+  return table;
+}
+
+const base::OptionTable<PlaneReuseOptions>& PlaneReuseOptions::table() {
+  static const auto table = base::OptionTable<PlaneReuseOptions>().choice(
+      "reuse_planes", &PlaneReuseOptions::reuse,
+      {{"same_options", Reuse::same_options}, {"any_options", Reuse::any_options}},
+      "Which planes that an earlier extractor of [perception] has found in the same image are used instead of finding "
+      "planes anew: those found with the same options as this section's, or those found with any options.");
   return table;
 }
 
@@ -28,17 +38,17 @@ Eigen::Vector3d pointOf(const camera::DepthImage& image, int pixel, double depth
 }
 
 // Adds points with colours, at most max_points, and the mean colour of all pixels.
-void addPoints(const ObjectRegion& region, const camera::ScanDepth& depth, const camera::ScanColours& colours,
-               int max_points, obs::ObservedObject& object) {
+void addPoints(const ObjectRegion& region, const camera::RgbdView& view, int max_points, obs::ObservedObject& object) {
+  const camera::DepthImage& depth = view.depth();
   const int count = static_cast<int>(region.pixels.size()), step = (count + max_points - 1) / max_points;
   camera::ColourSum sum;
   for (int i = 0; i < count; ++i) {
     const int pixel = region.pixels[static_cast<std::size_t>(i)];
     const double z = depth.at(static_cast<std::size_t>(pixel));
-    const auto colour = colours.at(pixel % depth.image().width(), pixel / depth.image().width(), z);
+    const auto colour = view.colours().at(pixel % depth.width(), pixel / depth.width(), z);
     if (colour) sum.add(*colour);
     if (i % step != 0) continue;
-    object.points.push_back(camera::toSensor(pointOf(depth.image(), pixel, z)).cast<float>());
+    object.points.push_back(camera::toSensor(pointOf(depth, pixel, z)).cast<float>());
     if (colour) object.colours.push_back(*colour);
   }
   if (object.colours.size() != object.points.size()) object.colours.clear();
@@ -47,12 +57,10 @@ void addPoints(const ObjectRegion& region, const camera::ScanDepth& depth, const
 
 }  // namespace
 
-ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const camera::ScanDepth depth(scan);
-  const camera::ScanColours colours(scan);
-  const PlaneSegmentation planes = segmenter_.segment(depth.image());
+ObjectExtractor::Found ObjectExtractor::objectsOn(const PlaneSegmentation& planes,
+                                                  const mrpt::obs::CObservation3DRangeScan& scan,
+                                                  const camera::RgbdView& view) const {
   Found found;
-  found.planes = planes::observe(planes, scan, depth, colours, options_.outlines.tolerance);
   found.objects = obs::CObservationObjects::Create();
   found.objects->timestamp = scan.timestamp;
   found.objects->sensorPose = scan.sensorPose;
@@ -62,16 +70,24 @@ ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DR
   const Eigen::Matrix3d turn = sensor_from_optical.rotation.toRotationMatrix();
   const Eigen::Vector3d up = upInOptical(scan.sensorPose);
   found.has_surface = finder_.hasSurface(planes, up);
-  for (const ObjectRegion& region : finder_.find(depth.image(), planes, up)) {
+  for (const ObjectRegion& region : finder_.find(view.depth(), planes, up)) {
     obs::ObservedObject object;
     object.centroid = camera::toSensor(region.centroid);
     object.covariance = turn * region.covariance * turn.transpose();
     object.sensor_from_box = sensor_from_optical * region.sensor_from_box;
     object.box_size = region.box_size;
     if (region.surface) object.supporting_plane = static_cast<std::uint32_t>(*region.surface);
-    addPoints(region, depth, colours, options_.points.max_points, object);
+    addPoints(region, view, options_.points.max_points, object);
     found.objects->objects.push_back(std::move(object));
   }
+  return found;
+}
+
+ObjectExtractor::Found ObjectExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  const camera::RgbdView view(scan);
+  const PlaneSegmentation planes = segmenter_.segment(view.depth());
+  Found found = objectsOn(planes, scan, view);
+  found.planes = planes::observe(planes, scan, view, options_.outlines.tolerance);
   return found;
 }
 
@@ -80,10 +96,30 @@ bool ObjectExtractor::wants(const mrpt::obs::CObservation& raw) const {
 }
 
 std::vector<mrpt::obs::CObservation::Ptr> ObjectExtractor::extract(const mrpt::obs::CObservation& raw) const {
-  const auto found = extract(*camera::depthScanOf(raw));
+  Blackboard board;
+  return extractUsing(raw, board);
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> ObjectExtractor::extractUsing(const mrpt::obs::CObservation& raw,
+                                                                        Blackboard& board) const {
+  using planes::FoundPlanes;
+  const auto& scan = *camera::depthScanOf(raw);
+  const camera::RgbdView& view = viewOf(scan, board);
+  auto known = board.find<FoundPlanes>([&](const auto& one) {
+    return options_.reuse.reuse == PlaneReuseOptions::Reuse::any_options || one.settings == options_.planeSettings();
+  });
+  std::vector<mrpt::obs::CObservation::Ptr> made;
+  if (!known) {
+    known =
+        std::make_shared<const FoundPlanes>(FoundPlanes{options_.planeSettings(), segmenter_.segment(view.depth())});
+    board.put(known);
+    made.push_back(planes::observe(known->planes, scan, view, options_.outlines.tolerance));
+  }
+  const Found found = objectsOn(known->planes, scan, view);
   ++scans_;
   with_surface_ += found.has_surface;
-  return {found.planes, found.objects};
+  made.push_back(found.objects);
+  return made;
 }
 
 std::vector<DerivedName> ObjectExtractor::namesOf(const mrpt::obs::CObservation& raw) const {

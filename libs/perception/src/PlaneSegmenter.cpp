@@ -2,6 +2,7 @@
 #include <omnimapper/perception/PlaneSegmenter.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "DepthSensor.h"
 #include "planes/Description.h"
@@ -21,6 +22,14 @@ const base::OptionTable<PlaneOptions>& PlaneOptions::table() {
           .integer("min_hole_pixels", &PlaneOptions::min_hole_pixels, {1, 1e9},
                    "Holes in a plane that have fewer pixels than this are not outlined.");
   return table;
+}
+
+bool PlaneOptions::operator==(const PlaneOptions& other) const {
+  const auto values = [](const PlaneOptions& o) {
+    return std::tie(o.noise_at_1m, o.step_at_1m, o.distortion_at_1m, o.correlation_area, o.scale_sigma, o.min_depth,
+                    o.max_depth, o.min_pixels, o.min_hole_pixels);
+  };
+  return values(*this) == values(other);
 }
 
 namespace {

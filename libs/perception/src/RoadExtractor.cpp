@@ -1,7 +1,7 @@
 #include <omnimapper/camera/DepthScan.h>
-#include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/perception/RoadExtractor.h>
+#include <omnimapper/perception/viewOf.h>
 
 #include "planes/PlaneObservation.h"
 
@@ -20,12 +20,16 @@ geometry::Plane3 expectedGround(const mrpt::obs::CObservation3DRangeScan& scan, 
   return {camera::toOptical(in_sensor.normal), in_sensor.distance};
 }
 
-std::shared_ptr<obs::CObservationPlanes> RoadExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
-  const camera::ScanDepth depth(scan);
-  const auto found = segmenter_.segment(depth.image(), expectedGround(scan, pose_.ground_height));
-  auto derived = planes::observe(found.ground, scan, depth, camera::ScanColours(scan), outlines_.tolerance);
+std::shared_ptr<obs::CObservationPlanes> RoadExtractor::groundIn(const mrpt::obs::CObservation3DRangeScan& scan,
+                                                                 const camera::RgbdView& view) const {
+  const auto found = segmenter_.segment(view.depth(), expectedGround(scan, pose_.ground_height));
+  auto derived = planes::observe(found.ground, scan, view, outlines_.tolerance);
   derived->sensorLabel = scan.sensorLabel + kRoadSuffix;
   return derived;
+}
+
+std::shared_ptr<obs::CObservationPlanes> RoadExtractor::extract(const mrpt::obs::CObservation3DRangeScan& scan) const {
+  return groundIn(scan, camera::RgbdView(scan));
 }
 
 bool RoadExtractor::wants(const mrpt::obs::CObservation& raw) const {
@@ -34,6 +38,12 @@ bool RoadExtractor::wants(const mrpt::obs::CObservation& raw) const {
 
 std::vector<mrpt::obs::CObservation::Ptr> RoadExtractor::extract(const mrpt::obs::CObservation& raw) const {
   return {extract(*camera::depthScanOf(raw))};
+}
+
+std::vector<mrpt::obs::CObservation::Ptr> RoadExtractor::extractUsing(const mrpt::obs::CObservation& raw,
+                                                                      Blackboard& board) const {
+  const auto& scan = *camera::depthScanOf(raw);
+  return {groundIn(scan, viewOf(scan, board))};
 }
 
 std::vector<DerivedName> RoadExtractor::namesOf(const mrpt::obs::CObservation& raw) const {

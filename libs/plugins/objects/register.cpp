@@ -9,7 +9,8 @@ namespace omnimapper::plugins {
 const base::AtLoad kRegister([] {
   mapper::registerFactoryBases();
   mapper::ExtractorFactoryOf<perception::ObjectExtractor, perception::PlaneOptions, perception::OutlineOptions,
-                             perception::ObjectOptions, perception::ObjectPointOptions>::registerClass();
+                             perception::ObjectOptions, perception::ObjectPointOptions,
+                             perception::PlaneReuseOptions>::registerClass();
   mapper::ExtractorFactoryOf<perception::EdgeExtractor, perception::EdgeOptions>::registerClass();
 });
 

@@ -28,12 +28,13 @@ class Perception {
   bool wants(const mrpt::obs::CObservation& raw) const;
   /// Starts the processing of `raw`. `brought` are the observations of the same stamp that came with the log; an
   /// extractor whose results are all among them is skipped. A base::Error of an extractor is part of the result; other
-  /// exceptions come out of the future.
+  /// exceptions come out of the future. `board` has what pose plugins made of `raw`.
   std::future<PerceivedParts> submit(mrpt::obs::CObservation::ConstPtr raw,
-                                     std::vector<mrpt::obs::CObservation::ConstPtr> brought = {}) const;
+                                     std::vector<mrpt::obs::CObservation::ConstPtr> brought = {},
+                                     perception::Blackboard board = {}) const;
 
  private:
-  Perceived prepared(mrpt::obs::CObservation::ConstPtr observation) const;
+  Perceived prepared(mrpt::obs::CObservation::ConstPtr observation, const perception::Blackboard& board) const;
 
   std::vector<const perception::Extractor*> extractors_;
   std::vector<const MeasurementPlugin*> plugins_;

@@ -11,11 +11,12 @@ PerceptionLine::PerceptionLine(const Extractors& extractors, int threads)
   for (const auto& [section, extractor] : extractors_) novelties_.push_back(extractor->novelty());
 }
 
-Outcome PerceptionLine::outcomeOf(const perception::Extractor& extractor, const CObservation& raw) {
+Outcome PerceptionLine::outcomeOf(const perception::Extractor& extractor, const CObservation& raw,
+                                  perception::Blackboard& board) {
   Outcome outcome;
   outcome.wanted = true;
   try {
-    outcome.derived = extractor.extract(raw);
+    outcome.derived = extractor.extractUsing(raw, board);
   } catch (const base::Error& error) {
     outcome.error = error;
   }
@@ -46,8 +47,9 @@ void PerceptionLine::add(const CObservation::Ptr& raw) {
   }
   auto outcomes = pool_.submit<std::vector<Outcome>>([this, raw, tasks] {
     std::vector<Outcome> all;
+    perception::Blackboard board;
     for (std::size_t i = 0; i < tasks.size(); ++i)
-      all.push_back(tasks[i] == Task::extract ? outcomeOf(*extractors_[i].plugin, *raw) : Outcome());
+      all.push_back(tasks[i] == Task::extract ? outcomeOf(*extractors_[i].plugin, *raw, board) : Outcome());
     return all;
   });
   items_.push_back({raw, std::move(tasks), std::move(outcomes)});

@@ -51,7 +51,8 @@ class PerceptionLine {
   };
   using Extractors = std::vector<Named<perception::Extractor>>;
 
-  static Outcome outcomeOf(const perception::Extractor& extractor, const mrpt::obs::CObservation& raw);
+  static Outcome outcomeOf(const perception::Extractor& extractor, const mrpt::obs::CObservation& raw,
+                           perception::Blackboard& board);
   static Outcome repeated(const Outcome& earlier, const mrpt::obs::CObservation& raw);
 
   const Extractors& extractors_;

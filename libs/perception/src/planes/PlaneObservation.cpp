@@ -10,8 +10,9 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
-std::vector<camera::ColourSum> coloursOf(const PlaneSegmentation& found, const camera::ScanDepth& depth,
-                                         const camera::ScanColours& colours) {
+std::vector<camera::ColourSum> coloursOf(const PlaneSegmentation& found, const camera::RgbdView& view) {
+  const camera::DepthImage& depth = view.depth();
+  const camera::ScanColours& colours = view.colours();
   std::vector<camera::ColourSum> sums(found.planes.size());
   if (!colours.exist() || sums.empty()) return sums;
   std::size_t i = 0;
@@ -36,15 +37,14 @@ geometry::Polygon3 polygonOf(const Contour& contour, double tolerance) {
 
 std::shared_ptr<obs::CObservationPlanes> observe(const PlaneSegmentation& found,
                                                  const mrpt::obs::CObservation3DRangeScan& scan,
-                                                 const camera::ScanDepth& depth, const camera::ScanColours& colours,
-                                                 double outline_tolerance) {
+                                                 const camera::RgbdView& view, double outline_tolerance) {
   auto derived = obs::CObservationPlanes::Create();
   derived->timestamp = scan.timestamp;
   derived->sensorPose = scan.sensorPose;
   derived->sensorLabel = scan.sensorLabel + kPlanesSuffix;
   derived->source_label = scan.sensorLabel;
   const geometry::Se3 sensor_from_optical = geometry::sensorFromOptical();
-  const auto sums = coloursOf(found, depth, colours);
+  const auto sums = coloursOf(found, view);
   for (std::size_t i = 0; i < found.planes.size(); ++i) {
     const PlaneRegion& region = found.planes[i];
     obs::ObservedPlane plane;

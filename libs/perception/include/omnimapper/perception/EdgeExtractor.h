@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/perception/EdgeDetector.h>
 #include <omnimapper/perception/Extractor.h>
 
@@ -36,9 +37,14 @@ class EdgeExtractor : public Extractor {
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extractUsing(const mrpt::obs::CObservation& raw,
+                                                         Blackboard& board) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
+  std::vector<mrpt::obs::CObservationPointCloud::Ptr> cloudsOf(const mrpt::obs::CObservation3DRangeScan& scan,
+                                                               const camera::RgbdView& view) const;
+
   EdgeOptions options_;
   EdgeDetector detector_;
 };

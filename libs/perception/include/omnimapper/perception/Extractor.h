@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <omnimapper/perception/Blackboard.h>
 
 #include <memory>
 #include <string>
@@ -33,6 +34,12 @@ class Extractor {
   /// Derived observations with the stamp of `raw`, each in the frame of its own sensor pose. The sensor pose of `raw`
   /// is final.
   virtual std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const = 0;
+  /// The same in a chain of extractors, which share a blackboard for `raw`: an extractor may use what is on it, and
+  /// adds what others may use. Derived observations that an earlier extractor has made already are left out.
+  virtual std::vector<mrpt::obs::CObservation::Ptr> extractUsing(const mrpt::obs::CObservation& raw,
+                                                                 Blackboard& /*board*/) const {
+    return extract(raw);
+  }
   /// The names of the observations that extract() would make from `raw`, without making them. If the log already has
   /// all of these observations, extract() is not called; if there are no names, extract() is always called.
   virtual std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& /*raw*/) const { return {}; }

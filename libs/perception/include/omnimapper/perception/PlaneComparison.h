@@ -21,6 +21,9 @@ struct PlaneComparisonOptions {
   double max_colour_distance = 30;    ///< Euclidean in RGB, in the 256 steps of a channel
 
   PlaneComparisonOptions();
+  bool operator==(const PlaneComparisonOptions& other) const {
+    return comparison == other.comparison && max_colour_distance == other.max_colour_distance;
+  }
   static const base::OptionTable<PlaneComparisonOptions>& table();
 };
 

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/perception/Extractor.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
@@ -16,6 +17,17 @@ struct OutlineOptions {
   static const base::OptionTable<OutlineOptions>& table();
 };
 
+/// How planes are found in depth images and described.
+struct PlaneSettings {
+  PlaneOptions planes;
+  OutlineOptions outlines;
+  PlaneComparisonOptions comparison = {};
+
+  bool operator==(const PlaneSettings& other) const {
+    return planes == other.planes && outlines.tolerance == other.outlines.tolerance && comparison == other.comparison;
+  }
+};
+
 /// The label of a scan's planes is the scan's label with this suffix.
 inline constexpr char kPlanesSuffix[] = ".planes";
 
@@ -28,7 +40,7 @@ class PlaneExtractor : public Extractor {
   /// Throws Error(out_of_range) for min_depth >= max_depth.
   PlaneExtractor(const PlaneOptions& planes, const OutlineOptions& outlines,
                  const PlaneComparisonOptions& comparison = {})
-      : segmenter_(planes, comparison), outlines_(outlines) {}
+      : settings_{planes, outlines, comparison}, segmenter_(planes, comparison) {}
 
   /// The planes of a scan, in the frame of its sensorPose (x forward, y left, z up). They have the scan's stamp and
   /// sensorPose, and the label "<scan label>.planes". Their colours come from the scan's picture; if the picture has
@@ -41,11 +53,16 @@ class PlaneExtractor : public Extractor {
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  /// Nothing if another extractor has found planes with the same settings.
+  std::vector<mrpt::obs::CObservation::Ptr> extractUsing(const mrpt::obs::CObservation& raw,
+                                                         Blackboard& board) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
+  PlaneSegmentation planesIn(const mrpt::obs::CObservation3DRangeScan& scan, const camera::RgbdView& view) const;
+
+  PlaneSettings settings_;
   PlaneSegmenter segmenter_;
-  OutlineOptions outlines_;
 };
 
 }  // namespace omnimapper::perception

@@ -26,6 +26,7 @@ struct PlaneOptions {
     return {noise_at_1m, step_at_1m, distortion_at_1m, correlation_area, scale_sigma};
   }
   static const base::OptionTable<PlaneOptions>& table();
+  bool operator==(const PlaneOptions& other) const;
 };
 
 /// Finds all planes of an organized depth image (thesis 3.4.3 and 3.4.4), accurate to a pixel. All computations use the

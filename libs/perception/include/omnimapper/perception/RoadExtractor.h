@@ -38,9 +38,14 @@ class RoadExtractor : public Extractor {
 
   bool wants(const mrpt::obs::CObservation& raw) const override;
   std::vector<mrpt::obs::CObservation::Ptr> extract(const mrpt::obs::CObservation& raw) const override;
+  std::vector<mrpt::obs::CObservation::Ptr> extractUsing(const mrpt::obs::CObservation& raw,
+                                                         Blackboard& board) const override;
   std::vector<DerivedName> namesOf(const mrpt::obs::CObservation& raw) const override;
 
  private:
+  std::shared_ptr<obs::CObservationPlanes> groundIn(const mrpt::obs::CObservation3DRangeScan& scan,
+                                                    const camera::RgbdView& view) const;
+
   RoadSegmenter segmenter_;
   OutlineOptions outlines_;
   RoadPoseOptions pose_;

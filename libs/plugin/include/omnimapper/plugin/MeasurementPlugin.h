@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/map/Map.h>
 #include <omnimapper/map/MapSection.h>
+#include <omnimapper/perception/Blackboard.h>
 #include <omnimapper/plugin/Batch.h>
 #include <omnimapper/plugin/Job.h>
 #include <omnimapper/plugin/View.h>
@@ -39,6 +40,12 @@ class MeasurementPlugin {
   /// Heavy work that needs only the observation and the options. It runs in several threads of the worker pool while
   /// the other functions run, so it must not read data that those change.
   virtual std::unique_ptr<const Prepared> prepare(const mrpt::obs::CObservation& /*observation*/) const { return {}; }
+  /// What perception calls: prepare(), for plugins that use what others have made of the observation. `board` is the
+  /// blackboard of the raw observation, which the observation is or was derived from.
+  virtual std::unique_ptr<const Prepared> prepareUsing(const mrpt::obs::CObservation& observation,
+                                                       const perception::Blackboard& /*board*/) const {
+    return prepare(observation);
+  }
   /// Whether the plugin's factors measure absolute poses in the map. The first pose is then not held at the origin.
   virtual bool givesAbsolutePoses() const { return false; }
   /// `frame` is linked to its neighbours already. It is the newest key frame unless the observation came late. If a
