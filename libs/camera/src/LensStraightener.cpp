@@ -13,6 +13,8 @@ using mrpt::obs::CObservation3DRangeScan;
 
 /// For each pixel of the straightened image, the place in the original image that shows the same ray.
 struct LensStraightener::Map {
+  Map(const mrpt::img::TCamera& of, const cv::Size& pixels);
+
   mrpt::img::TCamera camera;
   cv::Size size;
   cv::Mat columns, rows;  // [px] of 32 bits
@@ -67,42 +69,44 @@ mrpt::img::TCamera withoutLens(mrpt::img::TCamera camera) {
 LensStraightener::LensStraightener() = default;
 LensStraightener::~LensStraightener() = default;
 
-const LensStraightener::Map* LensStraightener::mapOf(const mrpt::img::TCamera& camera, int width, int height,
-                                                     std::unique_ptr<Map>& kept) {
+LensStraightener::Map::Map(const mrpt::img::TCamera& of, const cv::Size& pixels) : camera(of), size(pixels) {
+  const cv::Matx33d matrix(camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1);
+  const auto lens = camera.getDistortionParamsAsVector();
+  const bool has_lens = camera.distortion != mrpt::img::DistortionModel::none &&
+                        std::any_of(lens.begin(), lens.end(), [](double value) { return value != 0; });
+  if (has_lens && camera.distortion == mrpt::img::DistortionModel::kannala_brandt) {
+    cv::fisheye::initUndistortRectifyMap(matrix, lens, cv::Matx33d::eye(), matrix, size, CV_32FC1, columns, rows);
+  } else if (has_lens) {
+    cv::initUndistortRectifyMap(matrix, lens, cv::noArray(), matrix, size, CV_32FC1, columns, rows);
+  }
+  for (int y = 0; y < columns.rows; ++y) {
+    for (int x = 0; x < columns.cols; ++x) {
+      const double off =
+          std::hypot(static_cast<double>(columns.at<float>(y, x)) - x, static_cast<double>(rows.at<float>(y, x)) - y);
+      max_shift = std::max(max_shift, off);
+    }
+  }
+}
+
+std::shared_ptr<const LensStraightener::Map> LensStraightener::mapOf(const mrpt::img::TCamera& camera, int width,
+                                                                     int height, std::shared_ptr<const Map>& kept) {
   constexpr double kNegligibleShift = 1.0 / 3;  // [px]
   const cv::Size size(width, height);
   if (size.empty() || !isCalibration(camera)) return nullptr;
-  if (!kept || kept->camera != camera || kept->size != size) {
-    kept = std::make_unique<Map>();
-    kept->camera = camera;
-    kept->size = size;
-    const cv::Matx33d matrix(camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1);
-    const auto lens = camera.getDistortionParamsAsVector();
-    const bool has_lens = camera.distortion != mrpt::img::DistortionModel::none &&
-                          std::any_of(lens.begin(), lens.end(), [](double value) { return value != 0; });
-    if (has_lens && camera.distortion == mrpt::img::DistortionModel::kannala_brandt) {
-      cv::fisheye::initUndistortRectifyMap(matrix, lens, cv::Matx33d::eye(), matrix, size, CV_32FC1, kept->columns,
-                                           kept->rows);
-    } else if (has_lens) {
-      cv::initUndistortRectifyMap(matrix, lens, cv::noArray(), matrix, size, CV_32FC1, kept->columns, kept->rows);
-    }
-    for (int y = 0; y < kept->columns.rows; ++y) {
-      for (int x = 0; x < kept->columns.cols; ++x) {
-        const double off = std::hypot(static_cast<double>(kept->columns.at<float>(y, x)) - x,
-                                      static_cast<double>(kept->rows.at<float>(y, x)) - y);
-        kept->max_shift = std::max(kept->max_shift, off);
-      }
-    }
+  auto map = std::atomic_load(&kept);
+  if (!map || map->camera != camera || map->size != size) {
+    map = std::make_shared<const Map>(camera, size);
+    std::atomic_store(&kept, map);
   }
-  return kept->max_shift < kNegligibleShift ? nullptr : kept.get();
+  return map->max_shift < kNegligibleShift ? nullptr : map;
 }
 
-CObservation3DRangeScan::ConstPtr LensStraightener::straightened(const CObservation3DRangeScan::ConstPtr& scan) {
+CObservation3DRangeScan::ConstPtr LensStraightener::straightened(const CObservation3DRangeScan::ConstPtr& scan) const {
   const auto& depths = scan->rangeImage;
-  const Map* of_depths = scan->hasRangeImage ? mapOf(scan->cameraParams, static_cast<int>(depths.cols()),
+  const auto of_depths = scan->hasRangeImage ? mapOf(scan->cameraParams, static_cast<int>(depths.cols()),
                                                      static_cast<int>(depths.rows()), depth_)
                                              : nullptr;
-  const Map* of_picture = hasPicture(*scan)
+  const auto of_picture = hasPicture(*scan)
                               ? mapOf(scan->cameraParamsIntensity, static_cast<int>(scan->intensityImage.getWidth()),
                                       static_cast<int>(scan->intensityImage.getHeight()), picture_)
                               : nullptr;

@@ -113,6 +113,10 @@ void CameraOdometry::processUntil(base::Stamp stamp) {
   gyroscope_.forgetBefore(turn_begun_ ? std::min(*turn_begun_, forgotten) : forgotten);
 }
 
+void CameraOdometry::share(const mrpt::obs::CObservation& observation, perception::Blackboard& board) const {
+  if (newest_ && newest_->isOf(observation)) StraightImage::share(newest_, board);
+}
+
 // An image may arrive before the next reading of the wheels, whose last motion is then extrapolated.
 std::optional<mapper::RelativeMotion> CameraOdometry::wheelsBetween(base::Stamp begin, base::Stamp end) const {
   constexpr double kLongestLag = 0.2, kAcceleration = 1, kTurnAcceleration = 2;  // [s] [m/s2] [rad/s2]
@@ -192,8 +196,11 @@ void CameraOdometry::follow(const CObservation3DRangeScan::ConstPtr& image) {
   const geometry::Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
   const auto prediction = predictionOf(base_from_camera, scan.timestamp);
   ImageMotion tracked;
+  newest_.reset();
   try {
-    tracked = track(camera::RgbdView(*lens_.straightened(image)), scan.timestamp, prediction);
+    auto straight = std::make_shared<const StraightImage>(image, lens_);
+    tracked = track(*straight, scan.timestamp, prediction);
+    newest_ = std::move(straight);
   } catch (const base::Error& error) {
     if (unreadable_++ == 0) why_unreadable_ = error.what();
     return;

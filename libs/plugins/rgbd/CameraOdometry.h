@@ -3,7 +3,6 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/camera/LensStraightener.h>
-#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Se3.h>
 #include <omnimapper/motion/Gyroscope.h>
 #include <omnimapper/motion/PoseTimeline.h>
@@ -13,11 +12,13 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "StraightImage.h"
 #include "returnEvidence.h"
 
 namespace omnimapper::plugins {
@@ -72,6 +73,7 @@ class CameraOdometry : public mapper::PosePlugin {
 
   Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   void processUntil(base::Stamp stamp) override;
+  void share(const mrpt::obs::CObservation& observation, perception::Blackboard& board) const override;
   std::optional<mapper::RelativeMotion> between(base::Stamp begin, base::Stamp end) const override {
     return timeline_.between(begin, end);
   }
@@ -87,7 +89,7 @@ class CameraOdometry : public mapper::PosePlugin {
  private:
   /// Whether track() looks for earlier views.
   virtual bool seeksReturns() const { return true; }
-  virtual ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
+  virtual ImageMotion track(const StraightImage& image, base::Stamp stamp,
                             const std::optional<motion::PredictedMotion>& prediction) = 0;
   /// Motion of the base by wheels and gyroscope; the rotation is the gyroscope's if there is one.
   struct BaseMotion {
@@ -117,7 +119,8 @@ class CameraOdometry : public mapper::PosePlugin {
   std::optional<base::Stamp> turn_begun_;  // since then all images were tracked in all directions
   Eigen::Quaterniond turned_;              // rotation of the base since turn_begun_
   camera::LensStraightener lens_;
-  std::vector<base::Stamp> lost_images_;  // stamps since the last tracked image
+  std::shared_ptr<const StraightImage> newest_;  // the last processed image, if it could be read
+  std::vector<base::Stamp> lost_images_;         // stamps since the last tracked image
   std::vector<Loop> loops_;
   std::size_t images_ = 0, lost_ = 0, gaps_ = 0, bridged_ = 0, hasty_in_a_row_ = 0, runaways_ = 0, found_ = 0,
               unreadable_ = 0;

@@ -42,9 +42,10 @@ CloudOdometryPlugin::CloudOdometryPlugin(const CameraOdometryOptions& options,
   }
 }
 
-ImageMotion CloudOdometryPlugin::track(const camera::RgbdView& view, base::Stamp stamp,
+ImageMotion CloudOdometryPlugin::track(const StraightImage& image, base::Stamp stamp,
                                        const std::optional<motion::PredictedMotion>& prediction) {
   using How = matching::CloudTracker::Tracked::How;
+  const camera::RgbdView& view = image.view();
   auto cloud = std::make_shared<const matching::MatchCloud>(matching::cloudOf(view.depth(), view.colour(), source_));
   const auto tracked = tracker_.track(stamp, std::move(cloud), prediction);
   ImageMotion motion;

@@ -28,7 +28,7 @@ class CloudOdometryPlugin : public CameraOdometry {
 
  private:
   bool seeksReturns() const override { return false; }
-  ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
+  ImageMotion track(const StraightImage& image, base::Stamp stamp,
                     const std::optional<motion::PredictedMotion>& prediction) override;
 
   matching::CloudSourceOptions source_;

@@ -1,7 +1,6 @@
 #include "ViewLinksPlugin.h"
 
 #include <omnimapper/base/Error.h>
-#include <omnimapper/camera/RgbdView.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/plugin/PoseFactors.h>
@@ -67,29 +66,39 @@ bool ViewLinksPlugin::wants(const mrpt::obs::CObservation& observation) const {
   return scan && scan->hasRangeImage && (camera_.empty() || scan->sensorLabel == camera_);
 }
 
-mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
-                                       const mapper::View& view) {
-  const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observed.observation);
-  if (label_.empty()) label_ = scan.sensorLabel;
-  if (scan.sensorLabel != label_) return {};
+std::unique_ptr<const mapper::Prepared> ViewLinksPlugin::prepareUsing(const mrpt::obs::CObservation& observation,
+                                                                      const perception::Blackboard& board) const {
+  const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(observation);
+  auto seen = std::make_unique<SeenImage>();
+  seen->image = board.find<StraightImage>();
   try {
-    return linksOf(frame, scan, view);
-  } catch (const base::Error&) {  // the image cannot be read; the odometry warns of it
-    return {};
+    // The observation outlives what is prepared of it.
+    const CObservation3DRangeScan::ConstPtr borrowed(CObservation3DRangeScan::ConstPtr{}, &scan);
+    if (!seen->image) seen->image = std::make_shared<const StraightImage>(borrowed, lens_);
+    const auto depth = seen->image->pyramid().medianDepth();
+    if (!depth) return nullptr;
+    seen->base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
+    seen->depth = *depth;
+  } catch (const base::Error&) {  // the odometry warns of images that cannot be read
+    return nullptr;
   }
+  return seen;
 }
 
-mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const CObservation3DRangeScan& scan,
+mapper::Batch ViewLinksPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                        const mapper::View& view) {
-  const CObservation3DRangeScan::ConstPtr borrowed(CObservation3DRangeScan::ConstPtr{}, &scan);
-  const auto straight = lens_.straightened(borrowed);
-  const camera::RgbdView seen(*straight);
-  const matching::RgbdPyramid pyramid(seen.depth(), seen.colour());
-  const auto depth = pyramid.medianDepth();
-  if (!depth) return {};
-  const Se3 base_from_camera = geometry::fromMrpt(scan.sensorPose) * geometry::sensorFromOptical();
+  const std::string& label = observed.observation.sensorLabel;
+  if (label_.empty()) label_ = label;
+  const auto* seen = dynamic_cast<const SeenImage*>(observed.prepared);
+  if (label != label_ || seen == nullptr) return {};
+  return linksOf(frame, *seen, view);
+}
+
+mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const SeenImage& seen, const mapper::View& view) {
+  const matching::RgbdPyramid& pyramid = seen.image->pyramid();
+  const Se3& base_from_camera = seen.base_from_camera;
   const auto motion = motionAt(frame, base_from_camera, view);
-  KeyImage image{frame.id, matcher_.prepare(pyramid, motion), base_from_camera, *depth, motion.velocity};
+  KeyImage image{frame.id, matcher_.prepare(pyramid, motion), base_from_camera, seen.depth, motion.velocity};
   std::vector<Link> links;
   // Compares positions in the trajectory, because a late image may have inserted a key frame between others.
   const std::size_t position = view.map.key_frames.position(frame.id);

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "StraightImage.h"
+
 namespace omnimapper::plugins {
 
 struct ViewLinksOptions {
@@ -41,6 +43,9 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
                   const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
+  /// Null for an image that cannot be read or has too few depths.
+  std::unique_ptr<const mapper::Prepared> prepareUsing(const mrpt::obs::CObservation& observation,
+                                                       const perception::Blackboard& board) const override;
   mapper::Batch measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                         const mapper::View& view) override;
   void retired(const map::KeyFrame& frame) override;
@@ -51,6 +56,12 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   std::vector<mapper::Evidence> evidence(const mapper::View& view) const override;
 
  private:
+  /// What prepareUsing() makes of an image.
+  struct SeenImage : mapper::Prepared {
+    std::shared_ptr<const StraightImage> image;
+    geometry::Se3 base_from_camera;
+    double depth;  // [m] median
+  };
   /// The image of a key frame.
   struct KeyImage {
     base::KeyFrameId frame;
@@ -72,8 +83,7 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
     geometry::Se3 before_from_camera, before_base_from_camera, base_from_camera;
     double depth;  // [m] median
   };
-  mapper::Batch linksOf(const map::KeyFrame& frame, const mrpt::obs::CObservation3DRangeScan& scan,
-                        const mapper::View& view);
+  mapper::Batch linksOf(const map::KeyFrame& frame, const SeenImage& seen, const mapper::View& view);
   std::optional<Link> linkTo(const KeyImage& to, const KeyImage& image, const matching::RgbdPyramid& pyramid,
                              const matching::CameraMotion& motion, const mapper::State& state) const;
   std::vector<const KeyImage*> viewsSeenAgain(const KeyImage& image, const mapper::State& state) const;

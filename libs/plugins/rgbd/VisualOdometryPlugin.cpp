@@ -12,10 +12,10 @@ VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
                                            const matching::FeatureMatcherOptions& features)
     : CameraOdometry(options, "visual odometry"), tracker_(tracking, matching, features) {}
 
-ImageMotion VisualOdometryPlugin::track(const camera::RgbdView& view, base::Stamp stamp,
+ImageMotion VisualOdometryPlugin::track(const StraightImage& image, base::Stamp stamp,
                                         const std::optional<motion::PredictedMotion>& prediction) {
   using How = matching::RgbdTracker::Tracked::How;
-  const auto tracked = tracker_.track(stamp, matching::RgbdPyramid(view.depth(), view.colour()), prediction);
+  const auto tracked = tracker_.track(stamp, image.pyramid(), prediction);
   ImageMotion motion;
   motion.how = tracked.how == How::lost    ? ImageMotion::How::lost
                : tracked.how == How::begun ? ImageMotion::How::begun

@@ -17,7 +17,7 @@ class VisualOdometryPlugin : public CameraOdometry {
                        const matching::FeatureMatcherOptions& features = {});
 
  private:
-  ImageMotion track(const camera::RgbdView& view, base::Stamp stamp,
+  ImageMotion track(const StraightImage& image, base::Stamp stamp,
                     const std::optional<motion::PredictedMotion>& prediction) override;
 
   matching::RgbdTracker tracker_;

@@ -40,6 +40,12 @@ class ViewLinks : public ::testing::Test {
     plugin_ = std::make_unique<ViewLinksPlugin>(options, "", tracking_, matching::DenseMatcherOptions{}, context_);
   }
 
+  mapper::Batch measured(const map::KeyFrame& frame, const mrpt::obs::CObservation& scan,
+                         const perception::Blackboard& board = {}) {
+    const auto prepared = plugin_->prepareUsing(scan, board);
+    return plugin_->measure(frame, {scan, prepared.get()}, run_.view());
+  }
+
   /// Adds a key frame. `start_from_base`: its true pose. `estimate`: its pose in the map.
   mapper::Batch see(const Se3& start_from_base, const Se3& estimate, bool is_covered = false) {
     const double seconds = static_cast<double>(run_.map.key_frames.size());
@@ -52,7 +58,7 @@ class ViewLinks : public ::testing::Test {
     run_.map.key_frames.insert(frame);
     const auto scan = renderedScan(room_, kRoomFromStart * start_from_base, kBaseFromCamera, frame.stamp, is_covered);
     EXPECT_TRUE(plugin_->wants(*scan));
-    return plugin_->measure(run_.map.key_frames.at(frame.id), {*scan, nullptr}, run_.view());
+    return measured(run_.map.key_frames.at(frame.id), *scan);
   }
   mapper::Batch see(const Se3& start_from_base) { return see(start_from_base, start_from_base); }
 
@@ -173,7 +179,7 @@ TEST_F(ViewLinks, leaveOutAnImageThatCannotBeRead) {
   see(moved(0.04, 0.01, 0.03));
   auto scan = renderedScan(room_, kRoomFromStart, kBaseFromCamera, at(2));
   scan->cameraParams.setIntrinsicParamsFromValues(0, 0, 0, 0);
-  EXPECT_TRUE(plugin_->measure(run_.map.key_frames.back(), {*scan, nullptr}, run_.view()).empty());
+  EXPECT_TRUE(measured(run_.map.key_frames.back(), *scan).empty());
   EXPECT_EQ(see(moved(0.08, 0.01, 0.06)).addedFactors().size(), 1u);
 }
 
@@ -190,7 +196,19 @@ TEST_F(ViewLinks, takeOneCameraAlone) {
   see(moved(0.04, 0.01, 0.03));
   auto scan = renderedScan(room_, kRoomFromStart, kBaseFromCamera, at(2));
   scan->sensorLabel = "another";
-  EXPECT_TRUE(plugin_->measure(run_.map.key_frames.back(), {*scan, nullptr}, run_.view()).empty());
+  EXPECT_TRUE(measured(run_.map.key_frames.back(), *scan).empty());
+}
+
+TEST_F(ViewLinks, takeTheImageThatTheOdometryHasMade) {
+  see(moved(0, 0, 0));
+  see(moved(0.04, 0.01, 0.03));
+  const auto scan = renderedScan(room_, kRoomFromStart, kBaseFromCamera, at(2));
+  const auto another = renderedScan(room_, kRoomFromStart, kBaseFromCamera, at(2), true);
+  perception::Blackboard board;
+  const camera::LensStraightener lens;
+  StraightImage::share(std::make_shared<const StraightImage>(scan, lens), board);
+  EXPECT_EQ(plugin_->prepareUsing(*another, {}), nullptr) << "no depths";
+  EXPECT_NE(plugin_->prepareUsing(*another, board), nullptr) << "those of the image on the board";
 }
 
 TEST(ViewLinksOptions, nameASectionThatIsThere) {

@@ -435,5 +435,36 @@ TEST_F(VisualOdometry, AGyroscopeMeasuresTheTurnThatABareWallLeavesUnconstrained
   EXPECT_GT(std::sqrt(motion->covariance(1, 1)), 0.3) << "along the wall nothing measures it";
 }
 
+TEST_F(VisualOdometry, sharesTheImageThatItProcessedLastWithPerception) {
+  const auto first = scan(0), second = scan(0.1);
+  for (const auto& one : {first, second}) plugin_->add(one);
+  plugin_->processUntil(at(0));
+  perception::Blackboard of_first, of_second;
+  plugin_->share(*first, of_first);
+  plugin_->share(*second, of_second);
+  ASSERT_NE(of_first.find<StraightImage>(), nullptr);
+  EXPECT_TRUE(of_first.find<StraightImage>()->isOf(*first));
+  EXPECT_EQ(of_first.find<camera::RgbdView>().get(), &of_first.find<StraightImage>()->view());
+  EXPECT_EQ(of_second.find<StraightImage>(), nullptr) << "not processed yet";
+  plugin_->processUntil(at(0.1));
+  plugin_->share(*second, of_second);
+  EXPECT_TRUE(of_second.find<StraightImage>()->isOf(*second));
+  EXPECT_TRUE(of_first.find<StraightImage>()->isOf(*first)) << "still there";
+}
+
+TEST_F(VisualOdometry, sharesNoDecodedImagesOfAnotherLens) {
+  const auto bent = scan(0);
+  for (auto* camera : {&bent->cameraParams, &bent->cameraParamsIntensity}) {
+    camera->distortion = mrpt::img::DistortionModel::plumb_bob;
+    camera->k1(-0.3);
+  }
+  plugin_->add(bent);
+  plugin_->processUntil(at(0));
+  perception::Blackboard board;
+  plugin_->share(*bent, board);
+  EXPECT_NE(board.find<StraightImage>(), nullptr);
+  EXPECT_EQ(board.find<camera::RgbdView>(), nullptr) << "extractors see the image as it came";
+}
+
 }  // namespace
 }  // namespace omnimapper::plugins::visual_odometry_plugin_test

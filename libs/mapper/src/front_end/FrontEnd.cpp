@@ -198,7 +198,11 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     }
     bundle.reference = bundle.reference || observation->sensorLabel == reference_sensor_;
   }
-  for (const auto& raw : fired) bundle.observations.push_back(perception_->submit(raw, fired));
+  for (const auto& raw : fired) {
+    perception::Blackboard board;
+    for (const auto& [section, plugin] : plugins_.pose) plugin->share(*raw, board);
+    bundle.observations.push_back(perception_->submit(raw, fired, std::move(board)));
+  }
   if (bundle.isOnlyWatched() && bundle.watched.empty()) return;
   in_perception_ += bundle.isOnlyWatched() ? 0 : 1;
   bundles_.push_back(std::move(bundle));

@@ -21,16 +21,18 @@ class LensStraightener {
   /// every pixel by less than a third of a pixel, or if its calibration is invalid; if this holds for all images,
   /// returns `scan` itself. A new scan has the stamp, the label and the poses of `scan`, but no points and no
   /// confidences. Pixels that the lens did not show have no depth and are black. Throws Error(missing_images) if the
-  /// picture is in a file that cannot be read.
-  mrpt::obs::CObservation3DRangeScan::ConstPtr straightened(const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan);
+  /// picture is in a file that cannot be read. Thread-safe.
+  mrpt::obs::CObservation3DRangeScan::ConstPtr straightened(
+      const mrpt::obs::CObservation3DRangeScan::ConstPtr& scan) const;
 
  private:
   struct Map;
   /// The undistortion map for a camera and an image size; null if the image stays as it is. `kept` keeps the map for
   /// the next images.
-  const Map* mapOf(const mrpt::img::TCamera& camera, int width, int height, std::unique_ptr<Map>& kept);
+  static std::shared_ptr<const Map> mapOf(const mrpt::img::TCamera& camera, int width, int height,
+                                          std::shared_ptr<const Map>& kept);
 
-  std::unique_ptr<Map> depth_, picture_;
+  mutable std::shared_ptr<const Map> depth_, picture_;  // read and replaced atomically
 };
 
 }  // namespace omnimapper::camera

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/perception/Blackboard.h>
 #include <omnimapper/plugin/RelativeMotion.h>
 #include <omnimapper/plugin/Verdict.h>
 
@@ -38,6 +39,8 @@ class PosePlugin {
   virtual mrpt::obs::CObservation::ConstPtr usablePart(const mrpt::obs::CObservation::ConstPtr& observation) const {
     return observation;
   }
+  /// Puts on the blackboard what processUntil() has made of the observation just now and perception can use again.
+  virtual void share(const mrpt::obs::CObservation& /*observation*/, perception::Blackboard& /*board*/) const {}
   /// Motion from `begin` to `end` (begin <= end); none if the span is not covered.
   /// Spans must add up: cov(a, c) is the sum of cov(a, b), transformed to the frame at c, and cov(b, c). A span can
   /// then be split without a change of its covariance.
