@@ -4,6 +4,7 @@
 #include <omnimapper/geometry/OpticalFrame.h>
 
 #include <cmath>
+#include <utility>
 
 namespace omnimapper::camera {
 
@@ -95,6 +96,23 @@ std::optional<ScanColours::Place> ScanColours::placeInOtherView(int x, int y, do
   const double v = colour_camera_.fy * p.y() / p.z() + colour_camera_.cy + 0.5;
   if (!(u >= 0 && u < width_ && v >= 0 && v < static_cast<double>(rows_.size()))) return std::nullopt;
   return Place{static_cast<int>(u), static_cast<int>(v)};
+}
+
+void ScanColours::addRow(int y, int begin, int end, ColourSum& sum) const {
+  const std::uint8_t* p = rows_[static_cast<std::size_t>(y)] + static_cast<std::ptrdiff_t>(channels_) * begin;
+  std::uint32_t first = 0, second = 0, third = 0;
+  if (channels_ < 3) {
+    for (int x = begin; x < end; ++x) first += *p++;
+    second = third = first;
+  } else {
+    for (int x = begin; x < end; ++x, p += 3) {
+      first += p[0];
+      second += p[1];
+      third += p[2];
+    }
+  }
+  if (!red_first_) std::swap(first, third);
+  sum.add(first, second, third, static_cast<std::uint64_t>(end - begin));
 }
 
 std::vector<obs::Rgb> ScanColours::inDepthView(const ScanDepth& depth) const {

@@ -65,36 +65,71 @@ struct SurfacePlane {
   double sigma;            // [rad] of the normal, by the residuals of the pixels around
 };
 
+/// The normal equations of a plane through pixels around one, whose inverse depths are linear in the image.
+struct PlaneEquations {
+  explicit PlaneEquations(const Eigen::Matrix3d& squares) : solver(squares), inverse(squares.inverse()) {}
+
+  Eigen::LDLT<Eigen::Matrix3d> solver;
+  Eigen::Matrix3d inverse;
+};
+
+// Those of all pixels of a window; most windows lie within one surface.
+const PlaneEquations& equationsOfWindow(int radius) {
+  const auto all = [](int r) {
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    for (int v = -r; v <= r; ++v)
+      for (int u = -r; u <= r; ++u) squares += Eigen::Vector3d(u, v, 1) * Eigen::RowVector3d(u, v, 1);
+    return PlaneEquations(squares);
+  };
+  static const PlaneEquations small = all(1), large = all(2);
+  return radius == 1 ? small : large;
+}
+
+// Calls take(u, v, off) for each pixel (x + u, y + v) of the window that is of one surface with the middle one; `off`
+// is the difference of their inverse depths.
+template <class Take>
+void eachOfSurface(const RgbdLevel& level, int x, int y, int radius, const Take& take) {
+  constexpr float kOneSurface = 0.05F;  // largest relative difference on one surface
+  const float middle = level.inverse_depth[level.at(x, y)];
+  for (int v = std::max(-radius, -y); v <= radius && y + v < level.height; ++v) {
+    for (int u = std::max(-radius, -x); u <= radius && x + u < level.width; ++u) {
+      const float off = level.inverse_depth[level.at(x + u, y + v)] - middle;
+      if (std::abs(off) <= kOneSurface * middle) take(u, v, static_cast<double>(off));
+    }
+  }
+}
+
 // Fits a plane through pixels of this level: inverse depth is linear in an image of a plane, 1/z = (n/d) . (x/z, y/z,
 // 1). Normals of the finest level are six times as noisy, and noisy ones seem to determine motions along a bare wall.
 // None where less than half of the pixels are of one surface.
 std::optional<SurfacePlane> planeAround(const RgbdLevel& level, int x, int y) {
   constexpr int kCoarse = 120;  // [px] columns below which 5 x 5 pixels are too large a part of the view
   const int radius = level.width < kCoarse ? 1 : 2, pixels = (2 * radius + 1) * (2 * radius + 1);
-  constexpr float kOneSurface = 0.05F;  // largest relative difference on one surface
-  const float middle = level.inverse_depth[level.at(x, y)];
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   Eigen::Vector3d products = Eigen::Vector3d::Zero();
-  double sum = 0, count = 0;
-  for (int v = std::max(-radius, -y); v <= radius && y + v < level.height; ++v) {
-    for (int u = std::max(-radius, -x); u <= radius && x + u < level.width; ++u) {
-      const float off = level.inverse_depth[level.at(x + u, y + v)] - middle;
-      if (!(std::abs(off) <= kOneSurface * middle)) continue;
-      const Eigen::Vector3d place(u, v, 1);
-      squares += place * place.transpose();
-      products += off * place;
-      sum += static_cast<double>(off) * static_cast<double>(off);
-      ++count;
-    }
-  }
+  double sum = 0;
+  int count = 0;
+  eachOfSurface(level, x, y, radius, [&](int u, int v, double off) {
+    products += off * Eigen::Vector3d(u, v, 1);
+    sum += off * off;
+    ++count;
+  });
   if (2 * count < pixels) return std::nullopt;
-  const Eigen::Vector3d slope = squares.ldlt().solve(products);
+  std::optional<PlaneEquations> of_part;
+  if (count < pixels) {
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    eachOfSurface(level, x, y, radius,
+                  [&](int u, int v, double) { squares += Eigen::Vector3d(u, v, 1) * Eigen::RowVector3d(u, v, 1); });
+    of_part.emplace(squares);
+  }
+  const PlaneEquations& equations = of_part ? *of_part : equationsOfWindow(radius);
+  const Eigen::Vector3d slope = equations.solver.solve(products);
   const auto& camera = level.camera;
+  const auto middle = static_cast<double>(level.inverse_depth[level.at(x, y)]);
   const double a = slope.x() * camera.fx, b = slope.y() * camera.fy;
-  const double c = static_cast<double>(middle) + slope.z() - slope.x() * (x - camera.cx) - slope.y() * (y - camera.cy);
+  const double c = middle + slope.z() - slope.x() * (x - camera.cx) - slope.y() * (y - camera.cy);
   const double length = std::sqrt(a * a + b * b + c * c);
   const double variance = std::max(0.0, sum - slope.dot(products)) / (count - 3);
-  const Eigen::Matrix3d of_slope = variance * squares.inverse();
+  const Eigen::Matrix3d of_slope = variance * equations.inverse;
   const double rough =
       std::sqrt(std::max(camera.fx * camera.fx * of_slope(0, 0), camera.fy * camera.fy * of_slope(1, 1)));
   return SurfacePlane{-Eigen::Vector3d(a, b, c) / length, rough / length};

@@ -17,6 +17,11 @@ constexpr int kSmallest = 20;  // [px] columns and rows of the coarsest level
 // wall seen at 80 deg.
 constexpr float kDiscontinuity = 0.05F;
 
+// 1 / z, or 0 if the depth is not valid. The division without a branch lets loops compute several pixels at once.
+float inverseIf(bool is_valid, float z) {
+  return (is_valid ? 1.F : 0.F) / (is_valid ? z : 1.F);
+}
+
 std::vector<float> inverseDepths(const DepthImage& image, const RgbdPyramidOptions& options) {
   const auto size = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
   std::vector<float> inverse(size);
@@ -26,12 +31,12 @@ std::vector<float> inverseDepths(const DepthImage& image, const RgbdPyramidOptio
     const auto unit = static_cast<float>(image.metresPerUnit());
     for (std::size_t i = 0; i < size; ++i) {
       const float z = unit * static_cast<float>(image.units()[i]);
-      inverse[i] = z >= low && z <= high && image.units()[i] != kSaturated ? 1 / z : 0;
+      inverse[i] = inverseIf(z >= low && z <= high && image.units()[i] != kSaturated, z);
     }
   } else {
     for (std::size_t i = 0; i < size; ++i) {
       const float z = image.metres()[i];
-      inverse[i] = z >= low && z <= high ? 1 / z : 0;
+      inverse[i] = inverseIf(z >= low && z <= high, z);
     }
   }
   return inverse;
@@ -60,14 +65,11 @@ std::vector<float> greys(const ColourImage& picture) {
 float nearestMean(float a, float b, float c, float d) {
   const float nearest = std::max(std::max(a, b), std::max(c, d));
   const float least = nearest * (1 - kDiscontinuity);
-  float sum = 0;
-  int count = 0;
-  for (const float one : {a, b, c, d}) {
-    if (one < least || one <= 0) continue;
-    sum += one;
-    ++count;
-  }
-  return count >= 3 ? sum / static_cast<float>(count) : 0;
+  // Without branches, so that loops compute several pixels at once.
+  const auto isOfIt = [least](float one) { return one >= least && one > 0 ? 1.F : 0.F; };
+  const float of_a = isOfIt(a), of_b = isOfIt(b), of_c = isOfIt(c), of_d = isOfIt(d);
+  const float sum = a * of_a + b * of_b + c * of_c + d * of_d, count = of_a + of_b + of_c + of_d;
+  return (count >= 3 ? sum : 0) / (count >= 3 ? count : 1);
 }
 
 RgbdLevel halved(const RgbdLevel& fine) {

@@ -10,17 +10,26 @@ namespace omnimapper::perception::planes {
 
 namespace {
 
+// The colours of the pixels of each plane.
 std::vector<camera::ColourSum> coloursOf(const PlaneSegmentation& found, const camera::RgbdView& view) {
-  const camera::DepthImage& depth = view.depth();
   const camera::ScanColours& colours = view.colours();
   std::vector<camera::ColourSum> sums(found.planes.size());
   if (!colours.exist() || sums.empty()) return sums;
-  std::size_t i = 0;
   for (int y = 0; y < found.height; ++y) {
-    for (int x = 0; x < found.width; ++x, ++i) {
-      const std::uint16_t label = found.labels[i];
+    const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(found.width);
+    for (int begin = 0, end = 0; begin < found.width; begin = end) {
+      const std::uint16_t label = found.labels[first + static_cast<std::size_t>(begin)];
+      while (end < found.width && found.labels[first + static_cast<std::size_t>(end)] == label) ++end;
       if (label == 0) continue;
-      if (const auto colour = colours.at(x, y, depth.at(i))) sums[label - 1U].add(*colour);
+      auto& sum = sums[label - 1U];
+      if (colours.areOfDepthView()) {
+        colours.addRow(y, begin, end, sum);
+        continue;
+      }
+      for (int x = begin; x < end; ++x) {
+        const auto colour = colours.at(x, y, view.depth().at(first + static_cast<std::size_t>(x)));
+        if (colour) sum.add(*colour);
+      }
     }
   }
   return sums;

@@ -46,6 +46,24 @@ class ScanDepth {
   std::optional<DepthImage> image_;
 };
 
+/// Accumulates colours and returns their mean.
+class ColourSum {
+ public:
+  void add(const obs::Rgb& colour) { add(colour.red, colour.green, colour.blue, 1); }
+  /// Adds the sums of `count` colours.
+  void add(std::uint64_t red, std::uint64_t green, std::uint64_t blue, std::uint64_t count) {
+    red_ += red;
+    green_ += green;
+    blue_ += blue;
+    count_ += count;
+  }
+  /// None if no colour was added.
+  std::optional<obs::Rgb> mean() const;
+
+ private:
+  std::uint64_t red_ = 0, green_ = 0, blue_ = 0, count_ = 0;
+};
+
 /// Colours of the points of a depth image. The observation must outlive it.
 class ScanColours {
  public:
@@ -64,6 +82,10 @@ class ScanColours {
 
   /// Colours of all pixels of the depth image, row by row; black where there is no depth or no colour.
   std::vector<obs::Rgb> inDepthView(const ScanDepth& depth) const;
+
+  /// Adds the colours of the pixels from column `begin` to before `end` of row y. Only if the picture has the view of
+  /// the depth image.
+  void addRow(int y, int begin, int end, ColourSum& sum) const;
 
   /// Column and row of the picture.
   struct Place {
@@ -97,22 +119,6 @@ class ScanColours {
   Pinhole depth_camera_, colour_camera_;
   Eigen::Matrix3d colour_from_depth_ = Eigen::Matrix3d::Identity();  // between optical frames
   Eigen::Vector3d depth_in_colour_ = Eigen::Vector3d::Zero();        // [m]
-};
-
-/// Accumulates colours and returns their mean.
-class ColourSum {
- public:
-  void add(const obs::Rgb& colour) {
-    red_ += colour.red;
-    green_ += colour.green;
-    blue_ += colour.blue;
-    ++count_;
-  }
-  /// None if no colour was added.
-  std::optional<obs::Rgb> mean() const;
-
- private:
-  std::uint64_t red_ = 0, green_ = 0, blue_ = 0, count_ = 0;
 };
 
 }  // namespace omnimapper::camera
