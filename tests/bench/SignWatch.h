@@ -3,8 +3,8 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/graph/ByteIo.h>
 #include <omnimapper/graph/PointFactor.h>
+#include <omnimapper/plugin/FactoryOf.h>
 #include <omnimapper/plugin/OutputPlugin.h>
-#include <omnimapper/plugin/PluginFactory.h>
 
 #include <Eigen/Cholesky>
 #include <map>
@@ -178,9 +178,21 @@ struct SignWatch {
   std::map<base::VariableId, base::Stamp> stamps_;
 };
 
+struct NoOptions {
+  static const base::OptionTable<NoOptions>& table() {
+    static const base::OptionTable<NoOptions> table;
+    return table;
+  }
+};
+
 /// Output plugin that passes a run to `watch`, which must exist until the run has ended.
 class SignWatchOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "SignWatchOutput";
+  static constexpr const char* kSummary = "Records for a benchmark which signs the mapper associates.";
+
+  explicit SignWatchOutput(const NoOptions& /*options*/) {}
+
   inline static SignWatch* watch = nullptr;
 
   void keyFrameAdded(const mapper::View& view) override {
@@ -189,30 +201,6 @@ class SignWatchOutput : public mapper::OutputPlugin {
   void finish(const mapper::View& view) override {
     if (watch) watch->finish(view);
   }
-};
-
-class SignWatchOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(SignWatchOutputFactory, omnimapper::bench)
- public:
-  std::string name() const override { return "SignWatchOutput"; }
-  std::string summary() const override { return "Records for a benchmark which signs the mapper associates."; }
-  const std::vector<base::OptionSpec>& options() const override {
-    static const std::vector<base::OptionSpec> none;
-    return none;
-  }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext&) const override {
-    section.read<NoOptions>(mapper::sectionKeysOfEngine());
-    return std::make_unique<SignWatchOutput>();
-  }
-
- private:
-  struct NoOptions {
-    static const base::OptionTable<NoOptions>& table() {
-      static const base::OptionTable<NoOptions> table;
-      return table;
-    }
-  };
 };
 
 }  // namespace omnimapper::bench

@@ -18,6 +18,7 @@
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/plugin/FactoryOf.h>
 #include <omnimapper/plugin/PoseFactors.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
@@ -51,6 +52,9 @@ struct FalseClosureOptions {
 // leads advances by one with each new key frame.
 class FalseClosures : public mapper::MeasurementPlugin {
  public:
+  static constexpr const char* kName = "FalseClosures";
+  static constexpr const char* kSummary = "Proposes false loop closures.";
+
   FalseClosures(const FalseClosureOptions& options, const mapper::PluginContext& context)
       : options_(options), context_(context), dice_(static_cast<std::uint64_t>(options.seed)) {}
   bool wants(const mrpt::obs::CObservation&) const override { return false; }
@@ -90,18 +94,6 @@ class FalseClosures : public mapper::MeasurementPlugin {
   int left_ = 0;
   std::size_t place_ = 0, first_ = 0;
   mrpt::poses::CPose3D offset_;
-};
-
-class FalseClosuresFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(FalseClosuresFactory, bench)
- public:
-  std::string name() const override { return "FalseClosures"; }
-  std::string summary() const override { return "Proposes false loop closures."; }
-  const std::vector<base::OptionSpec>& options() const override { return FalseClosureOptions::table().specs(); }
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override {
-    return std::make_unique<FalseClosures>(section.read<FalseClosureOptions>(mapper::sectionKeysOfEngine()), context);
-  }
 };
 
 struct Request {
@@ -210,8 +202,6 @@ int main(const Request& request) {
 
 }  // namespace bench
 
-IMPLEMENTS_MRPT_OBJECT(FalseClosuresFactory, omnimapper::mapper::MeasurementPluginFactory, bench)
-
 int main(int argc, char** argv) {
   bench::Request request;
   CLI::App app("Maps a log with false loop closures among the true ones, and reports how they affect the map.");
@@ -224,6 +214,6 @@ int main(int argc, char** argv) {
   app.add_option("--set", request.settings, "section.key=value");
   CLI11_PARSE(app, argc, argv);
   omnimapper::mapper::loadFeatures();
-  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(FalseClosuresFactory, bench));
+  omnimapper::mapper::FactoryOf<bench::FalseClosures, bench::FalseClosureOptions>::registerClass();
   return bench::main(request);
 }

@@ -91,7 +91,7 @@ Counts compared(const mrpt::obs::CObservation2DRangeScan& raw, const mrpt::obs::
 Counts countsOf(const untuned::Log& log, const std::string& bodies) {
   using mrpt::obs::CObservation2DRangeScan;
   const auto truth = readTruth(bodies);
-  plugins::ScanOdometryPlugin odometry({}, {}, {});
+  plugins::ScanOdometryPlugin odometry({}, {}, {}, {});
   const auto observations = untuned::read(log);
   for (const auto& observation : observations) odometry.add(observation);
   Counts counts;
@@ -121,7 +121,7 @@ Counts countsOfLabelled(const std::string& folder) {
     if (entry.path().extension() == ".csv") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  plugins::ScanOdometryPlugin odometry({}, {}, {});
+  plugins::ScanOdometryPlugin odometry({}, {}, {}, {});
   Counts counts;
   for (const auto& file : files) {
     std::vector<float> ranges;

@@ -346,9 +346,6 @@ std::string iniIn(const std::string& folder) {
 
 }  // namespace bench
 
-using omnimapper::bench::SignWatchOutputFactory;
-IMPLEMENTS_MRPT_OBJECT(SignWatchOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::bench)
-
 int main(int argc, char** argv) {
   bench::Request request;
   CLI::App app("Measures the errors of maps by door signs: with and without signs, and with true associations.");
@@ -371,7 +368,7 @@ int main(int argc, char** argv) {
   try {
     if (request.simulated_ini.empty()) request.simulated_ini = bench::iniIn(request.folder);
     omnimapper::mapper::loadFeatures();
-    mrpt::rtti::registerClass(CLASS_ID(SignWatchOutputFactory));
+    omnimapper::mapper::FactoryOf<omnimapper::bench::SignWatchOutput, omnimapper::bench::NoOptions>::registerClass();
     bench::run(request);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

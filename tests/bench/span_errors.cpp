@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
     for (const auto variant : omnimapper::testing::allLogVariants()) {
       const std::string name = omnimapper::testing::nameOf(variant);
       if (std::find(variant_names.begin(), variant_names.end(), name) == variant_names.end()) continue;
-      plugins::ScanOdometryPlugin odometry({}, {}, {});
+      plugins::ScanOdometryPlugin odometry({}, {}, {}, {});
       const auto heard = omnimapper::testing::variantOf(observations, variant);
       for (const auto& observation : heard) odometry.add(observation);
       odometry.processUntil(heard.back()->timestamp);

@@ -127,7 +127,7 @@ TEST(BeaconFactor, IsReadBackAsItWasWritten) {
   const Eigen::VectorXd correction = graph::toValue(Se3{geometry::expSo3({0.1, 0, 0}), {0, 0, 0.1}});
   const Se3 base_from_sensor{geometry::expSo3({0, 0.1, 0.3}), {0.2, 0, 0.5}};
   mapper::Kinds kinds;
-  BeaconPluginFactory().registerKinds(kinds);
+  BeaconPlugin::registerKinds(kinds);
   for (const bool estimated : {false, true}) {
     const BeaconFactor written({4, 0.1, -0.2}, base_from_sensor, estimated);
     std::stringstream bytes;

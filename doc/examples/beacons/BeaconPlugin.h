@@ -20,6 +20,10 @@ namespace beacons {
 /// measurement; later measurements are associated by number and gated.
 class BeaconPlugin : public omnimapper::landmarks::LandmarkPlugin<BeaconIndex> {
  public:
+  static constexpr const char* kName = "BeaconPlugin";
+  static constexpr const char* kSummary = "Beacons with numbers, from ranges and bearings.";
+  static void registerKinds(omnimapper::mapper::Kinds& kinds);
+
   BeaconPlugin(const BeaconOptions& options, const omnimapper::mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
@@ -35,19 +39,6 @@ class BeaconPlugin : public omnimapper::landmarks::LandmarkPlugin<BeaconIndex> {
  private:
   BeaconOptions options_;
   omnimapper::mapper::SensorCorrections corrections_;
-};
-
-// Step 7: the factory, an MRPT run-time class without state, so that an INI can name the plugin: "class =
-// BeaconPlugin".
-class BeaconPluginFactory : public omnimapper::mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(BeaconPluginFactory, beacons)
- public:
-  std::string name() const override { return "BeaconPlugin"; }
-  std::string summary() const override { return "Beacons with numbers, from ranges and bearings."; }
-  const std::vector<omnimapper::base::OptionSpec>& options() const override { return BeaconOptions::table().specs(); }
-  void registerKinds(omnimapper::mapper::Kinds& kinds) const override;
-  std::unique_ptr<omnimapper::mapper::MeasurementPlugin> make(
-      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
 };
 
 }  // namespace beacons

@@ -4,14 +4,13 @@
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/landmarks/Fit.h>
 #include <omnimapper/landmarks/LandmarkMerging.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "BoxPayload.h"
 
 namespace landmarks = omnimapper::landmarks;
 namespace map = omnimapper::map;
 namespace mapper = omnimapper::mapper;
-
-IMPLEMENTS_MRPT_OBJECT(BoxPluginFactory, omnimapper::mapper::MeasurementPluginFactory, boxes)
 
 namespace boxes {
 
@@ -47,15 +46,10 @@ mapper::Batch BoxPlugin::merge(const mapper::View& view) {
   return merging.take();
 }
 
-void BoxPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void BoxPlugin::registerKinds(mapper::Kinds& kinds) {
   BoxPayload::addTo(kinds.payloads);
 }
 
-std::unique_ptr<mapper::MeasurementPlugin> BoxPluginFactory::make(const omnimapper::base::ConfigSection& section,
-                                                                  const mapper::PluginContext& context) const {
-  return std::make_unique<BoxPlugin>(section.read<BoxOptions>(mapper::sectionKeysOfEngine()), context);
-}
-
-const omnimapper::base::AtLoad kRegister([] { mrpt::rtti::registerClass(CLASS_ID(BoxPluginFactory)); });
+const omnimapper::base::AtLoad kRegister([] { mapper::FactoryOf<BoxPlugin, BoxOptions>::registerClass(); });
 
 }  // namespace boxes

@@ -16,6 +16,10 @@ namespace boxes {
 /// one object are merged.
 class BoxPlugin : public omnimapper::landmarks::LandmarkPlugin<BoxIndex> {
  public:
+  static constexpr const char* kName = "BoxPlugin";
+  static constexpr const char* kSummary = "Objects as landmarks: boxes with a class.";
+  static void registerKinds(omnimapper::mapper::Kinds& kinds);
+
   BoxPlugin(const BoxOptions& options, const omnimapper::mapper::PluginContext& context)
       : LandmarkPlugin(BoxIndex(context.section)), options_(options) {}
 
@@ -29,17 +33,6 @@ class BoxPlugin : public omnimapper::landmarks::LandmarkPlugin<BoxIndex> {
 
  private:
   BoxOptions options_;
-};
-
-class BoxPluginFactory : public omnimapper::mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(BoxPluginFactory, boxes)
- public:
-  std::string name() const override { return "BoxPlugin"; }
-  std::string summary() const override { return "Objects as landmarks: boxes with a class."; }
-  const std::vector<omnimapper::base::OptionSpec>& options() const override { return BoxOptions::table().specs(); }
-  void registerKinds(omnimapper::mapper::Kinds& kinds) const override;
-  std::unique_ptr<omnimapper::mapper::MeasurementPlugin> make(
-      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
 };
 
 }  // namespace boxes

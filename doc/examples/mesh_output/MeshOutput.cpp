@@ -4,6 +4,7 @@
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/derived/OutputFile.h>
 #include <omnimapper/derived/SceneLandmarks.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include <algorithm>
 
@@ -12,8 +13,6 @@
 namespace base = omnimapper::base;
 namespace derived = omnimapper::derived;
 namespace mapper = omnimapper::mapper;
-
-IMPLEMENTS_MRPT_OBJECT(MeshOutputFactory, omnimapper::mapper::OutputPluginFactory, mesh_output)
 
 namespace mesh_output {
 
@@ -67,12 +66,7 @@ void MeshOutput::finish(const mapper::View& view) {
   derived::writeBytes(path_ + ending, bytes);
 }
 
-std::unique_ptr<mapper::OutputPlugin> MeshOutputFactory::make(const base::ConfigSection& section,
-                                                              const mapper::PluginContext& context) const {
-  return std::make_unique<MeshOutput>(section.read<MeshOptions>(mapper::sectionKeysOfEngine()), context);
-}
-
-// Below IMPLEMENTS_MRPT_OBJECT, which must come first: it registers the class when a program loads the library.
-const base::AtLoad kRegister([] { mrpt::rtti::registerClass(CLASS_ID(MeshOutputFactory)); });
+// Registers the class when a program loads the library, so that an INI can name it: "class = MeshOutput".
+const base::AtLoad kRegister([] { mapper::FactoryOf<MeshOutput, MeshOptions>::registerClass(); });
 
 }  // namespace mesh_output

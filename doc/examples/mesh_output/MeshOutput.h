@@ -19,6 +19,9 @@ struct MeshOptions {
 /// one object for each, in the frame of the map [m]. Moved landmarks are left out.
 class MeshOutput : public omnimapper::mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "MeshOutput";
+  static constexpr const char* kSummary = "Writes landmarks.obj.gz, the landmarks as a mesh.";
+
   MeshOutput(const MeshOptions& options, const omnimapper::mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const omnimapper::mapper::View& view) override;
@@ -26,17 +29,6 @@ class MeshOutput : public omnimapper::mapper::OutputPlugin {
  private:
   MeshOptions options_;
   std::string path_;  // without ".gz"
-};
-
-/// An MRPT run-time class without state, so that an INI can name the plugin: "class = MeshOutput".
-class MeshOutputFactory : public omnimapper::mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(MeshOutputFactory, mesh_output)
- public:
-  std::string name() const override { return "MeshOutput"; }
-  std::string summary() const override { return "Writes landmarks.obj.gz, the landmarks as a mesh."; }
-  const std::vector<omnimapper::base::OptionSpec>& options() const override { return MeshOptions::table().specs(); }
-  std::unique_ptr<omnimapper::mapper::OutputPlugin> make(
-      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
 };
 
 }  // namespace mesh_output

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationRFID.h>
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include <cmath>
 #include <utility>
@@ -10,8 +11,6 @@
 
 namespace base = omnimapper::base;
 namespace mapper = omnimapper::mapper;
-
-IMPLEMENTS_MRPT_OBJECT(RoomNamesPluginFactory, omnimapper::mapper::MeasurementPluginFactory, rooms_layer)
 
 namespace rooms_layer {
 
@@ -46,15 +45,10 @@ mapper::WatchResult RoomNamesPlugin::watch(const mapper::Watched& watched, const
 }
 
 // Without this, a map that is continued would keep the layer as bytes, and find<Rooms>() would not know it.
-void RoomNamesPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void RoomNamesPlugin::registerKinds(mapper::Kinds& kinds) {
   kinds.layers.add<Rooms>();
 }
 
-std::unique_ptr<mapper::MeasurementPlugin> RoomNamesPluginFactory::make(const base::ConfigSection& section,
-                                                                        const mapper::PluginContext&) const {
-  return std::make_unique<RoomNamesPlugin>(section.read<RoomNamesOptions>(mapper::sectionKeysOfEngine()));
-}
-
-const base::AtLoad kRegisterRoomNames([] { mrpt::rtti::registerClass(CLASS_ID(RoomNamesPluginFactory)); });
+const base::AtLoad kRegisterRoomNames([] { mapper::FactoryOf<RoomNamesPlugin, RoomNamesOptions>::registerClass(); });
 
 }  // namespace rooms_layer

@@ -23,6 +23,10 @@ struct RoomNamesOptions {
 /// its tag was read with most power. The plugin keeps nothing itself: what it knows is the layer.
 class RoomNamesPlugin : public omnimapper::mapper::MeasurementPlugin, public omnimapper::mapper::WatchesObservations {
  public:
+  static constexpr const char* kName = "RoomNamesPlugin";
+  static constexpr const char* kSummary = "Rooms by the RFID tags at their doors.";
+  static void registerKinds(omnimapper::mapper::Kinds& kinds);
+
   explicit RoomNamesPlugin(const RoomNamesOptions& options) : options_(options) {}
 
   bool watches(const mrpt::obs::CObservation& observation) const override;
@@ -38,19 +42,6 @@ class RoomNamesPlugin : public omnimapper::mapper::MeasurementPlugin, public omn
 
  private:
   RoomNamesOptions options_;
-};
-
-class RoomNamesPluginFactory : public omnimapper::mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(RoomNamesPluginFactory, rooms_layer)
- public:
-  std::string name() const override { return "RoomNamesPlugin"; }
-  std::string summary() const override { return "Rooms by the RFID tags at their doors."; }
-  const std::vector<omnimapper::base::OptionSpec>& options() const override {
-    return RoomNamesOptions::table().specs();
-  }
-  void registerKinds(omnimapper::mapper::Kinds& kinds) const override;
-  std::unique_ptr<omnimapper::mapper::MeasurementPlugin> make(
-      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
 };
 
 }  // namespace rooms_layer

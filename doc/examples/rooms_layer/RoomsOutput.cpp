@@ -4,14 +4,13 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/derived/OutputFile.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "Rooms.h"
 
 namespace base = omnimapper::base;
 namespace derived = omnimapper::derived;
 namespace mapper = omnimapper::mapper;
-
-IMPLEMENTS_MRPT_OBJECT(RoomsOutputFactory, omnimapper::mapper::OutputPluginFactory, rooms_layer)
 
 namespace rooms_layer {
 
@@ -20,6 +19,9 @@ const base::OptionTable<RoomsOutputOptions>& RoomsOutputOptions::table() {
                                                                          "Name of the file in the output folder.");
   return table;
 }
+
+RoomsOutput::RoomsOutput(const RoomsOutputOptions& options, const mapper::PluginContext& context)
+    : path_(derived::outputPath(context, options.file)) {}
 
 void RoomsOutput::finish(const mapper::View& view) {
   std::string text = "stamp,x_m,y_m,z_m,name\n";
@@ -33,12 +35,6 @@ void RoomsOutput::finish(const mapper::View& view) {
   derived::writeBytes(path_, text);
 }
 
-std::unique_ptr<mapper::OutputPlugin> RoomsOutputFactory::make(const base::ConfigSection& section,
-                                                               const mapper::PluginContext& context) const {
-  const auto options = section.read<RoomsOutputOptions>(mapper::sectionKeysOfEngine());
-  return std::make_unique<RoomsOutput>(derived::outputPath(context, options.file));
-}
-
-const base::AtLoad kRegisterRoomsOutput([] { mrpt::rtti::registerClass(CLASS_ID(RoomsOutputFactory)); });
+const base::AtLoad kRegisterRoomsOutput([] { mapper::FactoryOf<RoomsOutput, RoomsOutputOptions>::registerClass(); });
 
 }  // namespace rooms_layer

@@ -19,24 +19,15 @@ struct RoomsOutputOptions {
 /// Writes rooms.csv: for each room when its tag was read (Unix time [s]), where in the map [m], and its name.
 class RoomsOutput : public omnimapper::mapper::OutputPlugin {
  public:
-  explicit RoomsOutput(std::string path) : path_(std::move(path)) {}
+  static constexpr const char* kName = "RoomsOutput";
+  static constexpr const char* kSummary = "Writes rooms.csv, the named rooms of the map.";
+
+  RoomsOutput(const RoomsOutputOptions& options, const omnimapper::mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const omnimapper::mapper::View& view) override;
 
  private:
   std::string path_;
-};
-
-class RoomsOutputFactory : public omnimapper::mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(RoomsOutputFactory, rooms_layer)
- public:
-  std::string name() const override { return "RoomsOutput"; }
-  std::string summary() const override { return "Writes rooms.csv, the named rooms of the map."; }
-  const std::vector<omnimapper::base::OptionSpec>& options() const override {
-    return RoomsOutputOptions::table().specs();
-  }
-  std::unique_ptr<omnimapper::mapper::OutputPlugin> make(
-      const omnimapper::base::ConfigSection& section, const omnimapper::mapper::PluginContext& context) const override;
 };
 
 }  // namespace rooms_layer

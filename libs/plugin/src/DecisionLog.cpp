@@ -1,7 +1,7 @@
 #include <omnimapper/plugin/DecisionLog.h>
 
 #include <map>
-
+#include <utility>
 namespace omnimapper::mapper {
 
 ClosureCounts countClosures(const DecisionLog& decisions) {

@@ -4,8 +4,6 @@
 
 #include <iterator>
 
-IMPLEMENTS_MRPT_OBJECT(GivenMotionPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<GivenMotionOptions>& GivenMotionOptions::table() {
@@ -73,11 +71,6 @@ void GivenMotionPlugin::forgetBefore(base::Stamp stamp) {
     poses_.erase(poses_.begin());
     forgotten_ = true;
   }
-}
-
-std::unique_ptr<mapper::PosePlugin> GivenMotionPluginFactory::make(const base::ConfigSection& section,
-                                                                   const mapper::PluginContext&) const {
-  return std::make_unique<GivenMotionPlugin>(section.read<GivenMotionOptions>(mapper::sectionKeysOfEngine()));
 }
 
 }  // namespace omnimapper::plugins

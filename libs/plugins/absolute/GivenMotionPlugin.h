@@ -26,6 +26,10 @@ struct GivenMotionOptions {
 /// its motions is wide, because the poses already count in RobotPosePlugin.
 class GivenMotionPlugin : public mapper::PosePlugin {
  public:
+  static constexpr const char* kName = "GivenMotionPlugin";
+  static constexpr const char* kSummary =
+      "The motion between poses that are given in the log (CObservationRobotPose), for example by motion capture.";
+
   explicit GivenMotionPlugin(const GivenMotionOptions& options) : options_(options) {}
 
   Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
@@ -46,18 +50,6 @@ class GivenMotionPlugin : public mapper::PosePlugin {
   bool forgotten_ = false;            // true: poses before the first of poses_ were dropped
   std::optional<Span> news_;
   motion::PoseTimeline timeline_;
-};
-
-class GivenMotionPluginFactory : public mapper::PosePluginFactory {
-  DEFINE_MRPT_OBJECT(GivenMotionPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "GivenMotionPlugin"; }
-  std::string summary() const override {
-    return "The motion between poses that are given in the log (CObservationRobotPose), for example by motion capture.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return GivenMotionOptions::table().specs(); }
-  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
-                                           const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -10,8 +10,6 @@
 
 #include "AntennaFactor.h"
 
-IMPLEMENTS_MRPT_OBJECT(GpsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 namespace {
@@ -236,13 +234,8 @@ std::optional<mrpt::poses::CPose3D> GpsPlugin::alignment(const mapper::View& vie
   return mrpt::poses::CPose3D(offset.x(), offset.y(), offset.z(), yaw, 0, 0);
 }
 
-void GpsPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void GpsPlugin::registerKinds(mapper::Kinds& kinds) {
   AntennaFactor::addTo(kinds.factors);
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> GpsPluginFactory::make(const base::ConfigSection& section,
-                                                                  const mapper::PluginContext& context) const {
-  return std::make_unique<GpsPlugin>(section.read<GpsOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

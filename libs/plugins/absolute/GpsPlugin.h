@@ -34,6 +34,11 @@ struct GpsOptions {
 /// origin.
 class GpsPlugin : public mapper::MeasurementPlugin {
  public:
+  static constexpr const char* kName = "GpsPlugin";
+  static constexpr const char* kSummary =
+      "Uses GPS fixes. Estimates where the map is on the earth, or places the map at a given origin.";
+  static void registerKinds(mapper::Kinds& kinds);
+
   GpsPlugin(const GpsOptions& options, const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
@@ -65,19 +70,6 @@ class GpsPlugin : public mapper::MeasurementPlugin {
   std::optional<mapper::Geodetic> origin_;
   std::vector<Fix> waiting_;  // wait until map_from_enu exists
   std::optional<base::VariableId> map_from_enu_;
-};
-
-class GpsPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(GpsPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "GpsPlugin"; }
-  std::string summary() const override {
-    return "Uses GPS fixes. Estimates where the map is on the earth, or places the map at a given origin.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return GpsOptions::table().specs(); }
-  void registerKinds(mapper::Kinds& kinds) const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

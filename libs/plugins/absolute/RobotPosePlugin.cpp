@@ -12,8 +12,6 @@
 #include <cstdio>
 #include <sstream>
 
-IMPLEMENTS_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 namespace {
@@ -155,11 +153,6 @@ std::vector<mapper::Evidence> RobotPosePlugin::evidence(const mapper::View& view
     evidence.reason = text;
   }
   return {evidence};
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> RobotPosePluginFactory::make(const base::ConfigSection& section,
-                                                                        const mapper::PluginContext& context) const {
-  return std::make_unique<RobotPosePlugin>(section.read<RobotPoseOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

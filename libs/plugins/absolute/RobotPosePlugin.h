@@ -25,6 +25,10 @@ struct RobotPoseOptions {
 /// the base. The poses are given in the map frame, or in a reference frame whose pose in the map is a variable.
 class RobotPosePlugin : public mapper::MeasurementPlugin {
  public:
+  static constexpr const char* kName = "RobotPosePlugin";
+  static constexpr const char* kSummary =
+      "Absolute poses that are given in the log (CObservationRobotPose), for example by motion capture.";
+
   RobotPosePlugin(const RobotPoseOptions& options, const mapper::PluginContext& context)
       : options_(options), context_(context) {}
 
@@ -49,18 +53,6 @@ class RobotPosePlugin : public mapper::MeasurementPlugin {
   mapper::PluginContext context_;
   std::optional<base::VariableId> map_from_reference_;
   std::vector<Given> given_;  // of this session
-};
-
-class RobotPosePluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(RobotPosePluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "RobotPosePlugin"; }
-  std::string summary() const override {
-    return "Absolute poses that are given in the log (CObservationRobotPose), for example by motion capture.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return RobotPoseOptions::table().specs(); }
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "GivenMotionPlugin.h"
 #include "GpsPlugin.h"
@@ -6,13 +7,10 @@
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(GivenMotionPluginFactory));
-  registerClass(CLASS_ID(GpsPluginFactory));
-  registerClass(CLASS_ID(RobotPosePluginFactory));
+  mapper::FactoryOf<GivenMotionPlugin, GivenMotionOptions>::registerClass();
+  mapper::FactoryOf<GpsPlugin, GpsOptions>::registerClass();
+  mapper::FactoryOf<RobotPosePlugin, RobotPoseOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -15,8 +15,6 @@
 #include "MovedThingPayload.h"
 #include "WeakPrior.h"
 
-IMPLEMENTS_MRPT_OBJECT(DynamicLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<DynamicLandmarksOptions>& DynamicLandmarksOptions::table() {
@@ -259,14 +257,8 @@ mapper::Batch DynamicLandmarksPlugin::atEnd(const mapper::View& view) {
   return view.map_is_held ? mapper::Batch() : MovedLandmarkSearch(options_, section_, view).run();
 }
 
-void DynamicLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void DynamicLandmarksPlugin::registerKinds(mapper::Kinds& kinds) {
   MovedThingPayload::addTo(kinds.payloads);
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> DynamicLandmarksPluginFactory::make(
-    const base::ConfigSection& section, const mapper::PluginContext& context) const {
-  return std::make_unique<DynamicLandmarksPlugin>(section.read<DynamicLandmarksOptions>(mapper::sectionKeysOfEngine()),
-                                                  context);
 }
 
 }  // namespace omnimapper::plugins

@@ -29,6 +29,10 @@ struct DynamicLandmarksOptions {
 /// neither a plugin's section nor the owner of a landmark.
 class DynamicLandmarksPlugin : public mapper::MeasurementPlugin {
  public:
+  static constexpr const char* kName = "MoveableThingsPlugin";
+  static constexpr const char* kSummary = "Finds landmarks that were moved, and records the places where they were.";
+  static void registerKinds(mapper::Kinds& kinds);
+
   DynamicLandmarksPlugin(const DynamicLandmarksOptions& options, const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation&) const override { return false; }
@@ -44,19 +48,6 @@ class DynamicLandmarksPlugin : public mapper::MeasurementPlugin {
   std::string section_;
   std::string config_text_;  // empty once options_.landmarks has been checked against it
   std::size_t searched_at_solve_ = 0;
-};
-
-class DynamicLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(DynamicLandmarksPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "MoveableThingsPlugin"; }
-  std::string summary() const override {
-    return "Finds landmarks that were moved, and records the places where they were.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return DynamicLandmarksOptions::table().specs(); }
-  void registerKinds(mapper::Kinds& kinds) const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

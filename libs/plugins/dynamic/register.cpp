@@ -1,14 +1,12 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "DynamicLandmarksPlugin.h"
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(DynamicLandmarksPluginFactory));
+  mapper::FactoryOf<DynamicLandmarksPlugin, DynamicLandmarksOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -10,8 +10,6 @@
 
 #include "MapServer.h"
 
-IMPLEMENTS_MRPT_OBJECT(GridOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<GridOptions>& GridOptions::table() {
@@ -48,11 +46,6 @@ void GridOutput::finish(const mapper::View& view) {
   derived::writeBytes(path_ + ".pgm", encodePgm(*grid));
   derived::writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));
   derived::writeBytes(path_ + ".png", draw::encodePng(derived::drawGrid(*grid).image));
-}
-
-std::unique_ptr<mapper::OutputPlugin> GridOutputFactory::make(const base::ConfigSection& section,
-                                                              const mapper::PluginContext& context) const {
-  return std::make_unique<GridOutput>(section.read<GridOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

@@ -20,6 +20,9 @@ struct GridOptions {
 /// map without scans has no grid, and no file is written.
 class GridOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "GridOutput";
+  static constexpr const char* kSummary = "Writes grid.pgm, grid.yaml (ROS map_server) and grid.png.";
+
   GridOutput(const GridOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
@@ -27,16 +30,6 @@ class GridOutput : public mapper::OutputPlugin {
  private:
   GridOptions options_;
   std::string path_;  // without extension
-};
-
-class GridOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(GridOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "GridOutput"; }
-  std::string summary() const override { return "Writes grid.pgm, grid.yaml (ROS map_server) and grid.png."; }
-  const std::vector<base::OptionSpec>& options() const override { return GridOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -4,7 +4,6 @@
 #include <omnimapper/matching/ScanInBase.h>
 #include <omnimapper/perception/LaserPointsExtractor.h>
 #include <omnimapper/plugin/PoseFactors.h>
-#include <omnimapper/plugin/SharedSection.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +15,6 @@
 #include "RevisitEvidence.h"
 #include "SlipEvidence.h"
 #include "WallEvidence.h"
-
-IMPLEMENTS_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
@@ -389,18 +386,6 @@ std::vector<LoopSearch::Place> LoopClosurePlugin::loopPlaces(const map::KeyFrame
     if (places.size() == kPlacesAsked * static_cast<std::size_t>(options_.candidates)) break;
   }
   return places;
-}
-
-using LoopClosureSection = mapper::SharedSection<LoopClosureOptions, matching::ScanMatcherOptions>;
-
-const std::vector<base::OptionSpec>& LoopClosurePluginFactory::options() const {
-  return LoopClosureSection::options();
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> LoopClosurePluginFactory::make(const base::ConfigSection& section,
-                                                                          const mapper::PluginContext& context) const {
-  return std::make_unique<LoopClosurePlugin>(LoopClosureSection::read<LoopClosureOptions>(section),
-                                             LoopClosureSection::read<matching::ScanMatcherOptions>(section), context);
 }
 
 }  // namespace omnimapper::plugins

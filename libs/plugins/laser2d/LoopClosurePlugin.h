@@ -29,6 +29,9 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin,
                           public mapper::SeeksSession,
                           public mapper::ConfirmsSession {
  public:
+  static constexpr const char* kName = "LoopClosurePlugin";
+  static constexpr const char* kSummary = "Closes loops: the newest 2D scans are matched with places seen long ago.";
+
   LoopClosurePlugin(const LoopClosureOptions& options, const matching::ScanMatcherOptions& matching,
                     const mapper::PluginContext& context);
 
@@ -109,18 +112,6 @@ class LoopClosurePlugin : public mapper::MeasurementPlugin,
   std::map<std::string, LastRelocalization> last_relocalization_;  // by label
   SessionWatch watch_;                                             // of the session that continues a map
   std::vector<GlobalRelocalization> relocalizations_;              // of the key frame being measured
-};
-
-class LoopClosurePluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(LoopClosurePluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "LoopClosurePlugin"; }
-  std::string summary() const override {
-    return "Closes loops: the newest 2D scans are matched with places seen long ago.";
-  }
-  const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -4,7 +4,6 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/matching/ScanInBase.h>
-#include <omnimapper/plugin/SharedSection.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -14,8 +13,6 @@
 #include <utility>
 
 #include "PlanarMotion.h"
-
-IMPLEMENTS_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
@@ -77,12 +74,14 @@ const base::OptionTable<ScanOdometryOptions>& ScanOdometryOptions::table() {
   return table;
 }
 
-ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
+ScanOdometryPlugin::ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanTrackerOptions& tracking,
+                                       const matching::ScanMatcherOptions& matching,
                                        const perception::LaserPointsOptions& points)
     : options_(options),
+      tracking_(tracking),
       extractor_(points),
       near_(static_cast<float>(points.spacing + kAlsoNear)),
-      tracker_(options.tracker, matching::makeMatcher(matching)),
+      tracker_(tracking, matching::makeMatcher(matching)),
       noise_(options.point_sigma) {}
 
 bool ScanOdometryPlugin::isOurs(const mrpt::obs::CObservation2DRangeScan& scan) {
@@ -369,10 +368,9 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
   const auto& match = tracked.match;
   const TPose2D& motion = match.reference_from_scan;
   const double travel = std::hypot(motion.x, motion.y), turn = std::abs(mrpt::math::wrapToPi(motion.phi));
-  const double share =
-      std::min(1.0, 2 / static_cast<double>(options_.tracker.local_scans) *
-                            (travel / options_.tracker.local_distance + turn / options_.tracker.local_angle) +
-                        0.001);
+  const double share = std::min(1.0, 2 / static_cast<double>(tracking_.local_scans) *
+                                             (travel / tracking_.local_distance + turn / tracking_.local_angle) +
+                                         0.001);
   const double sigma = std::max(options_.point_sigma, match.point_sigma);
   Eigen::Matrix3d covariance =
       ((share * mrpt::square(sigma) * match.unit_covariance).inverse() + guess.information / mrpt::square(noise_))
@@ -383,21 +381,6 @@ mapper::RelativeMotion ScanOdometryPlugin::motionOf(const matching::ScanTracker:
       position, position,
       mrpt::square(options_.yaw_noise_per_root_m) * travel + mrpt::square(options_.yaw_noise_per_root_turn) * turn);
   return planarMotion(motion, covariance);
-}
-
-using ScanOdometrySection = mapper::SharedSection<ScanOdometryOptions, matching::ScanTrackerOptions,
-                                                  matching::ScanMatcherOptions, perception::LaserPointsOptions>;
-
-const std::vector<base::OptionSpec>& ScanOdometryPluginFactory::options() const {
-  return ScanOdometrySection::options();
-}
-
-std::unique_ptr<mapper::PosePlugin> ScanOdometryPluginFactory::make(const base::ConfigSection& section,
-                                                                    const mapper::PluginContext&) const {
-  auto options = ScanOdometrySection::read<ScanOdometryOptions>(section);
-  options.tracker = ScanOdometrySection::read<matching::ScanTrackerOptions>(section);
-  return std::make_unique<ScanOdometryPlugin>(options, ScanOdometrySection::read<matching::ScanMatcherOptions>(section),
-                                              ScanOdometrySection::read<perception::LaserPointsOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

@@ -34,7 +34,6 @@ struct ScanOdometryOptions {
   double position_noise_per_root_m = 0.01;                                   ///< [m / sqrt(m)]
   double yaw_noise_per_root_m = 0.2 * base::option_text::kRadiansPerDegree;  ///< [rad / sqrt(m)]
   double yaw_noise_per_root_turn = 0.005;                                    ///< [rad / sqrt(rad)]
-  matching::ScanTrackerOptions tracker;
 
   static const base::OptionTable<ScanOdometryOptions>& table();
 };
@@ -56,8 +55,12 @@ struct ScanOdometryOptions {
 /// The plane of the laser must be nearly level (matching::kLargestTilt), either side up; other scans are left out.
 class ScanOdometryPlugin : public mapper::PosePlugin {
  public:
-  ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanMatcherOptions& matching,
-                     const perception::LaserPointsOptions& points);
+  static constexpr const char* kName = "ScanOdometryPlugin";
+  static constexpr const char* kSummary =
+      "Laser odometry: matches every 2D scan with a local map of the scans before it.";
+
+  ScanOdometryPlugin(const ScanOdometryOptions& options, const matching::ScanTrackerOptions& tracking,
+                     const matching::ScanMatcherOptions& matching, const perception::LaserPointsOptions& points);
 
   Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
   void processUntil(base::Stamp stamp) override;
@@ -152,6 +155,7 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
                                   const matching::MatchGuess& guess) const;
 
   ScanOdometryOptions options_;
+  matching::ScanTrackerOptions tracking_;
   perception::LaserPointsExtractor extractor_;
   float near_;  // [m] from a point that moves, within which beams ended on the same
   matching::ScanTracker tracker_;
@@ -181,18 +185,6 @@ class ScanOdometryPlugin : public mapper::PosePlugin {
   Predictor by_velocity_;
   double noise_;  // [m] deviation of points from their walls, in recent matches
   motion::PoseTimeline timeline_;
-};
-
-class ScanOdometryPluginFactory : public mapper::PosePluginFactory {
-  DEFINE_MRPT_OBJECT(ScanOdometryPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "ScanOdometryPlugin"; }
-  std::string summary() const override {
-    return "Laser odometry: matches every 2D scan with a local map of the scans before it.";
-  }
-  const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
-                                           const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -8,8 +8,6 @@
 
 #include "LiveScene.h"
 
-IMPLEMENTS_MRPT_OBJECT(LiveWindowFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<LiveWindowOptions>& LiveWindowOptions::table() {
@@ -42,8 +40,8 @@ std::unique_ptr<LiveScene> openScene(const LiveWindowOptions& options, const std
 
 }  // namespace
 
-LiveWindow::LiveWindow(const LiveWindowOptions& options, const std::string& title)
-    : options_(options), scene_(openScene(options, title)) {}
+LiveWindow::LiveWindow(const LiveWindowOptions& options, const mapper::PluginContext& context)
+    : options_(options), scene_(openScene(options, context.title)) {}
 
 LiveWindow::~LiveWindow() = default;
 
@@ -74,11 +72,6 @@ void LiveWindow::frameAdded(const mapper::View& view) {
 
 void LiveWindow::finish(const mapper::View& view) {
   update(view);
-}
-
-std::unique_ptr<mapper::OutputPlugin> LiveWindowFactory::make(const base::ConfigSection& section,
-                                                              const mapper::PluginContext& context) const {
-  return std::make_unique<LiveWindow>(section.read<LiveWindowOptions>(mapper::sectionKeysOfEngine()), context.title);
 }
 
 }  // namespace omnimapper::plugins

@@ -27,9 +27,12 @@ class LiveScene;
 /// frame, up to 30 times a second. The window may be closed at any time; the run goes on.
 class LiveWindow : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "LiveWindow";
+  static constexpr const char* kSummary = "Shows the map in a 3D window while it grows (--gui).";
+
   /// Throws Error(command_line) if there is no display, and Error(plugin_library) if libomnimapper-live-scene is
   /// missing.
-  LiveWindow(const LiveWindowOptions& options, const std::string& title);
+  LiveWindow(const LiveWindowOptions& options, const mapper::PluginContext& context);
   ~LiveWindow() override;
   void update(const mapper::View& view) override;
   void keyFrameAdded(const mapper::View& view) override;
@@ -47,16 +50,6 @@ class LiveWindow : public mapper::OutputPlugin {
   using Clock = std::chrono::steady_clock;
   Clock::time_point next_ = Clock::now();  // earliest time of the next drawing that does not follow a solve
   Clock::time_point next_move_ = next_;
-};
-
-class LiveWindowFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(LiveWindowFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "LiveWindow"; }
-  std::string summary() const override { return "Shows the map in a 3D window while it grows (--gui)."; }
-  const std::vector<base::OptionSpec>& options() const override { return LiveWindowOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -3,8 +3,6 @@
 #include <omnimapper/derived/OutputFile.h>
 #include <omnimapper/derived/SavedMap.h>
 
-IMPLEMENTS_MRPT_OBJECT(MapOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<MapOutputOptions>& MapOutputOptions::table() {
@@ -22,11 +20,6 @@ MapOutput::MapOutput(const MapOutputOptions& options, const mapper::PluginContex
 
 void MapOutput::finish(const mapper::View& view) {
   derived::mapFileToAsk(view).write(path_);
-}
-
-std::unique_ptr<mapper::OutputPlugin> MapOutputFactory::make(const base::ConfigSection& section,
-                                                             const mapper::PluginContext& context) const {
-  return std::make_unique<MapOutput>(section.read<MapOutputOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

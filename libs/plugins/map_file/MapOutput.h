@@ -17,6 +17,9 @@ struct MapOutputOptions {
 /// log and INI give the same bytes.
 class MapOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "MapOutput";
+  static constexpr const char* kSummary = "Writes map.omnimap, the whole map, to be loaded again.";
+
   MapOutput(const MapOutputOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   mapper::RawImages needsOfImages() const override { return keep_raw_; }
@@ -25,16 +28,6 @@ class MapOutput : public mapper::OutputPlugin {
  private:
   std::string path_;
   mapper::RawImages keep_raw_;
-};
-
-class MapOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(MapOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "MapOutput"; }
-  std::string summary() const override { return "Writes map.omnimap, the whole map, to be loaded again."; }
-  const std::vector<base::OptionSpec>& options() const override { return MapOutputOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

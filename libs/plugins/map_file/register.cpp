@@ -1,14 +1,10 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "MapOutput.h"
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
-const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(MapOutputFactory));
-});
+const base::AtLoad kRegister([] { mapper::FactoryOf<MapOutput, MapOutputOptions>::registerClass(); });
 
 }  // namespace omnimapper::plugins

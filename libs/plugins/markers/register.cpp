@@ -1,13 +1,11 @@
 #include <omnimapper/base/AtLoad.h>
 #include <omnimapper/perception/ArucoMarkerExtractor.h>
-#include <omnimapper/plugin/ExtractorFactoryOf.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  mapper::registerFactoryBases();
-  mapper::ExtractorFactoryOf<perception::ArucoMarkerExtractor, perception::ArucoMarkerOptions>::registerClass();
+  mapper::FactoryOf<perception::ArucoMarkerExtractor, perception::ArucoMarkerOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

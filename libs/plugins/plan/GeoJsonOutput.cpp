@@ -4,8 +4,6 @@
 
 #include "GeoJson.h"
 
-IMPLEMENTS_MRPT_OBJECT(GeoJsonOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<GeoJsonOptions>& GeoJsonOptions::table() {
@@ -22,11 +20,6 @@ GeoJsonOutput::GeoJsonOutput(const GeoJsonOptions& options, const mapper::Plugin
 
 void GeoJsonOutput::finish(const mapper::View& view) {
   derived::writeBytes(path_, encodeGeoJson({view, title_, options_.metres, options_.trajectory}));
-}
-
-std::unique_ptr<mapper::OutputPlugin> GeoJsonOutputFactory::make(const base::ConfigSection& section,
-                                                                 const mapper::PluginContext& context) const {
-  return std::make_unique<GeoJsonOutput>(section.read<GeoJsonOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

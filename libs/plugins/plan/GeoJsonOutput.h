@@ -21,6 +21,10 @@ struct GeoJsonOptions {
 /// one in metres.
 class GeoJsonOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "GeoJsonOutput";
+  static constexpr const char* kSummary =
+      "Writes floorplan.geojson: walls, tables and points for any GIS (geographic information system).";
+
   GeoJsonOutput(const GeoJsonOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
@@ -28,18 +32,6 @@ class GeoJsonOutput : public mapper::OutputPlugin {
  private:
   GeoJsonOptions options_;
   std::string title_, path_;
-};
-
-class GeoJsonOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(GeoJsonOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "GeoJsonOutput"; }
-  std::string summary() const override {
-    return "Writes floorplan.geojson: walls, tables and points for any GIS (geographic information system).";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return GeoJsonOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -5,8 +5,6 @@
 #include <omnimapper/map/Level.h>
 #include <omnimapper/surfaces/SurfaceSet.h>
 
-IMPLEMENTS_MRPT_OBJECT(SurfacesOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<SurfacesOptions>& SurfacesOptions::table() {
@@ -50,11 +48,6 @@ void SurfacesOutput::finish(const mapper::View& view) {
     set.surfaces.push_back(surfaceOf(shaped, static_cast<int>(set.surfaces.size()) + 1));
   }
   derived::writeBytes(path_, surfaces::toJson(set));
-}
-
-std::unique_ptr<mapper::OutputPlugin> SurfacesOutputFactory::make(const base::ConfigSection& section,
-                                                                  const mapper::PluginContext& context) const {
-  return std::make_unique<SurfacesOutput>(section.read<SurfacesOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

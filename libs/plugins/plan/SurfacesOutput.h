@@ -17,22 +17,15 @@ struct SurfacesOptions {
 /// from laser lines have no height and are left out.
 class SurfacesOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "SurfacesOutput";
+  static constexpr const char* kSummary = "Writes surfaces.json: walls, tables and floors for omnimapper-eval.";
+
   SurfacesOutput(const SurfacesOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
  private:
   std::string title_, path_;
-};
-
-class SurfacesOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(SurfacesOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "SurfacesOutput"; }
-  std::string summary() const override { return "Writes surfaces.json: walls, tables and floors for omnimapper-eval."; }
-  const std::vector<base::OptionSpec>& options() const override { return SurfacesOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

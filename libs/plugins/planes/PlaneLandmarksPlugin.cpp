@@ -15,8 +15,6 @@
 #include "PlaneMerging.h"
 #include "SessionByPlanes.h"
 
-IMPLEMENTS_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 namespace {
@@ -139,7 +137,7 @@ std::vector<mapper::Evidence> PlaneLandmarksPlugin::evidence(const mapper::View&
   return evidence ? std::vector{*evidence} : std::vector<mapper::Evidence>();
 }
 
-void PlaneLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void PlaneLandmarksPlugin::registerKinds(mapper::Kinds& kinds) {
   kinds.factors.add(
       plane_factors::PlaneParametrization::of(plane_factors::PlaneParametrization::Kind::plane).variable());
   kinds.factors.add(
@@ -149,12 +147,6 @@ void PlaneLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
   plane_factors::UprightFactor::addTo(kinds.factors);
   plane_factors::WallFactor::addTo(kinds.factors);
   PlanePayload::addTo(kinds.payloads);
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> PlaneLandmarksPluginFactory::make(
-    const base::ConfigSection& section, const mapper::PluginContext& context) const {
-  return std::make_unique<PlaneLandmarksPlugin>(section.read<PlaneLandmarksOptions>(mapper::sectionKeysOfEngine()),
-                                                context);
 }
 
 }  // namespace omnimapper::plugins

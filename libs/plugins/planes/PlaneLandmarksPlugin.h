@@ -27,6 +27,11 @@ class PlaneLandmarksPlugin : public landmarks::LandmarkPlugin<PlaneLandmarkIndex
                              public mapper::LeavesSeeking,
                              public mapper::ConfirmsSession {
  public:
+  static constexpr const char* kName = "PlaneLandmarksPlugin";
+  static constexpr const char* kSummary =
+      "Walls, tables and floors as landmarks, measured as planes and as the lines of a laser.";
+  static void registerKinds(mapper::Kinds& kinds);
+
   PlaneLandmarksPlugin(const PlaneLandmarksOptions& options, const mapper::PluginContext& context);
   ~PlaneLandmarksPlugin() override;
 
@@ -53,19 +58,6 @@ class PlaneLandmarksPlugin : public landmarks::LandmarkPlugin<PlaneLandmarkIndex
   mapper::PluginContext context_;
   std::unique_ptr<struct PlaneSession> session_;
   bool others_seek_ = false;  // other plugins seek the pose of the newest session in the map
-};
-
-class PlaneLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(PlaneLandmarksPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "PlaneLandmarksPlugin"; }
-  std::string summary() const override {
-    return "Walls, tables and floors as landmarks, measured as planes and as the lines of a laser.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return PlaneLandmarksOptions::table().specs(); }
-  void registerKinds(mapper::Kinds& kinds) const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

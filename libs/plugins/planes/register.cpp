@@ -3,24 +3,21 @@
 #include <omnimapper/perception/LaserLineExtractor.h>
 #include <omnimapper/perception/PlaneExtractor.h>
 #include <omnimapper/perception/RoadExtractor.h>
-#include <omnimapper/plugin/ExtractorFactoryOf.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "PlaneLandmarksPlugin.h"
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(PlaneLandmarksPluginFactory));
-  mapper::ExtractorFactoryOf<perception::PlaneExtractor, perception::PlaneOptions, perception::OutlineOptions,
-                             perception::PlaneComparisonOptions>::registerClass();
-  mapper::ExtractorFactoryOf<perception::CloudPlaneExtractor, perception::CloudPlaneOptions,
-                             perception::CloudSensorOptions>::registerClass();
-  mapper::ExtractorFactoryOf<perception::LaserLineExtractor, perception::LaserLineOptions>::registerClass();
-  mapper::ExtractorFactoryOf<perception::RoadExtractor, perception::RoadOptions, perception::OutlineOptions,
-                             perception::RoadPoseOptions>::registerClass();
+  mapper::FactoryOf<PlaneLandmarksPlugin, PlaneLandmarksOptions>::registerClass();
+  mapper::FactoryOf<perception::PlaneExtractor, perception::PlaneOptions, perception::OutlineOptions,
+                    perception::PlaneComparisonOptions>::registerClass();
+  mapper::FactoryOf<perception::CloudPlaneExtractor, perception::CloudPlaneOptions,
+                    perception::CloudSensorOptions>::registerClass();
+  mapper::FactoryOf<perception::LaserLineExtractor, perception::LaserLineOptions>::registerClass();
+  mapper::FactoryOf<perception::RoadExtractor, perception::RoadOptions, perception::OutlineOptions,
+                    perception::RoadPoseOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -6,8 +6,6 @@
 #include "PointPayload.h"
 #include "RangeBearingFactor.h"
 
-IMPLEMENTS_MRPT_OBJECT(PointLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 using mrpt::obs::CObservationBearingRange;
@@ -28,16 +26,10 @@ mapper::Batch PointLandmarksPlugin::merge(const mapper::View& view) {
   return mergeAlike(known(), options_, context_.section, view);
 }
 
-void PointLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void PointLandmarksPlugin::registerKinds(mapper::Kinds& kinds) {
   RangeBearingFactor2::addTo(kinds.factors);
   RangeBearingFactor3::addTo(kinds.factors);
   PointPayload::addTo(kinds.payloads);
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> PointLandmarksPluginFactory::make(
-    const base::ConfigSection& section, const mapper::PluginContext& context) const {
-  return std::make_unique<PointLandmarksPlugin>(section.read<PointLandmarksOptions>(mapper::sectionKeysOfEngine()),
-                                                context);
 }
 
 }  // namespace omnimapper::plugins

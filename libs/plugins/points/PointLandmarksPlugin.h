@@ -19,6 +19,10 @@ namespace omnimapper::plugins {
 /// without a number (id -1) is associated, and landmarks that turn out to be the same point are merged.
 class PointLandmarksPlugin : public landmarks::LandmarkPlugin<PointLandmarkIndex> {
  public:
+  static constexpr const char* kName = "PointLandmarksPlugin";
+  static constexpr const char* kSummary = "Points and markers as landmarks, measured by their ranges and bearings.";
+  static void registerKinds(mapper::Kinds& kinds);
+
   PointLandmarksPlugin(const PointLandmarksOptions& options, const mapper::PluginContext& context)
       : LandmarkPlugin(PointLandmarkIndex(context.section)), options_(options), context_(context) {}
 
@@ -32,19 +36,6 @@ class PointLandmarksPlugin : public landmarks::LandmarkPlugin<PointLandmarkIndex
  private:
   PointLandmarksOptions options_;
   mapper::PluginContext context_;
-};
-
-class PointLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(PointLandmarksPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "PointLandmarksPlugin"; }
-  std::string summary() const override {
-    return "Points and markers as landmarks, measured by their ranges and bearings.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return PointLandmarksOptions::table().specs(); }
-  void registerKinds(mapper::Kinds& kinds) const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -5,8 +5,6 @@
 #include "RelationFactors.h"
 #include "Relations.h"
 
-IMPLEMENTS_MRPT_OBJECT(RelationsPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<RelationsOptions>& RelationsOptions::table() {
@@ -79,13 +77,8 @@ mapper::Batch RelationsPlugin::propose(const mapper::View& view) {
   return batch;
 }
 
-void RelationsPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void RelationsPlugin::registerKinds(mapper::Kinds& kinds) {
   addRelationsTo(kinds.factors);
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> RelationsPluginFactory::make(const base::ConfigSection& section,
-                                                                        const mapper::PluginContext& context) const {
-  return std::make_unique<RelationsPlugin>(section.read<RelationsOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

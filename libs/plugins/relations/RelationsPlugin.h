@@ -29,6 +29,11 @@ struct RelationsOptions {
 /// with those of other sessions.
 class RelationsPlugin : public mapper::MeasurementPlugin {
  public:
+  static constexpr const char* kName = "RelationsPlugin";
+  static constexpr const char* kSummary =
+      "Relates landmarks as is usual in buildings: points on walls, right angles, walls on one line.";
+  static void registerKinds(mapper::Kinds& kinds);
+
   RelationsPlugin(const RelationsOptions& options, const mapper::PluginContext& context);
   ~RelationsPlugin() override;
 
@@ -44,19 +49,6 @@ class RelationsPlugin : public mapper::MeasurementPlugin {
   RelationsOptions options_;
   std::string section_;
   std::size_t solves_ = 0;
-};
-
-class RelationsPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(RelationsPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "RelationsPlugin"; }
-  std::string summary() const override {
-    return "Relates landmarks as is usual in buildings: points on walls, right angles, walls on one line.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return RelationsOptions::table().specs(); }
-  void registerKinds(mapper::Kinds& kinds) const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

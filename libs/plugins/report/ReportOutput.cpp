@@ -9,8 +9,6 @@
 #include "MapPicture.h"
 #include "ReportPage.h"
 
-IMPLEMENTS_MRPT_OBJECT(ReportOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<ReportOptions>& ReportOptions::table() {
@@ -78,11 +76,6 @@ void ReportOutput::finish(const mapper::View& view) {
                           landmarks,
                           static_cast<std::size_t>(options_.max_rows)};
   derived::writeBytes(derived::outputPath(context_, "report.html"), drawReport(input));
-}
-
-std::unique_ptr<mapper::OutputPlugin> ReportOutputFactory::make(const base::ConfigSection& section,
-                                                                const mapper::PluginContext& context) const {
-  return std::make_unique<ReportOutput>(section.read<ReportOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

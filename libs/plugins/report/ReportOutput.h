@@ -20,24 +20,16 @@ struct ReportOptions {
 /// time, and the decision log with reasons; and map.png, the picture of the map alone.
 class ReportOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "ReportOutput";
+  static constexpr const char* kSummary =
+      "Writes report.html, which explains the run, and map.png, a picture of the map.";
+
   ReportOutput(const ReportOptions& options, const mapper::PluginContext& context);
   void finish(const mapper::View& view) override;
 
  private:
   ReportOptions options_;
   mapper::PluginContext context_;
-};
-
-class ReportOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(ReportOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "ReportOutput"; }
-  std::string summary() const override {
-    return "Writes report.html, which explains the run, and map.png, a picture of the map.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return ReportOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

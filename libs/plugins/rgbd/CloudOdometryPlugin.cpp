@@ -1,12 +1,9 @@
 #include "CloudOdometryPlugin.h"
 
 #include <omnimapper/base/Error.h>
-#include <omnimapper/plugin/SharedSection.h>
 
 #include "openDirections.h"
 #include "pclMatcher.h"
-
-IMPLEMENTS_MRPT_OBJECT(CloudOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
@@ -57,23 +54,6 @@ ImageMotion CloudOdometryPlugin::track(const StraightImage& image, base::Stamp s
   if (tracked.match.open_directions > 0)
     motion.open = openDirections(tracked.match.covariance, matching::CloudMatch::kOpen);
   return motion;
-}
-
-using CloudOdometrySection =
-    mapper::SharedSection<CameraOdometryOptions, matching::CloudTrackerOptions, matching::CloudSourceOptions,
-                          matching::CloudMatcherOptions, CloudLibraryOptions>;
-
-const std::vector<base::OptionSpec>& CloudOdometryPluginFactory::options() const {
-  return CloudOdometrySection::options();
-}
-
-std::unique_ptr<mapper::PosePlugin> CloudOdometryPluginFactory::make(const base::ConfigSection& section,
-                                                                     const mapper::PluginContext&) const {
-  return std::make_unique<CloudOdometryPlugin>(CloudOdometrySection::read<CameraOdometryOptions>(section),
-                                               CloudOdometrySection::read<matching::CloudTrackerOptions>(section),
-                                               CloudOdometrySection::read<matching::CloudSourceOptions>(section),
-                                               CloudOdometrySection::read<matching::CloudMatcherOptions>(section),
-                                               CloudOdometrySection::read<CloudLibraryOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

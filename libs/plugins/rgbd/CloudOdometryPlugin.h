@@ -20,6 +20,10 @@ struct CloudLibraryOptions {
 /// registered with those of a key frame (matching/CloudTracker.h).
 class CloudOdometryPlugin : public CameraOdometry {
  public:
+  static constexpr const char* kName = "CloudOdometryPlugin";
+  static constexpr const char* kSummary =
+      "Measures the motion of a depth camera by matching edges, voxels or all points of its images.";
+
   /// Throws Error(out_of_range) if edges are to be registered by point_to_plane, and Error(unknown_plugin) for a
   /// library that is missing in this build.
   CloudOdometryPlugin(const CameraOdometryOptions& options, const matching::CloudTrackerOptions& tracking,
@@ -33,18 +37,6 @@ class CloudOdometryPlugin : public CameraOdometry {
 
   matching::CloudSourceOptions source_;
   matching::CloudTracker tracker_;
-};
-
-class CloudOdometryPluginFactory : public mapper::PosePluginFactory {
-  DEFINE_MRPT_OBJECT(CloudOdometryPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "CloudOdometryPlugin"; }
-  std::string summary() const override {
-    return "Measures the motion of a depth camera by matching edges, voxels or all points of its images.";
-  }
-  const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
-                                           const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -10,10 +10,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "CloudOdometryPlugin.h"
 #include "VisualOdometryPlugin.h"
 #include "returnEvidence.h"
-
-IMPLEMENTS_MRPT_OBJECT(ViewLinksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
 
 namespace omnimapper::plugins {
 
@@ -56,14 +55,40 @@ const base::OptionTable<ViewLinksOptions>& ViewLinksOptions::table() {
   return table;
 }
 
-ViewLinksPlugin::ViewLinksPlugin(const ViewLinksOptions& options, const std::string& camera,
-                                 const matching::RgbdTrackerOptions& tracking,
-                                 const matching::DenseMatcherOptions& matching, const mapper::PluginContext& context)
-    : options_(options), camera_(camera), tracking_(tracking), matcher_(matching), context_(context) {}
+namespace {
+ViewLinksPlugin::Camera cameraOf(const std::string& odometry, const mapper::PluginContext& context) {
+  const std::string place = "[" + context.section + "] odometry: ";
+  const auto ini = base::Config::fromText(context.config_text, "the INI");
+  if (!ini.has(odometry) && odometry != ViewLinksOptions{}.odometry)
+    throw base::Error(base::ExitCode::unknown_key, place + "there is no section [" + odometry + "] in the INI");
+  const auto section = ini.section(odometry);
+  std::string class_name = VisualOdometryPlugin::kName;
+  section.find("class", class_name);
+  if (class_name == CloudOdometryPlugin::kName) {  // which has no shutters
+    ViewLinksPlugin::Camera camera;
+    section.find("label", camera.label);
+    return camera;
+  }
+  if (class_name != VisualOdometryPlugin::kName) {
+    throw base::Error(base::ExitCode::out_of_range, place + "[" + odometry + "] is a " + class_name +
+                                                        "; it must be a VisualOdometryPlugin or a CloudOdometryPlugin");
+  }
+  return {VisualOdometrySection::read<CameraOdometryOptions>(section).label,
+          VisualOdometrySection::read<matching::RgbdTrackerOptions>(section),
+          VisualOdometrySection::read<matching::DenseMatcherOptions>(section)};
+}
+}  // namespace
+
+ViewLinksPlugin::ViewLinksPlugin(const ViewLinksOptions& options, const mapper::PluginContext& context)
+    : ViewLinksPlugin(options, cameraOf(options.odometry, context), context) {}
+
+ViewLinksPlugin::ViewLinksPlugin(const ViewLinksOptions& options, const Camera& camera,
+                                 const mapper::PluginContext& context)
+    : options_(options), camera_(camera), matcher_(camera.matching), context_(context) {}
 
 bool ViewLinksPlugin::wants(const mrpt::obs::CObservation& observation) const {
   const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation);
-  return scan && scan->hasRangeImage && (camera_.empty() || scan->sensorLabel == camera_);
+  return scan && scan->hasRangeImage && (camera_.label.empty() || scan->sensorLabel == camera_.label);
 }
 
 std::unique_ptr<const mapper::Prepared> ViewLinksPlugin::prepareUsing(const mrpt::obs::CObservation& observation,
@@ -157,8 +182,8 @@ double ViewLinksPlugin::viewDistance(const KeyImage& from, const KeyImage& to, c
 }
 
 double ViewLinksPlugin::viewDistance(const Se3& motion, double depth) const {
-  return std::max(geometry::logSo3(motion.rotation).norm() / tracking_.key_angle,
-                  motion.translation.norm() / (tracking_.key_distance * depth));
+  return std::max(geometry::logSo3(motion.rotation).norm() / camera_.tracking.key_angle,
+                  motion.translation.norm() / (camera_.tracking.key_distance * depth));
 }
 
 std::optional<ViewLinksPlugin::Link> ViewLinksPlugin::linkTo(const KeyImage& to, const KeyImage& image,
@@ -205,7 +230,7 @@ mapper::RelativeMotion ViewLinksPlugin::motionOf(const Link& link, const KeyImag
   // Neighbouring residuals share errors: kAlike of them count as one. A shutter's readout time is known to a fifth.
   constexpr double kAlike = 30, kReadoutError = 0.2;
   const double readout_sigma =
-      kReadoutError * std::max(std::abs(tracking_.depth_readout), std::abs(tracking_.picture_readout));
+      kReadoutError * std::max(std::abs(camera_.tracking.depth_readout), std::abs(camera_.tracking.picture_readout));
   const geometry::Vector6d of_image = readout_sigma * image.velocity;
   const geometry::Vector6d of_other =
       readout_sigma * (adjoint(inverse(link.match.reference_from_image)) * link.to->velocity);
@@ -221,8 +246,9 @@ mapper::RelativeMotion ViewLinksPlugin::motionOf(const Link& link, const KeyImag
 // The velocity since the image or key frame before, to correct for the shutters.
 matching::CameraMotion ViewLinksPlugin::motionAt(const map::KeyFrame& frame, const Se3& base_from_camera,
                                                  const mapper::State& state) const {
-  matching::CameraMotion motion{geometry::Vector6d::Zero(), tracking_.depth_readout, tracking_.picture_delay,
-                                tracking_.picture_readout, tracking_.picture_delay_sigma};
+  matching::CameraMotion motion{geometry::Vector6d::Zero(), camera_.tracking.depth_readout,
+                                camera_.tracking.picture_delay, camera_.tracking.picture_readout,
+                                camera_.tracking.picture_delay_sigma};
   const std::size_t position = state.map.key_frames.position(frame.id);
   if (position == 0) return motion;
   const map::KeyFrame& before = state.map.key_frames[position - 1];
@@ -312,37 +338,6 @@ mapper::Evidence ViewLinksPlugin::missedEvidence() const {
                 expected_, missed_);
   return {"camera_returns_missed_percent", percent, is_distorted ? Says::against_it : Says::good,
           is_distorted ? text : ""};
-}
-
-const std::vector<base::OptionSpec>& ViewLinksPluginFactory::options() const {
-  return ViewLinksOptions::table().specs();
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> ViewLinksPluginFactory::make(const base::ConfigSection& section,
-                                                                        const mapper::PluginContext& context) const {
-  const auto options = section.read<ViewLinksOptions>(mapper::sectionKeysOfEngine());
-  const auto ini = base::Config::fromText(context.config_text, "the INI");
-  if (!ini.has(options.odometry) && options.odometry != ViewLinksOptions{}.odometry) {
-    throw base::Error(base::ExitCode::unknown_key,
-                      "[" + context.section + "] odometry: there is no section [" + options.odometry + "] in the INI");
-  }
-  const auto odometry = ini.section(options.odometry);
-  std::string class_name = "VisualOdometryPlugin", label;
-  odometry.find("class", class_name);
-  if (class_name == "CloudOdometryPlugin") {  // which has no shutters
-    odometry.find("label", label);
-    return std::make_unique<ViewLinksPlugin>(options, label, matching::RgbdTrackerOptions{},
-                                             matching::DenseMatcherOptions{}, context);
-  }
-  if (class_name != "VisualOdometryPlugin") {
-    throw base::Error(base::ExitCode::out_of_range, "[" + context.section + "] odometry: [" + options.odometry +
-                                                        "] is a " + class_name +
-                                                        "; it must be a VisualOdometryPlugin or a CloudOdometryPlugin");
-  }
-  return std::make_unique<ViewLinksPlugin>(options, VisualOdometrySection::read<CameraOdometryOptions>(odometry).label,
-                                           VisualOdometrySection::read<matching::RgbdTrackerOptions>(odometry),
-                                           VisualOdometrySection::read<matching::DenseMatcherOptions>(odometry),
-                                           context);
 }
 
 }  // namespace omnimapper::plugins

@@ -37,10 +37,21 @@ struct ViewLinksOptions {
 /// hypotheses, which act once the consistency test has accepted them.
 class ViewLinksPlugin : public mapper::MeasurementPlugin {
  public:
-  /// `camera`: label of the camera; empty for the first one observed.
-  ViewLinksPlugin(const ViewLinksOptions& options, const std::string& camera,
-                  const matching::RgbdTrackerOptions& tracking, const matching::DenseMatcherOptions& matching,
-                  const mapper::PluginContext& context);
+  static constexpr const char* kName = "ViewLinksPlugin";
+  static constexpr const char* kSummary =
+      "Links key frames by their depth images: each to several key frames before it, and to older ones that show "
+      "the same place.";
+
+  /// What the plugin takes from the section of the camera's odometry.
+  struct Camera {
+    std::string label;  ///< empty: the first one observed
+    matching::RgbdTrackerOptions tracking;
+    matching::DenseMatcherOptions matching;
+  };
+  /// Reads the section of the odometry that the options name. Throws Error(unknown_key) if the INI does not have it,
+  /// and Error(out_of_range) if it is not a camera's.
+  ViewLinksPlugin(const ViewLinksOptions& options, const mapper::PluginContext& context);
+  ViewLinksPlugin(const ViewLinksOptions& options, const Camera& camera, const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation& observation) const override;
   /// Null for an image that cannot be read or has too few depths.
@@ -102,8 +113,7 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   mapper::Evidence missedEvidence() const;
 
   ViewLinksOptions options_;
-  std::string camera_;  // label from the options; empty: the first one observed
-  matching::RgbdTrackerOptions tracking_;
+  Camera camera_;
   matching::DenseMatcher matcher_;
   mapper::PluginContext context_;
   camera::LensStraightener lens_;
@@ -113,19 +123,6 @@ class ViewLinksPlugin : public mapper::MeasurementPlugin {
   std::vector<Return> returns_;
   // How often the estimate had the camera back at a view that it had left, and how often the image did not fit then.
   std::size_t expected_ = 0, missed_ = 0;
-};
-
-class ViewLinksPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(ViewLinksPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "ViewLinksPlugin"; }
-  std::string summary() const override {
-    return "Links key frames by their depth images: each to several key frames before it, and to older ones that show "
-           "the same place.";
-  }
-  const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -2,8 +2,6 @@
 
 #include "openDirections.h"
 
-IMPLEMENTS_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 VisualOdometryPlugin::VisualOdometryPlugin(const CameraOdometryOptions& options,
@@ -27,18 +25,6 @@ ImageMotion VisualOdometryPlugin::track(const StraightImage& image, base::Stamp 
   if (tracked.match.open_directions > 0)
     motion.open = openDirections(tracked.match.covariance, matching::DenseMatch::kOpen);
   return motion;
-}
-
-const std::vector<base::OptionSpec>& VisualOdometryPluginFactory::options() const {
-  return VisualOdometrySection::options();
-}
-
-std::unique_ptr<mapper::PosePlugin> VisualOdometryPluginFactory::make(const base::ConfigSection& section,
-                                                                      const mapper::PluginContext&) const {
-  return std::make_unique<VisualOdometryPlugin>(VisualOdometrySection::read<CameraOdometryOptions>(section),
-                                                VisualOdometrySection::read<matching::RgbdTrackerOptions>(section),
-                                                VisualOdometrySection::read<matching::DenseMatcherOptions>(section),
-                                                VisualOdometrySection::read<matching::FeatureMatcherOptions>(section));
 }
 
 }  // namespace omnimapper::plugins

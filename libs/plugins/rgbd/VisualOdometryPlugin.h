@@ -1,7 +1,6 @@
 #pragma once
 
 #include <omnimapper/matching/RgbdTracker.h>
-#include <omnimapper/plugin/PluginFactory.h>
 #include <omnimapper/plugin/SharedSection.h>
 
 #include "CameraOdometry.h"
@@ -12,6 +11,10 @@ namespace omnimapper::plugins {
 /// frame (matching/RgbdTracker.h).
 class VisualOdometryPlugin : public CameraOdometry {
  public:
+  static constexpr const char* kName = "VisualOdometryPlugin";
+  static constexpr const char* kSummary =
+      "Measures the motion of a depth camera by matching each depth image and its picture with earlier ones.";
+
   VisualOdometryPlugin(const CameraOdometryOptions& options, const matching::RgbdTrackerOptions& tracking,
                        const matching::DenseMatcherOptions& matching,
                        const matching::FeatureMatcherOptions& features = {});
@@ -26,17 +29,5 @@ class VisualOdometryPlugin : public CameraOdometry {
 /// The options in an INI section of VisualOdometryPlugin.
 using VisualOdometrySection = mapper::SharedSection<CameraOdometryOptions, matching::RgbdTrackerOptions,
                                                     matching::DenseMatcherOptions, matching::FeatureMatcherOptions>;
-
-class VisualOdometryPluginFactory : public mapper::PosePluginFactory {
-  DEFINE_MRPT_OBJECT(VisualOdometryPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "VisualOdometryPlugin"; }
-  std::string summary() const override {
-    return "Measures the motion of a depth camera by matching each depth image and its picture with earlier ones.";
-  }
-  const std::vector<base::OptionSpec>& options() const override;
-  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
-                                           const mapper::PluginContext& context) const override;
-};
 
 }  // namespace omnimapper::plugins

@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "CloudOdometryPlugin.h"
 #include "ViewLinksPlugin.h"
@@ -6,12 +7,12 @@
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  mapper::registerFactoryBases();
-  mrpt::rtti::registerClass(CLASS_ID(VisualOdometryPluginFactory));
-  mrpt::rtti::registerClass(CLASS_ID(CloudOdometryPluginFactory));
-  mrpt::rtti::registerClass(CLASS_ID(ViewLinksPluginFactory));
+  mapper::FactoryOf<VisualOdometryPlugin, CameraOdometryOptions, matching::RgbdTrackerOptions,
+                    matching::DenseMatcherOptions, matching::FeatureMatcherOptions>::registerClass();
+  mapper::FactoryOf<CloudOdometryPlugin, CameraOdometryOptions, matching::CloudTrackerOptions,
+                    matching::CloudSourceOptions, matching::CloudMatcherOptions, CloudLibraryOptions>::registerClass();
+  mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

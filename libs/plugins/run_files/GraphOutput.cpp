@@ -3,8 +3,6 @@
 #include <omnimapper/derived/OutputFile.h>
 #include <omnimapper/graph/G2o.h>
 
-IMPLEMENTS_MRPT_OBJECT(GraphOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<GraphOutputOptions>& GraphOutputOptions::table() {
@@ -17,11 +15,6 @@ GraphOutput::GraphOutput(const GraphOutputOptions&, const mapper::PluginContext&
 
 void GraphOutput::finish(const mapper::View& view) {
   graph::writeG2o(view.graph, path_);
-}
-
-std::unique_ptr<mapper::OutputPlugin> GraphOutputFactory::make(const base::ConfigSection& section,
-                                                               const mapper::PluginContext& context) const {
-  return std::make_unique<GraphOutput>(section.read<GraphOutputOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

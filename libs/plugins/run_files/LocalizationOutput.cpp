@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-IMPLEMENTS_MRPT_OBJECT(LocalizationOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 namespace {
@@ -41,12 +39,6 @@ void LocalizationOutput::finish(const mapper::View& view) {
   std::string text = "stamp,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_yaw_deg,located\n";
   for (const auto& estimate : view.localization) text += lineOf(estimate);
   derived::writeBytes(path_, text);
-}
-
-std::unique_ptr<mapper::OutputPlugin> LocalizationOutputFactory::make(const base::ConfigSection& section,
-                                                                      const mapper::PluginContext& context) const {
-  return std::make_unique<LocalizationOutput>(section.read<LocalizationOptions>(mapper::sectionKeysOfEngine()),
-                                              context);
 }
 
 }  // namespace omnimapper::plugins

@@ -16,24 +16,16 @@ struct LocalizationOptions {
 /// are along the map's axes, empty if a direction is undetermined; located is 0 or 1 (mapper::LocalizationEstimate).
 class LocalizationOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "LocalizationOutput";
+  static constexpr const char* kSummary =
+      "With --localize, writes localization.csv: the pose of each key frame as estimated when the key frame was "
+      "made, with its standard deviations.";
+
   LocalizationOutput(const LocalizationOptions& options, const mapper::PluginContext& context);
   void finish(const mapper::View& view) override;
 
  private:
   std::string path_;
-};
-
-class LocalizationOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(LocalizationOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "LocalizationOutput"; }
-  std::string summary() const override {
-    return "With --localize, writes localization.csv: the pose of each key frame as estimated when the key frame was "
-           "made, with its standard deviations.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return LocalizationOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

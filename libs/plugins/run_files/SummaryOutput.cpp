@@ -9,8 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-IMPLEMENTS_MRPT_OBJECT(SummaryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 namespace {
@@ -195,11 +193,6 @@ SummaryOutput::SummaryOutput(const SummaryOptions&, const mapper::PluginContext&
 void SummaryOutput::finish(const mapper::View& view) {
   // Names from a log may not be valid UTF-8: invalid bytes are replaced.
   derived::writeBytes(path_, summaryOf(view, title_).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
-std::unique_ptr<mapper::OutputPlugin> SummaryOutputFactory::make(const base::ConfigSection& section,
-                                                                 const mapper::PluginContext& context) const {
-  return std::make_unique<SummaryOutput>(section.read<SummaryOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

@@ -6,8 +6,6 @@
 #include <omnimapper/geometry/TumLine.h>
 #include <omnimapper/map/DenseTrajectory.h>
 
-IMPLEMENTS_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<TrajectoryOptions>& TrajectoryOptions::table() {
@@ -33,11 +31,6 @@ void TrajectoryOutput::finish(const mapper::View& view) {
   std::string text;
   for (const auto& pose : trajectory) text += geometry::tumLine(pose.stamp, geometry::fromMrpt(pose.map_from_base));
   derived::writeBytes(path_, text);
-}
-
-std::unique_ptr<mapper::OutputPlugin> TrajectoryOutputFactory::make(const base::ConfigSection& section,
-                                                                    const mapper::PluginContext& context) const {
-  return std::make_unique<TrajectoryOutput>(section.read<TrajectoryOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

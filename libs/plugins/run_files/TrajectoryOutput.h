@@ -17,24 +17,16 @@ struct TrajectoryOptions {
 /// qz qw" with Unix time [s] to the tick, lengths [m] and a unit quaternion, qw >= 0.
 class TrajectoryOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "TrajectoryOutput";
+  static constexpr const char* kSummary =
+      "Writes trajectory.tum, with one line for each observation of the reference sensor.";
+
   TrajectoryOutput(const TrajectoryOptions& options, const mapper::PluginContext& context);
   void finish(const mapper::View& view) override;
 
  private:
   TrajectoryOptions options_;
   std::string path_;
-};
-
-class TrajectoryOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(TrajectoryOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "TrajectoryOutput"; }
-  std::string summary() const override {
-    return "Writes trajectory.tum, with one line for each observation of the reference sensor.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return TrajectoryOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

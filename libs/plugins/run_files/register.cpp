@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "GraphOutput.h"
 #include "LocalizationOutput.h"
@@ -7,14 +8,11 @@
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(GraphOutputFactory));
-  registerClass(CLASS_ID(LocalizationOutputFactory));
-  registerClass(CLASS_ID(SummaryOutputFactory));
-  registerClass(CLASS_ID(TrajectoryOutputFactory));
+  mapper::FactoryOf<GraphOutput, GraphOutputOptions>::registerClass();
+  mapper::FactoryOf<LocalizationOutput, LocalizationOptions>::registerClass();
+  mapper::FactoryOf<SummaryOutput, SummaryOptions>::registerClass();
+  mapper::FactoryOf<TrajectoryOutput, TrajectoryOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -14,6 +14,10 @@ namespace omnimapper::plugins {
 /// would be empty are not written.
 class PointsOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "PointsOutput";
+  static constexpr const char* kSummary =
+      "Writes points.ply, the coloured points of all key frames, and landmarks.ply.";
+
   PointsOutput(const derived::PointsOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
@@ -21,18 +25,6 @@ class PointsOutput : public mapper::OutputPlugin {
  private:
   derived::PointsOptions options_;
   std::string path_, landmarks_path_;
-};
-
-class PointsOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(PointsOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "PointsOutput"; }
-  std::string summary() const override {
-    return "Writes points.ply, the coloured points of all key frames, and landmarks.ply.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return derived::PointsOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -8,8 +8,6 @@
 #include <omnimapper/derived/SceneParts.h>
 #include <omnimapper/map/DenseTrajectory.h>
 
-IMPLEMENTS_MRPT_OBJECT(SceneOutputFactory, omnimapper::mapper::OutputPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<SceneOptions>& SceneOptions::table() {
@@ -51,11 +49,6 @@ void SceneOutput::finish(const mapper::View& view) {
   mrpt::io::CMemoryStream memory;
   mrpt::serialization::archiveFrom(memory) << scene;
   derived::writeBytes(path_, {static_cast<const char*>(memory.getRawBufferData()), memory.getTotalBytesCount()});
-}
-
-std::unique_ptr<mapper::OutputPlugin> SceneOutputFactory::make(const base::ConfigSection& section,
-                                                               const mapper::PluginContext& context) const {
-  return std::make_unique<SceneOutput>(section.read<SceneOptions>(mapper::sectionKeysOfEngine()), context);
 }
 
 }  // namespace omnimapper::plugins

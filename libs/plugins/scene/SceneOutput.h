@@ -22,6 +22,9 @@ struct SceneOptions {
 /// translucent with an arrow to their free side, moved ones as dashed outlines.
 class SceneOutput : public mapper::OutputPlugin {
  public:
+  static constexpr const char* kName = "SceneOutput";
+  static constexpr const char* kSummary = "Writes scene.3Dscene for MRPT's program SceneViewer3D.";
+
   SceneOutput(const SceneOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
@@ -29,16 +32,6 @@ class SceneOutput : public mapper::OutputPlugin {
  private:
   SceneOptions options_;
   std::string path_;
-};
-
-class SceneOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(SceneOutputFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "SceneOutput"; }
-  std::string summary() const override { return "Writes scene.3Dscene for MRPT's program SceneViewer3D."; }
-  const std::vector<base::OptionSpec>& options() const override { return SceneOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

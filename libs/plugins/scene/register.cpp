@@ -1,16 +1,14 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "PointsOutput.h"
 #include "SceneOutput.h"
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(PointsOutputFactory));
-  registerClass(CLASS_ID(SceneOutputFactory));
+  mapper::FactoryOf<PointsOutput, derived::PointsOptions>::registerClass();
+  mapper::FactoryOf<SceneOutput, SceneOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -7,8 +7,6 @@
 #include "SignEvidence.h"
 #include "SignPayload.h"
 
-IMPLEMENTS_MRPT_OBJECT(SignLandmarksPluginFactory, omnimapper::mapper::MeasurementPluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 using obs::CObservationDoorSigns;
@@ -47,17 +45,11 @@ std::vector<mapper::Evidence> SignLandmarksPlugin::evidence(const mapper::View& 
                           : signEvidence(view, context_.section, options_.recent_travel);
 }
 
-void SignLandmarksPluginFactory::registerKinds(mapper::Kinds& kinds) const {
+void SignLandmarksPlugin::registerKinds(mapper::Kinds& kinds) {
   SignBearingFactor::addTo(kinds.factors);
   PanTiltBearingFactor::addTo(kinds.factors);
   SignRangeFactor::addTo(kinds.factors);
   SignPayload::addTo(kinds.payloads);
-}
-
-std::unique_ptr<mapper::MeasurementPlugin> SignLandmarksPluginFactory::make(
-    const base::ConfigSection& section, const mapper::PluginContext& context) const {
-  return std::make_unique<SignLandmarksPlugin>(section.read<SignLandmarksOptions>(mapper::sectionKeysOfEngine()),
-                                               context);
 }
 
 }  // namespace omnimapper::plugins

@@ -23,6 +23,11 @@ namespace omnimapper::plugins {
 /// is seen at two places yields no such hypothesis. Landmarks that turn out to be the same sign are merged at the end.
 class SignLandmarksPlugin : public landmarks::LandmarkPlugin<SignTracks> {
  public:
+  static constexpr const char* kName = "SignLandmarksPlugin";
+  static constexpr const char* kSummary =
+      "Door signs with their texts as landmarks, measured by the directions in which cameras see them.";
+  static void registerKinds(mapper::Kinds& kinds);
+
   SignLandmarksPlugin(const SignLandmarksOptions& options, const mapper::PluginContext& context)
       : LandmarkPlugin(SignTracks(context.section)),
         options_(options),
@@ -45,19 +50,6 @@ class SignLandmarksPlugin : public landmarks::LandmarkPlugin<SignTracks> {
   mapper::PluginContext context_;
   SessionBySigns session_;
   mapper::PanTiltOffsets offsets_;
-};
-
-class SignLandmarksPluginFactory : public mapper::MeasurementPluginFactory {
-  DEFINE_MRPT_OBJECT(SignLandmarksPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "SignLandmarksPlugin"; }
-  std::string summary() const override {
-    return "Door signs with their texts as landmarks, measured by the directions in which cameras see them.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return SignLandmarksOptions::table().specs(); }
-  void registerKinds(mapper::Kinds& kinds) const override;
-  std::unique_ptr<mapper::MeasurementPlugin> make(const base::ConfigSection& section,
-                                                  const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -1,14 +1,10 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "SignLandmarksPlugin.h"
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
-const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(SignLandmarksPluginFactory));
-});
+const base::AtLoad kRegister([] { mapper::FactoryOf<SignLandmarksPlugin, SignLandmarksOptions>::registerClass(); });
 
 }  // namespace omnimapper::plugins

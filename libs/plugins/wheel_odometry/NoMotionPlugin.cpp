@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-IMPLEMENTS_MRPT_OBJECT(NoMotionPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<NoMotionOptions>& NoMotionOptions::table() {
@@ -26,11 +24,6 @@ std::optional<mapper::RelativeMotion> NoMotionPlugin::between(base::Stamp begin,
   motion.covariance.diagonal().head<3>().setConstant(options_.position_sigma * options_.position_sigma * seconds);
   motion.covariance.diagonal().tail<3>().setConstant(options_.angle_sigma * options_.angle_sigma * seconds);
   return motion;
-}
-
-std::unique_ptr<mapper::PosePlugin> NoMotionPluginFactory::make(const base::ConfigSection& section,
-                                                                const mapper::PluginContext&) const {
-  return std::make_unique<NoMotionPlugin>(section.read<NoMotionOptions>(mapper::sectionKeysOfEngine()));
 }
 
 }  // namespace omnimapper::plugins

@@ -16,6 +16,10 @@ struct NoMotionOptions {
 /// no other source measures the motion.
 class NoMotionPlugin : public mapper::PosePlugin {
  public:
+  static constexpr const char* kName = "NoMotionPlugin";
+  static constexpr const char* kSummary =
+      "Assumes, with a large uncertainty, that the base did not move where no odometry measures its motion.";
+
   explicit NoMotionPlugin(const NoMotionOptions& options) : options_(options) {}
 
   Taken add(const mrpt::obs::CObservation::ConstPtr&) override { return Taken::not_mine; }
@@ -26,18 +30,6 @@ class NoMotionPlugin : public mapper::PosePlugin {
 
  private:
   NoMotionOptions options_;
-};
-
-class NoMotionPluginFactory : public mapper::PosePluginFactory {
-  DEFINE_MRPT_OBJECT(NoMotionPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "NoMotionPlugin"; }
-  std::string summary() const override {
-    return "Assumes, with a large uncertainty, that the base did not move where no odometry measures its motion.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return NoMotionOptions::table().specs(); }
-  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
-                                           const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

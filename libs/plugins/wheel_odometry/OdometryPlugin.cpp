@@ -1,7 +1,5 @@
 #include "OdometryPlugin.h"
 
-IMPLEMENTS_MRPT_OBJECT(OdometryPluginFactory, omnimapper::mapper::PosePluginFactory, omnimapper::plugins)
-
 namespace omnimapper::plugins {
 
 const base::OptionTable<OdometryOptions>& OdometryOptions::table() {
@@ -32,11 +30,6 @@ std::optional<OdometryPlugin::Span> OdometryPlugin::news() const {
   const auto news = odometry_.news();
   if (!news) return std::nullopt;
   return Span{news->begin, news->end};
-}
-
-std::unique_ptr<mapper::PosePlugin> OdometryPluginFactory::make(const base::ConfigSection& section,
-                                                                const mapper::PluginContext&) const {
-  return std::make_unique<OdometryPlugin>(section.read<OdometryOptions>(mapper::sectionKeysOfEngine()));
 }
 
 }  // namespace omnimapper::plugins

@@ -14,6 +14,10 @@ struct OdometryOptions : motion::WheelOdometryOptions {
 /// motion::WheelOdometry as a continuous pose source.
 class OdometryPlugin : public mapper::PosePlugin {
  public:
+  static constexpr const char* kName = "OdometryPlugin";
+  static constexpr const char* kSummary =
+      "Links key frames by wheel odometry, which the log holds as cumulative poses or as MRPT's actions.";
+
   explicit OdometryPlugin(const OdometryOptions& options) : odometry_(options), is_fallback_(options.fallback) {}
 
   Taken add(const mrpt::obs::CObservation::ConstPtr& observation) override;
@@ -29,18 +33,6 @@ class OdometryPlugin : public mapper::PosePlugin {
  private:
   motion::WheelOdometry odometry_;
   bool is_fallback_;
-};
-
-class OdometryPluginFactory : public mapper::PosePluginFactory {
-  DEFINE_MRPT_OBJECT(OdometryPluginFactory, omnimapper::plugins)
- public:
-  std::string name() const override { return "OdometryPlugin"; }
-  std::string summary() const override {
-    return "Links key frames by wheel odometry, which the log holds as cumulative poses or as MRPT's actions.";
-  }
-  const std::vector<base::OptionSpec>& options() const override { return OdometryOptions::table().specs(); }
-  std::unique_ptr<mapper::PosePlugin> make(const base::ConfigSection& section,
-                                           const mapper::PluginContext& context) const override;
 };
 
 }  // namespace omnimapper::plugins

@@ -1,16 +1,14 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include "NoMotionPlugin.h"
 #include "OdometryPlugin.h"
 
 namespace omnimapper::plugins {
 
-// The build links this file last, so that the ids of the classes are initialized before.
 const base::AtLoad kRegister([] {
-  using mrpt::rtti::registerClass;
-  mapper::registerFactoryBases();
-  registerClass(CLASS_ID(NoMotionPluginFactory));
-  registerClass(CLASS_ID(OdometryPluginFactory));
+  mapper::FactoryOf<NoMotionPlugin, NoMotionOptions>::registerClass();
+  mapper::FactoryOf<OdometryPlugin, OdometryOptions>::registerClass();
 });
 
 }  // namespace omnimapper::plugins

@@ -71,7 +71,7 @@ CObservation2DRangeScan::Ptr scanAt(const Drive& drive, double seconds, testing:
 
 Outcome follow(const Drive& drive) {
   testing::Dice dice(1);
-  ScanOdometryPlugin plugin({}, {}, {});
+  ScanOdometryPlugin plugin({}, {}, {}, {});
   const int scans = static_cast<int>(drive.seconds * drive.rate);
   for (int i = 0; i <= scans; ++i) {
     const double seconds = i / drive.rate;

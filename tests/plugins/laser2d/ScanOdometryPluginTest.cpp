@@ -37,7 +37,7 @@ struct Measured {
   Eigen::Matrix3d covariance;
 };
 Measured follow(const SimulatedLog& log, const Change& change, const ScanOdometryOptions& options = {}) {
-  ScanOdometryPlugin plugin(options, {}, {});
+  ScanOdometryPlugin plugin(options, {}, {}, {});
   std::vector<base::Stamp> scans;
   for (auto observation : log.observations()) {
     observation = change(observation);
@@ -115,7 +115,7 @@ CObservation::Ptr scanOfACorridor(double seconds) {
 // For 3 s the laser repeats one scan, while the wheels turn on.
 TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutAndCounted) {
   const auto log = halfALap();
-  ScanOdometryPlugin plugin({}, {}, {});
+  ScanOdometryPlugin plugin({}, {}, {}, {});
   CObservation2DRangeScan::Ptr last;
   std::vector<CObservation::ConstPtr> scans;
   std::size_t repeated = 0;
@@ -153,7 +153,7 @@ TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutAndCounted) {
 
 // The base moves 1 cm from scan to scan, and the laser repeats itself for a minute.
 TEST(ScanOdometryPlugin, AFrozenLaserIsLeftOutOfASlowDriveToo) {
-  ScanOdometryPlugin plugin({}, {}, {});
+  ScanOdometryPlugin plugin({}, {}, {}, {});
   std::size_t left_out = 0;
   const auto frozen = scanOfACorridor(0);
   for (int i = 0; i < 600; ++i) {
@@ -186,7 +186,7 @@ TEST(ScanOdometryPlugin, TheOdometryThatAgreesWithTheMatchesBridgesAGap) {
     const double seconds = base::secondsBetween(log.begin(), stamp);
     return seconds > gap && seconds < gap + 3;
   };
-  ScanOdometryPlugin plugin({}, {}, {});
+  ScanOdometryPlugin plugin({}, {}, {}, {});
   std::vector<base::Stamp> scans;
   CPose2D last_reading;
   for (const auto& observation : log.observations()) {
@@ -244,7 +244,7 @@ TEST(ScanOdometryPlugin, FollowsALaserThatIsUpsideDownOrALittleTilted) {
 
 TEST(ScanOdometryPlugin, OfATiltedLaserNothingIsTakenAndTheUserIsWarned) {
   const auto log = halfALapWith({laserAt("tilted", 30 * kDegree, 0)});
-  ScanOdometryPlugin plugin({}, {}, {});
+  ScanOdometryPlugin plugin({}, {}, {}, {});
   std::size_t scans = 0;
   for (const auto& observation : log.observations()) {
     EXPECT_EQ(plugin.add(observation), mapper::PosePlugin::Taken::not_mine);
@@ -266,7 +266,7 @@ TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
   const auto coveredAndWarned = [&](const std::string& label) {
     ScanOdometryOptions options;
     options.label = label;
-    ScanOdometryPlugin plugin(options, {}, {});
+    ScanOdometryPlugin plugin(options, {}, {}, {});
     for (const auto& observation : log.observations()) plugin.add(observation);
     plugin.processUntil(log.end());
     return std::pair(plugin.coveredUntil().has_value(), plugin.warnings().size());
@@ -278,7 +278,7 @@ TEST(ScanOdometryPlugin, OfATiltedAndALevelLaserTheLevelOneIsTaken) {
 
 TEST(ScanOdometryPlugin, SpansAddUpAndScansInBetweenAreInterpolated) {
   const auto log = halfALap();
-  ScanOdometryPlugin plugin({}, {}, {});
+  ScanOdometryPlugin plugin({}, {}, {}, {});
   for (const auto& observation : log.observations()) plugin.add(observation);
   const auto at = [&](double seconds) { return log.begin() + base::durationFromSeconds(seconds); };
   EXPECT_FALSE(plugin.between(at(2), at(3))) << "nothing is processed early";
@@ -301,7 +301,7 @@ TEST(ScanOdometryPlugin, AScanAfterItsTimeIsLeftOutAndOrderBeforeItDoesNotMatter
   }
   scans.resize(80);
   const auto motionInOrder = [&](const std::vector<CObservation::Ptr>& order) {
-    ScanOdometryPlugin plugin({}, {}, {});
+    ScanOdometryPlugin plugin({}, {}, {}, {});
     for (const auto& scan : order) plugin.add(scan);
     plugin.processUntil(scans.back()->timestamp);
     for (int i = 0; i < 30; ++i) EXPECT_EQ(plugin.add(scans[i]), mapper::PosePlugin::Taken::taken);
@@ -332,7 +332,7 @@ TEST(ScanOdometryPlugin, AGapIsBridgedByTheWheelsOrBySearchUnlessItIsLong) {
 TEST(ScanOdometryPlugin, AGapThatNothingMeasuresIsEvidence) {
   const auto log = halfALap();
   for (const bool wheels : {true, false}) {
-    ScanOdometryPlugin plugin({}, {}, {});
+    ScanOdometryPlugin plugin({}, {}, {}, {});
     for (const auto& observation : log.observations()) {
       const double into = base::secondsBetween(log.begin(), observation->timestamp);
       if ((into > 8 && into < 19) || (observation->sensorLabel == "odometry" && !wheels)) continue;
@@ -350,7 +350,7 @@ TEST(ScanOdometryPlugin, AGapThatNothingMeasuresIsEvidence) {
 
 TEST(ScanOdometryPlugin, AlongABareCorridorItKnowsThatItDoesNotKnow) {
   for (const bool wheels : {true, false}) {
-    ScanOdometryPlugin plugin({}, {}, {});
+    ScanOdometryPlugin plugin({}, {}, {}, {});
     for (int i = 0; i <= 100; ++i) {
       if (wheels) {
         auto odometry = mrpt::obs::CObservationOdometry::Create();
@@ -386,7 +386,7 @@ struct Errors {
 Errors errorsPerSecond(const SimulatedLog& log, double sweep, bool wheels) {
   ScanOdometryOptions options;
   options.sweep = sweep;
-  ScanOdometryPlugin plugin(options, {}, {});
+  ScanOdometryPlugin plugin(options, {}, {}, {});
   std::vector<base::Stamp> scans;
   for (const auto& observation : log.observations()) {
     if (observation->sensorLabel != "odometry")
@@ -431,7 +431,7 @@ TEST(ScanOdometryPlugin, ASweepIsTakenOutOfTheScansOfATurningBase) {
 TEST(ScanOdometryPlugin, OfScansWithASweepAllTimeSinceTheFirstStampIsCovered) {
   ScanOdometryOptions options;
   options.sweep = 0.08;
-  ScanOdometryPlugin plugin(options, {}, {});
+  ScanOdometryPlugin plugin(options, {}, {}, {});
   std::vector<base::Stamp> scans;
   for (const auto& observation : halfALap().observations()) {
     plugin.add(observation);

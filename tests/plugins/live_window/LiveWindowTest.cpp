@@ -92,11 +92,17 @@ int pixelsNear(const mrpt::img::CImage& screen, int red, int green, int blue, in
   return count;
 }
 
+mapper::PluginContext titled(const std::string& title) {
+  mapper::PluginContext context;
+  context.title = title;
+  return context;
+}
+
 TEST(LiveWindow, showsGridPointsTrajectoryAndClosures) {
   RUN_UNDER_XVFB();
   if (!succeeds("which import")) GTEST_SKIP() << "import is not on this machine (package imagemagick)";
   ScratchFolder folder;
-  plugins::LiveWindow window({}, "box");
+  plugins::LiveWindow window({}, titled("box"));
   ASSERT_TRUE(window.isOpen());
   EXPECT_TRUE(window.isLookedAt());
   window.keyFrameAdded(boxRun().view());  // no solve is needed
@@ -118,7 +124,7 @@ TEST(LiveWindow, showsGridPointsTrajectoryAndClosures) {
 TEST(LiveWindow, mayBeClosedAtAnyTimeAndTheRunGoesOn) {
   RUN_UNDER_XVFB();
   plugins::LiveWindowOptions options;
-  plugins::LiveWindow window(options, "box");
+  plugins::LiveWindow window(options, titled("box"));
   RunRecord run = boxRun();
   window.update(run.view());
   waitUntil([&] { return x11::closeWindows("OmniMapper"), !window.isOpen(); });
@@ -131,7 +137,7 @@ TEST(LiveWindow, mayBeClosedAtAnyTimeAndTheRunGoesOn) {
 
 TEST(LiveWindow, anEmptyMapIsNoError) {
   RUN_UNDER_XVFB();
-  plugins::LiveWindow window({}, "nothing");
+  plugins::LiveWindow window({}, titled("nothing"));
   window.update(RunRecord().view());
   window.finish(RunRecord().view());
 }
@@ -142,7 +148,7 @@ TEST(LiveWindow, withoutADisplayTheErrorNamesTheRemedy) {
   ::unsetenv("DISPLAY");
   ::unsetenv("WAYLAND_DISPLAY");
   try {
-    plugins::LiveWindow window({}, "box");
+    plugins::LiveWindow window({}, titled("box"));
     ADD_FAILURE() << "no error";
   } catch (const base::Error& error) {
     EXPECT_EQ(error.code(), base::ExitCode::command_line);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/plugin/FactoryOf.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <memory>
@@ -37,7 +38,7 @@ class ViewLinks : public ::testing::Test {
   }
 
   void make(const ViewLinksOptions& options) {
-    plugin_ = std::make_unique<ViewLinksPlugin>(options, "", tracking_, matching::DenseMatcherOptions{}, context_);
+    plugin_ = std::make_unique<ViewLinksPlugin>(options, ViewLinksPlugin::Camera{"", tracking_, {}}, context_);
   }
 
   mapper::Batch measured(const map::KeyFrame& frame, const mrpt::obs::CObservation& scan,
@@ -217,7 +218,7 @@ TEST(ViewLinksOptions, nameASectionThatIsThere) {
   context.config_text = "[view_links]\nclass = ViewLinksPlugin\nodometry = nothing\n";
   const auto config = base::Config::fromText(context.config_text, "test.ini");
   try {
-    ViewLinksPluginFactory().make(config.section("view_links"), context);
+    mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>().make(config.section("view_links"), context);
     FAIL() << "a section that is not there was taken";
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("[nothing]"), std::string::npos) << error.what();
@@ -229,7 +230,8 @@ TEST(ViewLinksOptions, nameAnOdometryOfACamera) {
   context.section = "view_links";
   context.config_text = "[view_links]\nodometry = wheels\n[wheels]\nclass = OdometryPlugin\n";
   const auto config = base::Config::fromText(context.config_text, "test.ini");
-  EXPECT_THROW(ViewLinksPluginFactory().make(config.section("view_links"), context), base::Error);
+  EXPECT_THROW(mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>().make(config.section("view_links"), context),
+               base::Error);
 }
 
 TEST(ViewLinksOptions, takeDefaultsBesideAnotherOdometry) {
@@ -238,7 +240,8 @@ TEST(ViewLinksOptions, takeDefaultsBesideAnotherOdometry) {
   context.config_text =
       "[view_links]\nclass = ViewLinksPlugin\n[visual_odometry]\nclass = CloudOdometryPlugin\nsource = voxels\n";
   const auto config = base::Config::fromText(context.config_text, "test.ini");
-  EXPECT_NE(ViewLinksPluginFactory().make(config.section("view_links"), context), nullptr);
+  EXPECT_NE(mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>().make(config.section("view_links"), context),
+            nullptr);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/plugin/FactoryOf.h>
 #include <omnimapper/testing/BoxWorld.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <unistd.h>
@@ -29,18 +30,23 @@ struct OutputCase {
   std::vector<std::string> files;
 };
 
+template <class Made, class Options>
+OutputCase outputOf(std::vector<std::string> files) {
+  return {std::make_shared<mapper::FactoryOf<Made, Options>>(), std::move(files)};
+}
+
 const std::vector<OutputCase>& cases() {
   static const std::vector<OutputCase> cases{
-      {std::make_shared<plugins::TrajectoryOutputFactory>(), {"trajectory.tum"}},
-      {std::make_shared<plugins::GeoJsonOutputFactory>(), {"floorplan.geojson"}},
-      {std::make_shared<plugins::SurfacesOutputFactory>(), {"surfaces.json"}},
-      {std::make_shared<plugins::GraphOutputFactory>(), {"graph.g2o"}},
-      {std::make_shared<plugins::GridOutputFactory>(), {"grid.pgm", "grid.yaml", "grid.png"}},
-      {std::make_shared<plugins::PointsOutputFactory>(), {"points.ply"}},
-      {std::make_shared<plugins::SceneOutputFactory>(), {"scene.3Dscene"}},
-      {std::make_shared<plugins::MapOutputFactory>(), {"map.omnimap"}},
-      {std::make_shared<plugins::SummaryOutputFactory>(), {"summary.json"}},
-      {std::make_shared<plugins::ReportOutputFactory>(), {"map.png", "report.html"}}};
+      outputOf<plugins::TrajectoryOutput, plugins::TrajectoryOptions>({"trajectory.tum"}),
+      outputOf<plugins::GeoJsonOutput, plugins::GeoJsonOptions>({"floorplan.geojson"}),
+      outputOf<plugins::SurfacesOutput, plugins::SurfacesOptions>({"surfaces.json"}),
+      outputOf<plugins::GraphOutput, plugins::GraphOutputOptions>({"graph.g2o"}),
+      outputOf<plugins::GridOutput, plugins::GridOptions>({"grid.pgm", "grid.yaml", "grid.png"}),
+      outputOf<plugins::PointsOutput, derived::PointsOptions>({"points.ply"}),
+      outputOf<plugins::SceneOutput, plugins::SceneOptions>({"scene.3Dscene"}),
+      outputOf<plugins::MapOutput, plugins::MapOutputOptions>({"map.omnimap"}),
+      outputOf<plugins::SummaryOutput, plugins::SummaryOptions>({"summary.json"}),
+      outputOf<plugins::ReportOutput, plugins::ReportOptions>({"map.png", "report.html"})};
   return cases;
 }
 

@@ -1,7 +1,7 @@
 // An output plugin made outside the project that compares the landmarks of the map with a file of true positions. The
 // landmarks are those of a measurement plugin that is not part of the project either.
 #include <omnimapper/base/AtLoad.h>
-#include <omnimapper/plugin/PluginFactory.h>
+#include <omnimapper/plugin/FactoryOf.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -33,7 +33,11 @@ struct LandmarkCheckOptions {
 // landmark [mm]>".
 class LandmarkCheckOutput : public mapper::OutputPlugin {
  public:
-  LandmarkCheckOutput(const std::string& path, const std::string& truth) : path_(path), truth_(truth) {}
+  static constexpr const char* kName = "LandmarkCheckOutput";
+  static constexpr const char* kSummary = "Compares landmarks with true positions.";
+
+  LandmarkCheckOutput(const LandmarkCheckOptions& options, const mapper::PluginContext& context)
+      : path_(context.output_folder + "/" + options.file), truth_(options.truth) {}
 
   void finish(const mapper::View& view) override {
     std::vector<Eigen::Vector3d> middles;
@@ -58,23 +62,8 @@ class LandmarkCheckOutput : public mapper::OutputPlugin {
   std::string path_, truth_;
 };
 
-class LandmarkCheckOutputFactory : public mapper::OutputPluginFactory {
-  DEFINE_MRPT_OBJECT(LandmarkCheckOutputFactory, foreign)
- public:
-  std::string name() const override { return "LandmarkCheckOutput"; }
-  std::string summary() const override { return "Compares landmarks with true positions."; }
-  const std::vector<base::OptionSpec>& options() const override { return LandmarkCheckOptions::table().specs(); }
-  std::unique_ptr<mapper::OutputPlugin> make(const base::ConfigSection& section,
-                                             const mapper::PluginContext& context) const override {
-    const auto options = section.read<LandmarkCheckOptions>(mapper::sectionKeysOfEngine());
-    return std::make_unique<LandmarkCheckOutput>(context.output_folder + "/" + options.file, options.truth);
-  }
-};
-
 }  // namespace foreign
 
-IMPLEMENTS_MRPT_OBJECT(LandmarkCheckOutputFactory, omnimapper::mapper::OutputPluginFactory, foreign)
-
 const omnimapper::base::AtLoad kRegister([] {
-  mrpt::rtti::registerClass(CLASS_ID(foreign::LandmarkCheckOutputFactory));
+  omnimapper::mapper::FactoryOf<foreign::LandmarkCheckOutput, foreign::LandmarkCheckOptions>::registerClass();
 });

@@ -21,6 +21,8 @@ struct Prepared {
   virtual ~Prepared() = default;
 };
 
+struct Kinds;
+
 /// One observation of a key frame, as it is passed to a measurement plugin.
 struct Observed {
   const mrpt::obs::CObservation& observation;
@@ -31,6 +33,10 @@ struct Observed {
 /// A plugin keeps the past observations that it needs.
 class MeasurementPlugin {
  public:
+  /// Registers the variables, factors, payloads and layers that the plugins of a class put into a map, so that a map
+  /// file can be read. A class that has any hides this function by one of its own.
+  static void registerKinds(Kinds& /*kinds*/) {}
+
   virtual ~MeasurementPlugin() = default;
   /// Whether the plugin uses this observation, raw or derived. The answer must depend only on the observation and the
   /// options. It is called from several threads.

@@ -43,7 +43,7 @@ struct Kinds {
 enum class PluginKind { pose, measurement, output, extractor };
 
 /// An MRPT run-time class that makes the plugins of one class. It has no state and needs no options to exist.
-/// Derive from one of the four classes below; a plugin library registers its factories when it is loaded.
+/// FactoryOf.h makes one of a plugin class; a plugin library registers its factories when it is loaded.
 class PluginFactory : public mrpt::rtti::CObject {
   DEFINE_VIRTUAL_MRPT_OBJECT(PluginFactory)
  public:
@@ -62,6 +62,7 @@ class PluginFactory : public mrpt::rtti::CObject {
 class PosePluginFactory : public PluginFactory {
   DEFINE_VIRTUAL_MRPT_OBJECT(PosePluginFactory)
  public:
+  using Plugin = PosePlugin;
   PluginKind kind() const final { return PluginKind::pose; }
   virtual std::unique_ptr<PosePlugin> make(const base::ConfigSection& section, const PluginContext& context) const = 0;
 };
@@ -69,6 +70,7 @@ class PosePluginFactory : public PluginFactory {
 class MeasurementPluginFactory : public PluginFactory {
   DEFINE_VIRTUAL_MRPT_OBJECT(MeasurementPluginFactory)
  public:
+  using Plugin = MeasurementPlugin;
   PluginKind kind() const final { return PluginKind::measurement; }
   virtual std::unique_ptr<MeasurementPlugin> make(const base::ConfigSection& section,
                                                   const PluginContext& context) const = 0;
@@ -77,6 +79,7 @@ class MeasurementPluginFactory : public PluginFactory {
 class OutputPluginFactory : public PluginFactory {
   DEFINE_VIRTUAL_MRPT_OBJECT(OutputPluginFactory)
  public:
+  using Plugin = OutputPlugin;
   PluginKind kind() const final { return PluginKind::output; }
   virtual std::unique_ptr<OutputPlugin> make(const base::ConfigSection& section,
                                              const PluginContext& context) const = 0;
@@ -85,12 +88,13 @@ class OutputPluginFactory : public PluginFactory {
 class ExtractorFactory : public PluginFactory {
   DEFINE_VIRTUAL_MRPT_OBJECT(ExtractorFactory)
  public:
+  using Plugin = perception::Extractor;
   PluginKind kind() const final { return PluginKind::extractor; }
   virtual std::unique_ptr<perception::Extractor> make(const base::ConfigSection& section,
                                                       const PluginContext& context) const = 0;
 };
 
-/// Registers the four abstract factories with MRPT's run-time classes; call before registering any factory.
+/// Registers the four abstract factories with MRPT's run-time classes.
 void registerFactoryBases();
 
 /// Keys of a plugin's section that the engine reads itself.
