@@ -76,11 +76,7 @@ class FalseClosures : public mapper::MeasurementPlugin {
     const auto& place = frames[std::min(place_ + (now - first_), now - 1)];
     mapper::RelativeMotion motion{offset_, Eigen::Matrix<double, 6, 6>::Zero()};
     motion.covariance.diagonal() << 4e-4, 4e-4, 1, 0.25, 0.25, 1e-4;
-    mapper::Decision decision;
-    decision.stamp = frame.stamp;
-    decision.plugin = context_.section;
-    decision.kind = "false closure";
-    decision.from = frame.id;
+    mapper::Decision decision(frame, context_.section, "false closure");
     decision.to = place.id;
     follow_up.batch.addHypothesis(
         mapper::betweenPoses(context_.motion, place.pose, frame.pose, motion, context_.section), decision);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/map/KeyFrame.h>
 #include <omnimapper/plugin/DecisionLog.h>
 
 namespace omnimapper::mapper::decision_log_test {
@@ -11,6 +12,18 @@ Decision about(std::uint32_t from, std::uint32_t to, bool accepted, bool is_clos
   decision.accepted = accepted;
   decision.is_loop_closure = is_closure;
   return decision;
+}
+
+TEST(Decision, AtAKeyFrameHasItsIdAndStampAndIsOpen) {
+  map::KeyFrame frame;
+  frame.id = {1, 7};
+  frame.stamp = base::stampFromUnix(12);
+  const Decision decision(frame, "walls", "plane");
+  EXPECT_EQ(decision.from, frame.id);
+  EXPECT_EQ(decision.stamp, frame.stamp);
+  EXPECT_EQ(decision.plugin, "walls");
+  EXPECT_EQ(decision.kind, "plane");
+  EXPECT_FALSE(decision.accepted);
 }
 
 TEST(CountClosures, APairCountsOnceAndIsAcceptedIfAnyDecisionIs) {

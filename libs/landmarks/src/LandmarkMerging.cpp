@@ -4,11 +4,7 @@ namespace omnimapper::landmarks {
 
 mapper::Decision mergeDecision(const mapper::View& view, const std::string& section, base::LandmarkId kept,
                                base::LandmarkId gone, const Sameness& sameness) {
-  mapper::Decision decision;
-  decision.stamp = view.map.key_frames.back().stamp;
-  decision.plugin = section;
-  decision.kind = "merge";
-  decision.from = view.map.key_frames.back().id;
+  mapper::Decision decision(view.map.key_frames.back(), section, "merge");
   decision.accepted = true;
   decision.reason = "two landmarks are the same" + (sameness.why.empty() ? "" : ": " + sameness.why);
   decision.numbers = {

@@ -1,8 +1,13 @@
+#include <omnimapper/map/KeyFrame.h>
 #include <omnimapper/plugin/DecisionLog.h>
 
 #include <map>
 #include <utility>
+
 namespace omnimapper::mapper {
+
+Decision::Decision(const map::KeyFrame& frame, std::string plugin_section, std::string kind_of_decision)
+    : stamp(frame.stamp), plugin(std::move(plugin_section)), kind(std::move(kind_of_decision)), from(frame.id) {}
 
 ClosureCounts countClosures(const DecisionLog& decisions) {
   std::map<std::pair<base::KeyFrameId, base::KeyFrameId>, bool> accepted;

@@ -102,11 +102,7 @@ std::optional<GpsPlugin::Fix> GpsPlugin::read(const mrpt::obs::CObservationGPS& 
 mapper::Batch GpsPlugin::measure(const map::KeyFrame& frame, const mapper::Observed& observed,
                                  const mapper::View& view) {
   mapper::Batch batch;
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = "absolute position";
-  decision.from = frame.id;
+  mapper::Decision decision(frame, context_.section, "absolute position");
   const auto fix = read(dynamic_cast<const mrpt::obs::CObservationGPS&>(observed.observation), decision);
   batch.log(decision);
   if (!fix) return batch;

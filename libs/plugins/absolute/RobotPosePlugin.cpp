@@ -59,11 +59,7 @@ mapper::Batch RobotPosePlugin::measure(const map::KeyFrame& frame, const mapper:
                                        const mapper::View&) {
   const auto& measured = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(observed.observation);
   mapper::Batch batch;
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = "absolute pose";
-  decision.from = frame.id;
+  mapper::Decision decision(frame, context_.section, "absolute pose");
 
   geometry::Matrix6d covariance = geometry::Matrix6d::Zero();
   const auto& reported = measured.pose.cov.asEigen();

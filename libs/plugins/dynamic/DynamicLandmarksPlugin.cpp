@@ -127,11 +127,7 @@ class MovedLandmarkSearch {
   }
 
   mapper::Decision newDecision() const {
-    mapper::Decision decision;
-    decision.stamp = view_.map.key_frames.back().stamp;
-    decision.plugin = section_;
-    decision.kind = "moved thing";
-    decision.from = view_.map.key_frames.back().id;
+    mapper::Decision decision(view_.map.key_frames.back(), section_, "moved thing");
     return decision;
   }
 

@@ -31,11 +31,7 @@ GlobalLoopSearch::GlobalLoopSearch(const LoopClosureOptions& options, const mapp
 mapper::Batch GlobalLoopSearch::operator()(const mapper::State& state) const {
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   mapper::Batch batch;
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = "global loop search";
-  decision.from = frame.id;
+  mapper::Decision decision(frame, context_.section, "global loop search");
   const auto estimate = judged(state, decision);
   if (!estimate || !estimate->is_lost) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);

@@ -28,11 +28,7 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
   constexpr double kAgree = 1, kAgreeTurn = 0.25;  // [m] [rad] between an answer and the estimate
   const auto& frame = state.map.keyFrame(newest_.back().frame);
   mapper::Batch batch;
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = mapper::kRelocalization;
-  decision.from = frame.id;
+  mapper::Decision decision(frame, context_.section, mapper::kRelocalization);
   if (state.map.sessions.back().aligned || !isLost(state, decision)) return batch;
   const GlobalMatcher matcher(options_, *matcher_, *places_, label_, newest_);
   const auto found = matcher.find(state, decision);

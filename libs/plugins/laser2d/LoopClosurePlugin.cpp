@@ -112,11 +112,7 @@ mapper::Batch LoopClosurePlugin::takenBack(const map::KeyFrame& frame, const map
     ++count;
   }
   if (count == 0) return batch;
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = mapper::kRelocalization;
-  decision.from = frame.id;
+  mapper::Decision decision(frame, context_.section, mapper::kRelocalization);
   decision.reason = "what the session sees contradicts the map: the closures that tied it there are taken back";
   decision.numbers = {{"closures", count}};
   batch.log(std::move(decision));

@@ -229,13 +229,9 @@ std::optional<LoopSearch::Attempt> LoopSearch::attemptAt(const Place& place, con
                         uncertainty.yaw < kReachSigmas * options_.known_angle_sigma;
   if (is_known && !context_.map_is_held) return std::nullopt;
 
-  Attempt attempt{&place, guess, {}, {}};
+  Attempt attempt{&place, guess, {frame, context_.section, "loop closure"}, {}};
   auto& decision = attempt.decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = "loop closure";
   decision.is_loop_closure = true;
-  decision.from = frame.id;
   decision.to = centre.id;
   decision.numbers = {{"may be off by [m]", uncertainty.position},
                       {"may be off by [deg]", uncertainty.yaw / base::option_text::kRadiansPerDegree}};

@@ -82,12 +82,8 @@ mapper::Batch SlipSearch::operator()(const mapper::State& state) const {
   if (agreeing.size() < 2) return batch;
   auto candidates = spans(agreeing, state);
   compare(candidates, state);
-  mapper::Decision decision;
-  decision.plugin = context_.section;
-  decision.kind = kSlip;
-  decision.from = trajectory_[agreeing.front().newest].frame;
+  mapper::Decision decision(state.map.keyFrame(trajectory_[agreeing.front().newest].frame), context_.section, kSlip);
   decision.to = trajectory_[agreeing.front().place].frame;
-  decision.stamp = state.map.keyFrame(decision.from).stamp;
   decision.numbers = {{"closures that agree", static_cast<double>(agreeing.size())},
                       {"spans that may have slipped", static_cast<double>(candidates.size())}};
   if (candidates.empty()) {

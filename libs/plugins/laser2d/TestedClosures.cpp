@@ -87,12 +87,8 @@ mapper::Batch TestedClosures::proposedAgain(const mapper::State& state, const st
     auto record = state.graph.factor(id);
     const auto place = frameOf(record.variables.front()), newest = frameOf(record.variables.back());
     if (place == frames.end() || newest == frames.end()) continue;
-    mapper::Decision decision;
-    decision.stamp = newest->stamp;
-    decision.plugin = section;
-    decision.kind = "loop closure";
+    mapper::Decision decision(*newest, section, "loop closure");
     decision.is_loop_closure = true;
-    decision.from = newest->id;
     decision.to = place->id;
     decision.reason = "proposed again after a slip was corrected";
     record.weight = 1;

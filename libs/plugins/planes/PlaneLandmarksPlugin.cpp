@@ -103,11 +103,7 @@ mapper::Batch PlaneLandmarksPlugin::watchSession(const map::KeyFrame& frame,
 
 mapper::Decision PlaneLandmarksPlugin::aboutSearch(const map::KeyFrame& frame, bool accepted,
                                                    std::string reason) const {
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = context_.section;
-  decision.kind = mapper::kRelocalization;
-  decision.from = frame.id;
+  mapper::Decision decision(frame, context_.section, mapper::kRelocalization);
   decision.accepted = accepted;
   decision.reason = std::move(reason);
   return decision;

@@ -61,11 +61,7 @@ mapper::Batch RelationsPlugin::propose(const mapper::View& view) {
   }
   mapper::Batch batch;
   for (Relation& relation : findRelations(view, options_, known)) {
-    mapper::Decision decision;
-    decision.stamp = view.map.key_frames.back().stamp;
-    decision.plugin = section_;
-    decision.kind = relation.name;
-    decision.from = view.map.key_frames.back().id;
+    mapper::Decision decision(view.map.key_frames.back(), section_, relation.name);
     decision.reason = "waits for the consistency test";
     decision.numbers = {{"landmark variable", relation.record.variables[0].index},
                         {"other", relation.record.variables[1].index},

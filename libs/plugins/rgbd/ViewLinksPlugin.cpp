@@ -159,11 +159,11 @@ mapper::Batch ViewLinksPlugin::linksOf(const map::KeyFrame& frame, const SeenIma
       batch.addFactor(std::move(factor));
       continue;
     }
-    mapper::Decision decision{
-        frame.stamp,       context_.section,
-        "view seen again", frame.id,
-        link.to->frame,    true,
-        "the images fit",  {{"overlap", link.match.overlap}, {"outlier_share", link.match.outlier_share}}};
+    mapper::Decision decision(frame, context_.section, "view seen again");
+    decision.to = link.to->frame;
+    decision.accepted = true;
+    decision.reason = "the images fit";
+    decision.numbers = {{"overlap", link.match.overlap}, {"outlier_share", link.match.outlier_share}};
     decision.is_loop_closure = link.is_return;
     batch.addHypothesis(std::move(factor), std::move(decision));
   }

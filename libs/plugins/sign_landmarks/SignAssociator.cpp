@@ -15,11 +15,7 @@ namespace {
 
 mapper::Decision placementDecision(const std::string& section, const map::KeyFrame& frame, bool is_sure,
                                    std::string reason) {
-  mapper::Decision decision;
-  decision.stamp = frame.stamp;
-  decision.plugin = section;
-  decision.kind = mapper::kRelocalization;
-  decision.from = frame.id;
+  mapper::Decision decision(frame, section, mapper::kRelocalization);
   decision.accepted = is_sure;
   decision.reason = std::move(reason);
   return decision;

@@ -19,13 +19,9 @@ testing::HandMadeRun thereAgain() {
 
 mapper::Decision decisionAbout(const testing::HandMadeRun& run, const std::string& kind, std::size_t from,
                                std::size_t to, bool accepted) {
-  mapper::Decision decision;
-  decision.plugin = "loops";
-  decision.kind = kind;
+  mapper::Decision decision(run.map.key_frames[from], "loops", kind);
   decision.is_loop_closure = kind == "loop closure";
-  decision.from = run.map.key_frames[from].id;
   decision.to = run.map.key_frames[to].id;
-  decision.stamp = run.map.key_frames[from].stamp;
   decision.accepted = accepted;
   return decision;
 }

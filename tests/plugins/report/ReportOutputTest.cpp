@@ -191,10 +191,10 @@ TEST(Report, closuresStateTheirReasons) {
 
 TEST(Report, aLongLogIsCutWithANoteAndCountedWhole) {
   RunRecord run = boxRun();
-  for (int i = 0; i < 3000; ++i) {
-    run.decisions.insert(run.decisions.begin(),
-                         {at(1), "laser", "gate", {0, 1}, std::nullopt, true, "near enough", {}});
-  }
+  mapper::Decision near(run.map.key_frames[1], "laser", "gate");
+  near.accepted = true;
+  near.reason = "near enough";
+  run.decisions.insert(run.decisions.begin(), 3000, near);
   const std::string html = reportOf(run);
   const std::string log = html.substr(html.find("id=\"log\""));
   EXPECT_EQ(countOf(log, "<tr data-verdict"), 2000u);

@@ -9,10 +9,18 @@
 #include <utility>
 #include <vector>
 
+namespace omnimapper::map {
+struct KeyFrame;
+}
+
 namespace omnimapper::mapper {
 
 /// One association or closure that was considered, and why it was accepted or refused.
 struct Decision {
+  Decision() = default;
+  /// A decision of the plugin of this INI section, made at a key frame.
+  Decision(const map::KeyFrame& frame, std::string plugin_section, std::string kind_of_decision);
+
   base::Stamp stamp;                                    ///< of the key frame at which the decision was made
   std::string plugin;                                   ///< INI section of the plugin that decided
   std::string kind;                                     ///< for users: "loop closure", "absolute pose", ...

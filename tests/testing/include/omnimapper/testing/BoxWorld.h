@@ -15,6 +15,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace box_world {
@@ -122,26 +123,20 @@ inline RunRecord boxRun(const CPose3D& base_from_sensor = CPose3D(0.2, 0, 0.3, 0
   addFactor({poseId(0)}, std::make_shared<graph::PriorSe2>(geometry::Se2{}), "mapper");
   addFactor({poseId(0), poseId(1)}, std::make_shared<graph::BetweenSe2>(geometry::Se2{1, 0.25, 0.5}), "odometry");
   addFactor({poseId(1), poseId(2)}, std::make_shared<graph::BetweenSe2>(geometry::Se2{0, 1.1, 2.0}), "odometry");
-  run.decisions = {
-      {at(1), "laser", "beacon measurement", {0, 1}, base::KeyFrameId{0, 0}, true, "", {{"overlap", 0.9}}},
-      {at(2),
-       "laser",
-       "beacon measurement",
-       {0, 2},
-       base::KeyFrameId{0, 1},
-       false,
-       "too little overlap",
-       {{"overlap", 0.1}}},
-      {at(2), "laser", "loop closure", {0, 2}, base::KeyFrameId{0, 0}, true, "", {{"correction [m]", 0.125}}},
-      {at(2),
-       "laser",
-       "loop closure",
-       {0, 2},
-       base::KeyFrameId{0, 0},
-       false,
-       "turned <too> far",
-       {{"correction [m]", 2}}}};
-  for (auto& decision : run.decisions) decision.is_loop_closure = decision.kind == "loop closure";
+  const auto decide = [&](std::size_t from, std::size_t to, const std::string& kind, bool accepted,
+                          const std::string& reason, const std::pair<std::string, double>& number) {
+    mapper::Decision decision(run.map.key_frames[from], "laser", kind);
+    decision.to = run.map.key_frames[to].id;
+    decision.accepted = accepted;
+    decision.reason = reason;
+    decision.numbers = {number};
+    decision.is_loop_closure = kind == "loop closure";
+    run.decisions.push_back(std::move(decision));
+  };
+  decide(1, 0, "beacon measurement", true, "", {"overlap", 0.9});
+  decide(2, 1, "beacon measurement", false, "too little overlap", {"overlap", 0.1});
+  decide(2, 0, "loop closure", true, "", {"correction [m]", 0.125});
+  decide(2, 0, "loop closure", false, "turned <too> far", {"correction [m]", 2});
   run.times.add(mapper::Stage::solve, "", 0.01);
   run.times.add(mapper::Stage::plugin, "laser", 0.02);
   for (const double plugin_ms : {1, 2, 3}) run.times.addKeyFrame({plugin_ms, plugin_ms > 1 ? 0.5 : 0, 0.1});
