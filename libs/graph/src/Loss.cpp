@@ -8,7 +8,7 @@
 namespace omnimapper::graph {
 
 Loss::Loss(Kind kind, double scale_sigmas) : kind_(kind), scale_(kind == Kind::none ? 1 : scale_sigmas) {
-  if (kind > Kind::geman_mcclure)
+  if (kind > Kind::tukey)
     throw base::Error(base::ExitCode::internal,
                       "loss: there is no kind with number " + std::to_string(static_cast<int>(kind)));
   if (!(scale_ > 0) || !std::isfinite(scale_))
@@ -32,10 +32,6 @@ Loss::Value Loss::evaluate(double s) const {
       if (s >= c2) return {c2 / 3, 0, 0};
       const double rest = 1 - s / c2;
       return {c2 / 3 * (1 - rest * rest * rest), rest * rest, -2 * rest / c2};
-    }
-    case Kind::geman_mcclure: {
-      const double part = c2 / (c2 + s);
-      return {part * s, part * part, -2 * part * part / (c2 + s)};
     }
     case Kind::none:
       break;

@@ -28,7 +28,6 @@ class FramePairing {
 
   /// The oldest depth image, if no better picture for it can come any more; with `at_once`, without this condition.
   std::optional<KinectFrame> take(bool at_once);
-  bool isWaiting() const { return !depths_.empty(); }
 
  private:
   struct Picture {

@@ -82,12 +82,7 @@ bool BackEnd::process(FrameBundle& bundle) {
   const bool is_first = place->is_new && !place->before && !place->after;
   // The gates start from the covariance of the prior on the first key frame of the session.
   if (is_first) estimator_.begin();
-  if (place->is_new && place->after) {
-    ++state_.counts.spliced;
-    for (auto& [section, plugin] : plugins_.measurement) {
-      plugin->spliced(state_.map.keyFrame(place->id), place->before, place->after);
-    }
-  }
+  if (place->is_new && place->after) ++state_.counts.spliced;
   const auto gathered = gather(bundle, place->id);
   measure(place->id, gathered.perceived);
   commit(place->id);

@@ -38,23 +38,7 @@ inline Eigen::Vector3d logSo3(const Eigen::Quaterniond& q) {
   return sign * factor * q.vec();
 }
 
-/// The right Jacobian Jr(w): expSo3(w + d) = expSo3(w) expSo3(Jr(w) d) for small d.
-inline Eigen::Matrix3d rightJacobianSo3(const Eigen::Vector3d& w) {
-  const double squared = w.squaredNorm();
-  double a, b;  // a = (1 - cos t) / t^2, b = (t - sin t) / t^3
-  if (squared < 1e-5) {
-    a = 0.5 - squared / 24;
-    b = 1.0 / 6 - squared / 120;
-  } else {
-    const double angle = std::sqrt(squared);
-    a = (1 - std::cos(angle)) / squared;
-    b = (angle - std::sin(angle)) / (squared * angle);
-  }
-  const Eigen::Matrix3d s = skew(w);
-  return Eigen::Matrix3d::Identity() - a * s + b * s * s;
-}
-
-/// The inverse of Jr(w): logSo3(expSo3(w) expSo3(d)) = w + Jr(w)^-1 d for small d. For |w| < 2 pi.
+/// The inverse of the right Jacobian Jr(w): logSo3(expSo3(w) expSo3(d)) = w + Jr(w)^-1 d for small d. For |w| < 2 pi.
 inline Eigen::Matrix3d inverseRightJacobianSo3(const Eigen::Vector3d& w) {
   const double squared = w.squaredNorm();
   double c;  // 1 / t^2 - cot(t / 2) / (2 t)

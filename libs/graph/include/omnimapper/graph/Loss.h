@@ -8,17 +8,16 @@ namespace omnimapper::graph {
 /// residual; its scale c is a number of standard deviations. Near 0 every rho is s (rho(0) = 0, rho'(0) = 1), so
 /// inliers keep their chi-square.
 ///
-/// | kind          | rho(s)                                             | rho'(s)              |
-/// |---------------|----------------------------------------------------|----------------------|
-/// | none          | s                                                  | 1                    |
-/// | huber         | s for s <= c^2, else 2 c sqrt(s) - c^2             | 1, else c / sqrt(s)  |
-/// | cauchy        | c^2 log(1 + s / c^2)                               | 1 / (1 + s / c^2)    |
-/// | tukey         | c^2 / 3 (1 - (1 - s / c^2)^3) for s <= c^2, else c^2 / 3 | (1 - s / c^2)^2, else 0 |
-/// | geman_mcclure | c^2 s / (c^2 + s)                                  | (c^2 / (c^2 + s))^2  |
+/// | kind   | rho(s)                                             | rho'(s)              |
+/// |--------|----------------------------------------------------|----------------------|
+/// | none   | s                                                  | 1                    |
+/// | huber  | s for s <= c^2, else 2 c sqrt(s) - c^2             | 1, else c / sqrt(s)  |
+/// | cauchy | c^2 log(1 + s / c^2)                               | 1 / (1 + s / c^2)    |
+/// | tukey  | c^2 / 3 (1 - (1 - s / c^2)^3) for s <= c^2, else c^2 / 3 | (1 - s / c^2)^2, else 0 |
 class Loss {
  public:
   /// These numbers are written to files.
-  enum class Kind : std::uint8_t { none = 0, huber = 1, cauchy = 2, tukey = 3, geman_mcclure = 4 };
+  enum class Kind : std::uint8_t { none = 0, huber = 1, cauchy = 2, tukey = 3 };
   struct Value {
     double rho = 0, first_derivative = 1, second_derivative = 0;
   };
@@ -30,7 +29,6 @@ class Loss {
   static Loss huber(double scale_sigmas) { return {Kind::huber, scale_sigmas}; }
   static Loss cauchy(double scale_sigmas) { return {Kind::cauchy, scale_sigmas}; }
   static Loss tukey(double scale_sigmas) { return {Kind::tukey, scale_sigmas}; }
-  static Loss gemanMcClure(double scale_sigmas) { return {Kind::geman_mcclure, scale_sigmas}; }
 
   Kind kind() const { return kind_; }
   double scale() const { return scale_; }

@@ -54,17 +54,13 @@ class MeasurementPlugin {
   }
   /// Whether the plugin's factors measure absolute poses in the map. The first pose is then not held at the origin.
   virtual bool givesAbsolutePoses() const { return false; }
-  /// `frame` is linked to its neighbours already. It is the newest key frame unless the observation came late. If a
-  /// late observation made a new key frame, spliced() was called before. If a late observation belongs to an older key
-  /// frame, the plugin may have measured another observation of the same label there.
+  /// `frame` is linked to its neighbours already. It is the newest key frame unless the observation came late: then it
+  /// may be a new one between older ones, or an older one, at which the plugin may have measured another observation of
+  /// the same label.
   virtual Batch measure(const map::KeyFrame& frame, const Observed& observed, const View& view) = 0;
   /// Gets the final ids of what the plugin's last batch added, in order of addition. Also called for the batches of its
   /// jobs.
   virtual void applied(const AppliedBatch& /*ids*/) {}
-  /// Called after a late key frame was inserted into the trajectory: two motion factors replace the one between its
-  /// neighbours. At an end of the trajectory, `before` or `after` is none.
-  virtual void spliced(const map::KeyFrame& /*frame*/, std::optional<base::KeyFrameId> /*before*/,
-                       std::optional<base::KeyFrameId> /*after*/) {}
   /// Called when a key frame left the window of a run that localizes: the plugin must not measure between it and
   /// another key frame any more.
   virtual void retired(const map::KeyFrame& /*frame*/) {}
