@@ -164,5 +164,20 @@ TEST(OptionTable, ANumberWithoutADefaultStaysEmptyUnlessItIsSet) {
   EXPECT_NEAR(*options.angle, 90 * option_text::kRadiansPerDegree, 1e-15);
 }
 
+TEST(OptionTable, AnIntegerWithoutADefaultStaysEmptyUnlessItIsSet) {
+  struct SessionOptions {
+    std::optional<int> number;
+  };
+  const auto table = OptionTable<SessionOptions>().integer("number", &SessionOptions::number, {0, 9}, "Number.");
+  EXPECT_EQ(table.specs().front().default_value, "");
+  EXPECT_EQ(table.specs().front().type, "integer");
+  SessionOptions options;
+  EXPECT_TRUE(table.set(options, 0, "10"));
+  EXPECT_TRUE(table.set(options, 0, "1.5"));
+  EXPECT_FALSE(options.number);
+  EXPECT_FALSE(table.set(options, 0, "0"));
+  EXPECT_EQ(options.number, 0);
+}
+
 }  // namespace
 }  // namespace omnimapper::base::option_table_test

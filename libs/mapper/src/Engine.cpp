@@ -19,7 +19,7 @@ Engine::Engine(const EngineSettings& settings, const std::string& title, SensorP
       schedule_(std::move(schedule)),
       back_end_(settings_, plugins_, pool_, *schedule_, state_),
       front_end_(settings_, std::move(sensor_poses), plugins_, back_end_.chain(), pool_, *schedule_, state_),
-      sessions_(title, back_end_, state_),
+      sessions_(settings_.session, title, back_end_, state_),
       pool_(std::max(1, threads)) {
   if (plugins_.pose.empty()) {
     throw base::Error(

@@ -77,6 +77,7 @@ EngineSettings EngineSettings::read(const base::Config& config) {
   settings.trigger = config.section("trigger").read<TriggerOptions>();
   settings.solver = config.section("solver").read<SolverOptions>();
   settings.hypotheses = config.section("hypotheses").read<HypothesisOptions>();
+  settings.session = config.section("session").read<SessionOptions>();
   return settings;
 }
 

@@ -6,7 +6,6 @@
 #include <omnimapper/map/Level.h>
 #include <omnimapper/map/SessionMetrics.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/source/SourceOptions.h>
 
@@ -115,7 +114,6 @@ class Run {
   const std::function<bool()>& stop_;
   EngineSettings settings_ = EngineSettings::read(config_);
   const PerceptionOptions perception_ = config_.section("perception").read<PerceptionOptions>();
-  const SessionOptions session_ = config_.section("session").read<SessionOptions>();
   const std::unique_ptr<Feed> feed_ = makeFeed(request_, config_);
 
   PluginContext context_;
@@ -144,7 +142,7 @@ void Run::open() {
   if (engine_->plugins().measurement.empty() && (localizes() || !request_.continue_map.empty())) {
     failWithNoTie(config_.file());
   }
-  loadMapInto(request_, session_, config_, settings_.engine.motion, *engine_);
+  loadMapInto(request_, settings_, config_, *engine_);
   feed_->open(stop_);
   kept_.emplace(feed_->inputs());
   outputs_.open();
@@ -381,7 +379,7 @@ RunResult Run::report() {
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);
   if (failure_at_end_) std::rethrow_exception(failure_at_end_);
-  if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome, session_.start);
+  if (localizes() && outcome.located == 0) failWithNoPlace(request_, outcome, settings_.session.start);
   return outcome;
 }
 

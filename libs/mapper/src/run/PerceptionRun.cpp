@@ -3,7 +3,6 @@
 #include <omnimapper/mapper/PerceptionRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SensorPoses.h>
-#include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/plugin/StageTimes.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
@@ -55,7 +54,6 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   const StopWatch watch;
   const auto options = config.section("perception").read<PerceptionOptions>();
   const auto settings = EngineSettings::read(config);
-  config.section("session").read<SessionOptions>();
   const auto source_options = sourceOptions(config);
   if (options.extractors.empty()) {
     throw base::Error(base::ExitCode::out_of_range,

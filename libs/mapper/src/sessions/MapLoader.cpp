@@ -28,12 +28,13 @@ void refuseStartWithoutPose(const SessionOptions& session, const base::Config& c
 
 }  // namespace
 
-void loadMapInto(const RunRequest& request, const SessionOptions& session, const base::Config& config, Motion motion,
+void loadMapInto(const RunRequest& request, const EngineSettings& settings, const base::Config& config,
                  Engine& engine) {
+  const SessionOptions& session = settings.session;
   const std::string& path = request.localize_map.empty() ? request.continue_map : request.localize_map;
   if (path.empty()) return;
   auto saved = derived::readMap(path, registeredKinds());
-  if (saved.motion() != motion) {
+  if (saved.motion() != settings.engine.motion) {
     const std::string of_map = saved.motion() == Motion::planar ? "planar" : "spatial";
     throw base::Error(base::ExitCode::unreadable_input,
                       path + ": the map is " + of_map + ", which [mapper] motion of " + config.file() +

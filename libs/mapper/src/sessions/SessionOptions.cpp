@@ -1,11 +1,26 @@
+#include <omnimapper/base/Error.h>
 #include <omnimapper/mapper/SessionOptions.h>
+#include <omnimapper/plugin/Batch.h>
+
+#include <string>
 
 namespace omnimapper::mapper {
+
+namespace {
+// A session that is localized in a map has the number after its last, and the largest of all is for provisional ids.
+constexpr int kLargestNumber = Batch::kProvisionalSession - 2;
+}  // namespace
 
 const base::OptionTable<SessionOptions>& SessionOptions::table() {
   using Options = SessionOptions;
   static const auto table =
       base::OptionTable<Options>()
+          .integer(
+              "number", &Options::number, base::Range{0, kLargestNumber},
+              "Number of the session, which the id of everything that it adds contains. Logs that are mapped apart "
+              "with different numbers have no id in common. It must be larger than the numbers of the sessions of "
+              "a map that is continued. Without it, the session of a new map is number 0, and one that continues a "
+              "map has the number after the last. With --localize it has no effect.")
           .choice("start", &Options::start,
                   {{"end", Options::Start::end},
                    {"origin", Options::Start::origin},
@@ -40,6 +55,23 @@ SessionStart SessionOptions::startOn(const map::Map& map) const {
   session.map_from_base = last.map_from_base;
   if (!last.dependents.empty()) session.map_from_base = last.map_from_base + last.dependents.back().keyframe_from_base;
   return session;
+}
+
+std::uint16_t SessionOptions::numberIn(const map::Map& map) const {
+  const int next = map.sessions.empty() ? 0 : map.sessions.back().number + 1;
+  if (next > kLargestNumber) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      "the last session of the map has the largest number that there is, " +
+                          std::to_string(kLargestNumber) + ": the map can be localized in, but not continued");
+  }
+  if (number && *number < next) {
+    throw base::Error(base::ExitCode::out_of_range,
+                      "[session] number = " + std::to_string(*number) +
+                          ": the map that is continued has sessions up to " + "number " + std::to_string(next - 1) +
+                          ". Give a larger number (--set session.number=" + std::to_string(next) +
+                          "), or none for the next one");
+  }
+  return static_cast<std::uint16_t>(number.value_or(next));
 }
 
 }  // namespace omnimapper::mapper

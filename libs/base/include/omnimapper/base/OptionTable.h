@@ -55,6 +55,9 @@ class OptionTable {
   OptionTable& number(const std::string& key, std::optional<double> Struct::*member, Range range,
                       const std::string& help);
   OptionTable& integer(const std::string& key, int Struct::*member, Range range, const std::string& help);
+  /// An integer that has no default: the member stays empty if the file does not have the key.
+  OptionTable& integer(const std::string& key, std::optional<int> Struct::*member, Range range,
+                       const std::string& help);
   OptionTable& flag(const std::string& key, bool Struct::*member, const std::string& help);
   OptionTable& text(const std::string& key, std::string Struct::*member, const std::string& help);
   /// A list of names, which are separated by commas or blanks in the file.
@@ -126,6 +129,17 @@ OptionTable<Struct>& OptionTable<Struct>::integer(const std::string& key, int St
                                                   const std::string& help) {
   return add({key, "integer", std::to_string(Struct{}.*member), option_text::format(range), help},
              [=](Struct& target, const std::string& text) { return option_text::parse(text, range, target.*member); });
+}
+
+template <class Struct>
+OptionTable<Struct>& OptionTable<Struct>::integer(const std::string& key, std::optional<int> Struct::*member,
+                                                  Range range, const std::string& help) {
+  return add({key, "integer", "", option_text::format(range), help}, [=](Struct& target, const std::string& text) {
+    int value = 0;
+    auto bad = option_text::parse(text, range, value);
+    if (!bad) target.*member = value;
+    return bad;
+  });
 }
 
 template <class Struct>

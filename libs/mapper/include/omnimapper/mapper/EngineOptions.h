@@ -4,6 +4,7 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/graph/Consistency.h>
 #include <omnimapper/graph/Solver.h>
+#include <omnimapper/mapper/SessionOptions.h>
 #include <omnimapper/mapper/Trigger.h>
 #include <omnimapper/plugin/Motion.h>
 
@@ -78,8 +79,10 @@ struct EngineSettings {
   TriggerOptions trigger;
   SolverOptions solver;
   HypothesisOptions hypotheses;
+  SessionOptions session;
 
-  /// Reads [mapper], [trigger], [solver] and [hypotheses]. Throws base::Error as base::ConfigSection::read().
+  /// Reads [mapper], [trigger], [solver], [hypotheses] and [session]. Throws base::Error as
+  /// base::ConfigSection::read().
   static EngineSettings read(const base::Config& config);
 };
 

@@ -4,11 +4,14 @@
 #include <omnimapper/map/Map.h>
 #include <omnimapper/plugin/SessionStart.h>
 
+#include <cstdint>
+#include <optional>
+
 namespace omnimapper::mapper {
 
-/// Section [session] of an INI: the assumed start of a session that continues a map. This start places the session
-/// until measurements connect the session to the map. If the measurements contradict the start by much, the start has
-/// little effect.
+/// Section [session] of an INI: the number of the session, and its assumed start if it continues a map. This start
+/// places the session until measurements connect the session to the map. If the measurements contradict the start by
+/// much, the start has little effect.
 struct SessionOptions {
   enum class Start {
     end,      ///< where the last session ended
@@ -16,6 +19,7 @@ struct SessionOptions {
     pose,     ///< at the pose below
     anywhere  ///< unknown: the start is searched for in the whole map
   };
+  std::optional<int> number;  ///< empty: 0 in a new map, else the one after the last of the map
   Start start = Start::end;
   double start_x = 0, start_y = 0;                                       ///< [m] in the map
   double start_yaw = 0;                                                  ///< [rad]
@@ -26,6 +30,10 @@ struct SessionOptions {
   static const base::OptionTable<SessionOptions>& table();
   /// The start on `map`, which must have at least one key frame.
   SessionStart startOn(const map::Map& map) const;
+  /// The number of the session that continues `map`, or of the first one of a map without sessions. Sessions are in
+  /// order of number. Throws Error(out_of_range) if `number` is not larger than those of the sessions of the map, or if
+  /// no number is left.
+  std::uint16_t numberIn(const map::Map& map) const;
 };
 
 }  // namespace omnimapper::mapper
