@@ -118,6 +118,17 @@ TEST(Factors, OnlyTheJacobiansAskedForAreWritten) {
   EXPECT_EQ(second, both[1]);
 }
 
+// A map of 10 m x 4 m x 2 m.
+TEST(Factors, OutlierVolumeIsThatOfAllMeasurementsThatRelateTwoPlacesOfTheMap) {
+  const Eigen::Vector3d size(10, 4, 2);
+  const double pi = geometry::kPi;
+  EXPECT_DOUBLE_EQ(BetweenSe2({}).outlierVolume(size).value(), 40 * 2 * pi);       // [m^2 rad]
+  EXPECT_DOUBLE_EQ(BetweenSe3({}).outlierVolume(size).value(), 80 * 8 * pi * pi);  // [m^3 rad^3]
+  EXPECT_DOUBLE_EQ(SamePointFactor().outlierVolume(size).value(), 80);             // [m^3]
+  EXPECT_DOUBLE_EQ(SamePointFactor(0.25).outlierVolume(size).value(), 20);
+  EXPECT_FALSE(PriorSe2({}).outlierVolume(size));
+}
+
 TEST(Factors, ReadBackByTheRegistryTheyMeasureTheSame) {
   Noise noise(7);
   const Se2 planar = noise.se2();

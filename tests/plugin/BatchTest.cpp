@@ -51,6 +51,20 @@ std::string content(const Graph& graph) {
   return text.str();
 }
 
+TEST(Batch, AHypothesisThatDoesNotSayWhereAWrongOneMayLieIsAnError) {
+  TwoPoses two;
+  const FactorRecord prior{
+      {two.b}, std::make_shared<graph::PriorSe2>(geometry::Se2{}), SquareRootInformation::identity(3)};
+  Batch batch;
+  EXPECT_THROW(batch.addHypothesis(prior, {}), base::Error);
+  EXPECT_TRUE(batch.empty());
+  batch.addGatedHypothesis(prior, {});
+  batch.addHypothesis(between(two.a, two.b), {});
+  ASSERT_EQ(batch.addedFactors().size(), 2U);
+  for (const auto& record : batch.addedFactors()) EXPECT_TRUE(record.tags.hypothesis);
+  for (const auto& decision : batch.decisions()) EXPECT_TRUE(decision.hypothesis);
+}
+
 TEST(Batch, ProvisionalIdsBecomeFinalOnesInTheOrderTheyWereAdded) {
   TwoPoses two;
   Batch batch;

@@ -1,5 +1,7 @@
 #include "omnimapper/graph/Between.h"
 
+#include <omnimapper/geometry/Angle.h>
+
 #include "omnimapper/graph/ByteIo.h"
 
 namespace omnimapper::graph {
@@ -27,6 +29,10 @@ void BetweenSe2::evaluate(const double* const* values, double* residual, double*
   }
 }
 
+std::optional<double> BetweenSe2::outlierVolume(const Eigen::Vector3d& map_size) const {
+  return map_size.x() * map_size.y() * 2 * geometry::kPi;
+}
+
 void BetweenSe2::write(std::ostream& out) const {
   writeVector(out, toValue(a_from_b_));
 }
@@ -50,6 +56,10 @@ void BetweenSe3::evaluate(const double* const* values, double* residual, double*
   }
   if (auto by_b = jacobian<1>(jacobians))
     by_b << error.toRotationMatrix(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), turn_jacobian;
+}
+
+std::optional<double> BetweenSe3::outlierVolume(const Eigen::Vector3d& map_size) const {
+  return map_size.prod() * 8 * geometry::kPi * geometry::kPi;
 }
 
 void BetweenSe3::write(std::ostream& out) const {

@@ -1,11 +1,8 @@
 #include "OutlierModel.h"
 
-#include <omnimapper/geometry/Angle.h>
-
 #include <Eigen/LU>
 #include <cmath>
 
-#include "omnimapper/graph/PointFactor.h"
 #include "omnimapper/graph/VariableKinds.h"
 
 namespace omnimapper::graph {
@@ -22,19 +19,9 @@ OutlierModel::OutlierModel(const Graph& graph) {
 }
 
 std::optional<double> OutlierModel::logOf(const FactorRecord& record) const {
-  const double pi = geometry::kPi;
-  double volume = 0, odds = 1;
-  if (record.factor->kind() == "between_se2") {
-    volume = size_.x() * size_.y() * 2 * pi;
-  } else if (record.factor->kind() == "between_se3") {
-    volume = size_.prod() * 8 * pi * pi;  // of the rotation group in rotation vectors
-  } else if (record.factor->kind() == SamePointFactor::kKind) {
-    volume = size_.prod();
-    odds = dynamic_cast<const SamePointFactor&>(*record.factor).odds();
-  } else {
-    return std::nullopt;
-  }
-  return std::log(odds * volume * std::abs(record.noise.matrix().determinant()));
+  const auto volume = record.factor->outlierVolume(size_);
+  if (!volume) return std::nullopt;
+  return std::log(*volume * std::abs(record.noise.matrix().determinant()));
 }
 
 }  // namespace omnimapper::graph

@@ -13,9 +13,7 @@ class OutlierModel {
  public:
   /// The map is the box around the poses of the graph, at least 1 m wide.
   explicit OutlierModel(const Graph& graph);
-  /// Logarithm of the volume in which a false measurement of a Between factor, or the difference of two points that are
-  /// stated to be the same, may lie, in whitened units, times the prior odds if the factor has any. None for factors of
-  /// other kinds, for which there is no model.
+  /// Logarithm of the factor's outlierVolume() in whitened units; none if it has none.
   std::optional<double> logOf(const FactorRecord& record) const;
 
  private:

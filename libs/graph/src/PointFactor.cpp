@@ -47,6 +47,10 @@ void SamePointFactor::evaluate(const double* const* values, double* residual, do
   if (auto by_second = jacobian<1>(jacobians)) by_second = Eigen::Matrix3d::Identity();
 }
 
+std::optional<double> SamePointFactor::outlierVolume(const Eigen::Vector3d& map_size) const {
+  return odds_ * map_size.prod();
+}
+
 void SamePointFactor::write(std::ostream& out) const {
   writeDouble(out, odds_);
 }

@@ -231,6 +231,18 @@ base::VariableId Batch::addVariable(std::shared_ptr<const graph::Variable> kind,
 }
 
 void Batch::addHypothesis(graph::FactorRecord record, Decision decision) {
+  if (!record.factor->outlierVolume(Eigen::Vector3d::Ones())) {
+    throw base::Error(
+        base::ExitCode::internal,
+        "the plugin '" + record.tags.owner + "' proposes a hypothesis of the kind '" +
+            std::string(record.factor->kind()) +
+            "', which does not say where a wrong measurement may lie: override Factor::outlierVolume(), or "
+            "compare the likelihoods in the plugin and call addGatedHypothesis()");
+  }
+  addGatedHypothesis(std::move(record), std::move(decision));
+}
+
+void Batch::addGatedHypothesis(graph::FactorRecord record, Decision decision) {
   record.tags.hypothesis = true;
   decision.hypothesis = {kProvisionalSession, static_cast<std::uint32_t>(added_factors_.size())};
   added_factors_.push_back(std::move(record));

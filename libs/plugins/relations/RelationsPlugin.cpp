@@ -68,7 +68,7 @@ mapper::Batch RelationsPlugin::propose(const mapper::View& view) {
                         {"chi-square", relation.chi2},
                         {"likelihood ratio", relation.likelihood_ratio}};
     relation.record.tags.owner = section_;
-    batch.addHypothesis(std::move(relation.record), std::move(decision));
+    batch.addGatedHypothesis(std::move(relation.record), std::move(decision));
   }
   return batch;
 }

@@ -17,6 +17,8 @@ class BetweenSe2 : public SizedFactor<3, Se2Kind, Se2Kind> {
   const geometry::Se2& measured() const { return a_from_b_; }
 
   std::string_view kind() const override { return "between_se2"; }
+  /// Any position in the map's plane, any heading.
+  std::optional<double> outlierVolume(const Eigen::Vector3d& map_size) const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 
@@ -31,6 +33,8 @@ class BetweenSe3 : public SizedFactor<6, Se3Kind, Se3Kind> {
   const geometry::Se3& measured() const { return a_from_b_; }
 
   std::string_view kind() const override { return "between_se3"; }
+  /// Any position in the map, any rotation (in rotation vectors).
+  std::optional<double> outlierVolume(const Eigen::Vector3d& map_size) const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <iosfwd>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +25,11 @@ class Factor {
   /// each jacobians[i]; otherwise jacobians[i] is [residualSize x tangentSize of variable i], row-major: the derivative
   /// of the residual by the change `delta` of Variable::plus(), at delta = 0.
   virtual void evaluate(const double* const* values, double* residual, double* const* jacobians) const = 0;
+  /// What the consistency test (Consistency.h) must know of a hypothesis: the volume in which the measurement may lie
+  /// if the hypothesis is false and relates two arbitrary places of the map, in the units of the residual, times the
+  /// prior odds that the hypothesis is true. `map_size`: extent of the map along its axes [m]. None if it is not known
+  /// how false measurements are distributed; the test then applies its gate alone.
+  virtual std::optional<double> outlierVolume(const Eigen::Vector3d& /*map_size*/) const { return std::nullopt; }
   /// Writes the measurement with ByteIo.h. The reader that a FactorRegistry holds for this kind() reads it back.
   virtual void write(std::ostream& out) const = 0;
 };

@@ -41,12 +41,13 @@ class PointFactor3 : public SizedFactor<3, Se3Kind, Point3Kind> {
 class SamePointFactor : public SizedFactor<3, Point3Kind, Point3Kind> {
  public:
   static constexpr std::string_view kKind = "same_point3";
-  /// `odds`: prior odds that both points are the same; the consistency test multiplies its likelihood ratio by these
-  /// odds.
+  /// `odds`: prior odds that both points are the same.
   explicit SamePointFactor(double odds = 1) : odds_(odds) {}
   double odds() const { return odds_; }
 
   std::string_view kind() const override { return kKind; }
+  /// Any difference of two points of the map, times the odds.
+  std::optional<double> outlierVolume(const Eigen::Vector3d& map_size) const override;
   void evaluate(const double* const* values, double* residual, double* const* jacobians) const override;
   void write(std::ostream& out) const override;
   static std::shared_ptr<SamePointFactor> read(std::istream& in);

@@ -232,7 +232,7 @@ void LandmarkAssociator<Measurement>::propose(const Measurement& measurement, co
                                               mapper::Decision decision) {
   decision.accepted = false;
   decision.reason = "waits for the consistency test";
-  batch_.addHypothesis(tagged(measurement, known), std::move(decision));
+  batch_.addGatedHypothesis(tagged(measurement, known), std::move(decision));
 }
 
 template <class Measurement>

@@ -24,8 +24,12 @@ class Batch {
                                bool fixed = false);
   void addFactor(graph::FactorRecord record) { added_factors_.push_back(std::move(record)); }
   /// A factor that would distort the map if it were wrong. It has no weight until the consistency test accepts it, and
-  /// the result of the test completes `decision`.
+  /// the result of the test completes `decision`. Throws Error(internal) if the factor has no outlierVolume(), without
+  /// which the test cannot tell how easily a wrong one fits by chance.
   void addHypothesis(graph::FactorRecord record, Decision decision);
+  /// The same for a factor without an outlierVolume(): the plugin itself has made sure that a wrong one hardly fits by
+  /// chance, and the test applies its gate alone.
+  void addGatedHypothesis(graph::FactorRecord record, Decision decision);
   void removeFactor(base::FactorId id) { removed_factors_.push_back(id); }
   /// Every factor that binds the variable must have been removed before or in this batch.
   void removeVariable(base::VariableId id) { removed_variables_.push_back(id); }
