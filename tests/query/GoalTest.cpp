@@ -16,7 +16,7 @@ class TwoRooms : public ::testing::Test {
     grid_.columns = 84;
     grid_.rows = 42;
     grid_.resolution = 0.1;
-    grid_.lower_left = {-0.1, -0.1};
+    grid_.map_from_grid = {-0.1, -0.1, 0};
     grid_.cells.assign(84 * 42, GridCell::free);
     for (int row = 0; row < 42; ++row) {
       for (int column = 0; column < 84; ++column) {

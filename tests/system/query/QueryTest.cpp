@@ -1,6 +1,6 @@
 // omnimapper-query on a map of an office with door signs, asked by a person and by a robot.
 #include <omnimapper/map/Places.h>
-#include <omnimapper/query/GridMap.h>
+#include <omnimapper/query/MapGrid.h>
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/map/Places.h>
-#include <omnimapper/query/GridMap.h>
+#include <omnimapper/query/MapGrid.h>
 
 #include <Eigen/Core>
 #include <cstdint>

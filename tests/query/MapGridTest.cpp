@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
-#include <omnimapper/query/GridMap.h>
+#include <omnimapper/query/MapGrid.h>
 
 #include "HandMadeMap.h"
 
-namespace omnimapper::query::grid_map_test {
+namespace omnimapper::query::map_grid_test {
 namespace {
 
-class GridMapFiles : public ::testing::Test {
+class MapGridFiles : public ::testing::Test {
  protected:
   std::string refusal(const std::string& yaml, const std::string& pgm) const {
     putFile(folder_ / "grid.yaml", yaml);
@@ -21,7 +21,7 @@ class GridMapFiles : public ::testing::Test {
   const std::string pgm_ = std::string("P5\n2 1\n255\n") + std::string("\xfe\x00", 2);
 };
 
-TEST_F(GridMapFiles, RowZeroIsAtTheSmallestY) {
+TEST_F(MapGridFiles, RowZeroIsAtTheSmallestY) {
   putGrid(folder_.path(), {"#.", "?."}, "0.5");
   const GridMap grid = readGrid(folder_.path());
   EXPECT_EQ(grid.columns, 2);
@@ -34,14 +34,14 @@ TEST_F(GridMapFiles, RowZeroIsAtTheSmallestY) {
   EXPECT_FALSE(grid.contains(grid.cellOf({1e300, -1e300})));
 }
 
-TEST_F(GridMapFiles, WhatOthersWriteDifferentlyIsRead) {
+TEST_F(MapGridFiles, WhatOthersWriteDifferentlyIsRead) {
   ASSERT_EQ(refusal("# a comment\nimage: \"grid.pgm\"\r\nresolution: 5e-1 # m\norigin: [-1, 2, 0]\n", pgm_), "");
-  EXPECT_EQ(readGrid(folder_.path()).lower_left, Eigen::Vector2d(-1, 2));
+  EXPECT_EQ(readGrid(folder_.path()).map_from_grid.translation(), Eigen::Vector2d(-1, 2));
   ASSERT_EQ(refusal(yaml_, "P5 # one\n# two\n2 1 # three\n255\n" + std::string("\xfe\x00", 2)), "");
   EXPECT_EQ(readGrid(folder_.path()).at({0, 0}), GridCell::free);
 }
 
-TEST_F(GridMapFiles, EachDefectIsNamedWithFileAndRemedy) {
+TEST_F(MapGridFiles, EachDefectIsNamedWithFileAndRemedy) {
   EXPECT_NE(refusal().find("grid.yaml: is missing"), std::string::npos);
   const auto says = [&](const std::string& yaml, const std::string& pgm, const std::string& words) {
     const std::string said = refusal(yaml, pgm);
@@ -55,10 +55,10 @@ TEST_F(GridMapFiles, EachDefectIsNamedWithFileAndRemedy) {
   says("image: grid.pgm\nresolution: 0.5\norigin: 7\n", pgm_, "\"origin\" is not a list");
   says("image: grid.pgm\nresolution: 0.5\norigin: [\n", pgm_, "\"origin\" is no");
   says(std::string(1 << 17, ':'), pgm_, "longer");
+  says(yaml_ + "mode: other\n", pgm_, "\"mode\" is none of");
   says(yaml_ + "free_thresh: 0.7\noccupied_thresh: 0.6\n", pgm_, "\"free_thresh\" is above");
-  says(yaml_ + "mode: scale\n", pgm_, "only mode trinary");
-  says(yaml_, "P2\n2 1\n255\n0 0", "not a binary PGM");
-  says(yaml_, "", "not a binary PGM");
+  says(yaml_, "P2\n2 1\n255\n0 0", "is not a binary PGM");
+  says(yaml_, "", "is not a binary PGM");
   says(yaml_, "P5", "no header");
   says(yaml_, "P5\n2 -1\n255\n..", "no header");
   says(yaml_, "P5\n0 0\n255\n", "no header");
@@ -71,4 +71,4 @@ TEST_F(GridMapFiles, EachDefectIsNamedWithFileAndRemedy) {
 }
 
 }  // namespace
-}  // namespace omnimapper::query::grid_map_test
+}  // namespace omnimapper::query::map_grid_test
