@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/building/RoomsFile.h>
+#include <omnimapper/building/Segmentation.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "PaintedPlan.h"
+
+namespace omnimapper::building::rooms_file_test {
+namespace {
+
+class RoomsFile : public ::testing::Test {
+ protected:
+  std::string put(const std::string& text) const {
+    std::ofstream(folder_ / "rooms.json") << text;
+    return folder_ / "rooms.json";
+  }
+  std::string refusal(const std::string& text) const {
+    try {
+      readRooms(put(text));
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+      return error.what();
+    }
+    return "";
+  }
+  testing::ScratchFolder folder_;
+};
+
+TEST_F(RoomsFile, whatWasWrittenIsReadBack) {
+  Building building{{segmentRooms(corridorWithRooms(0.05, 0.3).grid()).storey}};
+  building.storeys[0].rooms[1].split_from = 1;
+  const std::string text = encodeRooms(building, {7, 9});
+  EXPECT_EQ(encodeRooms(readRooms(put(text)), {7, 9}), text);
+}
+
+TEST_F(RoomsFile, documentHasTheSchemaItsVersionAndPositionsOfDoors) {
+  const auto json = nlohmann::json::parse(encodeRooms({{segmentRooms(twoRooms().grid()).storey}}));
+  EXPECT_EQ(json["schema"], "omnimapper-rooms");
+  EXPECT_EQ(json["version"], 1);
+  const auto& storey = json["building"]["storeys"][0];
+  EXPECT_EQ(storey["rooms"].size(), 2U);
+  EXPECT_EQ(storey["rooms"][0]["neighbours"], nlohmann::json::array({2}));
+  EXPECT_NEAR(storey["doors"][0]["position"][0].get<double>(), 4.05, 0.1);
+}
+
+TEST_F(RoomsFile, eachDefectIsNamed) {
+  const std::string good = encodeRooms({{segmentRooms(twoRooms().grid()).storey}});
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  EXPECT_EQ(refusal(good), "");
+  EXPECT_NE(refusal("").find("is no document of rooms"), std::string::npos);
+  EXPECT_NE(refusal("[]").find("is no document of rooms"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"version\": 1", "\"version\": 2")).find("another version"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"outline\"", "\"inline\"")).find("is damaged"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"next_room\": 3", "\"next_room\": 1")).find("impossible"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"next_room\": 3", "\"next_room\": 2000000000")).find("impossible"), std::string::npos);
+  EXPECT_NE(refusal(good.substr(0, good.size() / 2)).find("rooms.json"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace omnimapper::building::rooms_file_test
