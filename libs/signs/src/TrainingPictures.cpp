@@ -1,3 +1,4 @@
+#include <omnimapper/base/CsvTable.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/signs/TrainingPictures.h>
 
@@ -5,7 +6,6 @@
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
-#include "CsvTable.h"
 #include "Pixels.h"
 #include "Plate.h"
 
@@ -66,7 +66,7 @@ std::vector<TrueSign> signsOfMask(const std::string& path) {
 
 // Adds the signs of the table to their pictures. The table need not name every picture.
 void addSigns(const std::string& path, std::vector<TrainingPicture>& pictures) {
-  const CsvTable table(path);
+  const base::CsvTable table(path, "table of signs");
   for (std::size_t row = 0; row < table.size(); ++row) {
     const std::string& name = table.text(row, "image");
     const auto picture =

@@ -1,5 +1,6 @@
 #include "SignTruth.h"
 
+#include <omnimapper/base/CsvTable.h>
 #include <omnimapper/base/Numbers.h>
 
 #include <algorithm>
@@ -9,14 +10,6 @@ namespace omnimapper::sim {
 
 namespace {
 
-// A field of a CSV, quoted if necessary, with quotes inside doubled.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 std::string textOf(const Sign& sign) {
   std::string text;
   for (const std::string& line : sign.lines) text += (text.empty() ? "" : "|") + line;
@@ -24,8 +17,8 @@ std::string textOf(const Sign& sign) {
 }
 
 std::string row(const Sensor& sensor, int k, const Sign& sign, const SignView& view) {
-  std::string text = base::formatUnix(sensor.stampOf(k)) + "," + field(sensor.label()) + "," + std::to_string(k) + "," +
-                     field(sign.name) + "," + field(textOf(sign));
+  std::string text = base::formatUnix(sensor.stampOf(k)) + "," + base::csvField(sensor.label()) + "," +
+                     std::to_string(k) + "," + base::csvField(sign.name) + "," + base::csvField(textOf(sign));
   for (const Eigen::Vector2d& corner : view.corners)
     text += "," + base::fixed(corner.x(), 2) + "," + base::fixed(corner.y(), 2);
   for (const double value : {view.capitals, view.least_capitals, view.distance, view.incidence * 180 / M_PI})

@@ -1,5 +1,4 @@
-#include "CsvTable.h"
-
+#include <omnimapper/base/CsvTable.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/base/Names.h>
@@ -7,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace omnimapper::signs {
+namespace omnimapper::base {
 
 namespace {
 
@@ -31,16 +30,16 @@ std::vector<std::string> fieldsOf(const std::string& line) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::string& path) : path_(path) {
-  auto in = base::openInput(path, "table of signs");
+CsvTable::CsvTable(const std::string& path, const std::string& kind) : path_(path) {
+  auto in = openInput(path, kind);
   std::string line;
   if (!std::getline(in, line))
-    throw base::Error(base::ExitCode::unreadable_input, path + ": is empty; its first line must name the columns");
+    throw Error(ExitCode::unreadable_input, path + ": is empty; its first line must name the columns");
   const auto names = fieldsOf(line);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!columns_.emplace(names[i], i).second) {
-      throw base::Error(base::ExitCode::unreadable_input,
-                        path + ":1: names the column '" + base::printable(names[i]) + "' twice; leave one out");
+      throw Error(ExitCode::unreadable_input,
+                  path + ":1: names the column '" + printable(names[i]) + "' twice; leave one out");
     }
   }
   while (std::getline(in, line)) {
@@ -55,7 +54,7 @@ CsvTable::CsvTable(const std::string& path) : path_(path) {
 const std::string& CsvTable::text(std::size_t row, const std::string& column) const {
   const auto found = columns_.find(column);
   if (found == columns_.end())
-    throw base::Error(base::ExitCode::unreadable_input, path_ + ": has no column '" + column + "'; add it");
+    throw Error(ExitCode::unreadable_input, path_ + ": has no column '" + column + "'; add it");
   return rows_[row][found->second];
 }
 
@@ -69,7 +68,14 @@ double CsvTable::number(std::size_t row, const std::string& column) const {
 }
 
 void CsvTable::refuse(std::size_t row, const std::string& why) const {
-  throw base::Error(base::ExitCode::unreadable_input, path_ + ":" + std::to_string(row + 2) + ": " + why);
+  throw Error(ExitCode::unreadable_input, path_ + ":" + std::to_string(row + 2) + ": " + why);
 }
 
-}  // namespace omnimapper::signs
+std::string csvField(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace omnimapper::base

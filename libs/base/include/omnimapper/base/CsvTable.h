@@ -1,18 +1,19 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-namespace omnimapper::signs {
+namespace omnimapper::base {
 
 /// A table of comma-separated fields whose first line names the columns. A field in double quotes may hold commas, and
 /// a double quote in it is written twice.
 class CsvTable {
  public:
-  /// Throws Error(unreadable_input) if the file cannot be read, or a line has another number of fields than the first.
-  explicit CsvTable(const std::string& path);
+  /// `kind` says in messages what the file is. Throws Error(unreadable_input) if the file cannot be read, or a line has
+  /// another number of fields than the first.
+  explicit CsvTable(const std::string& path, const std::string& kind = "table");
 
   std::size_t size() const { return rows_.size(); }
   bool has(const std::string& column) const { return columns_.count(column) > 0; }
@@ -29,4 +30,8 @@ class CsvTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace omnimapper::signs
+/// A text as a field of such a table: in quotes if it holds commas, quotes or line breaks. (A table is read line by
+/// line, so a text with line breaks cannot be read back.)
+std::string csvField(std::string_view text);
+
+}  // namespace omnimapper::base
