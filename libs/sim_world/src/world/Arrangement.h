@@ -98,8 +98,11 @@ class Arrangement {
     Ring usable_in_map;
     double yaw;
     std::vector<Ring> taken;
+    double headroom;  ///< height of the free space above it [m]
   };
   std::optional<PlacePlan> freePlace(Top& top, const Eigen::Vector2d& reach);
+  /// The level surface of a piece on which objects are put; it is added if it has not been used yet.
+  Top& topOf(const FurniturePlan& piece, const std::string& part);
 
   WorldOptions options_;
   Building building_;
@@ -110,5 +113,8 @@ class Arrangement {
   std::vector<Footprint> hung_;
   std::map<std::string, int> counts_;
 };
+
+/// Number of boards of a shelf or rack; 0 for other furniture.
+int boardsOf(const FurniturePlan& piece);
 
 }  // namespace omnimapper::sim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "Arrangement.h"
 #include "PlanChecks.h"
@@ -55,15 +56,58 @@ std::optional<PlacePlan> Arrangement::freePlace(const std::string& rooms, const 
   return {};
 }
 
+namespace {
+
+// Height of the free space above a level part of a piece: below the next board, or without end [m].
+double headroomAbove(const FurniturePlan& piece, const std::string& part) {
+  const int count = boardsOf(piece);
+  if (count < 2 || part == "board_" + std::to_string(count)) return std::numeric_limits<double>::infinity();
+  const bool is_rack = piece.shape == "rack";
+  const double outside = is_rack ? 0.14 : 0.08, thickness = is_rack ? 0.03 : 0.02;
+  return (piece.height - outside) / (count - 1) - thickness;
+}
+
+// Outlines that keep objects, which freePlace() makes 1.5 cm larger on each side, out of the legs of a rack.
+std::vector<Ring> legsThrough(const FurniturePlan& piece) {
+  std::vector<Ring> legs;
+  if (piece.shape != "rack") return legs;
+  constexpr double kIn = 0.05, kSide = 0.02;  // from the border to the middle of a leg of 4 cm [m]
+  const Eigen::Rotation2Dd turn(piece.yaw);
+  for (const double end : {-1.0, 1.0}) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vector2d middle(end * (piece.length / 2 - kIn), side * (piece.width / 2 - kIn));
+      legs.push_back(rectangle(Vector2d(piece.x, piece.y) + turn * middle, kSide, kSide, piece.yaw));
+    }
+  }
+  return legs;
+}
+
+}  // namespace
+
+int boardsOf(const FurniturePlan& piece) {
+  if (piece.shape != "shelf" && piece.shape != "rack") return 0;
+  if (piece.boards > 0) return piece.boards;
+  return piece.shape == "rack" ? 4 : std::max(2, static_cast<int>(std::lround(piece.height / 0.35)));
+}
+
+Arrangement::Top& Arrangement::topOf(const FurniturePlan& piece, const std::string& part) {
+  const std::string surface = piece.name + "/" + part;
+  for (Top& top : tops_) {
+    if (top.surface == surface) return top;
+  }
+  const Usable usable = usableOf(piece);
+  Top top{surface, "", {}, piece.yaw, legsThrough(piece), headroomAbove(piece, part)};
+  const Eigen::Rotation2Dd turn(piece.yaw);
+  for (const Vector2d& p : rectangle(usable.low, usable.high))
+    top.usable_in_map.push_back(Vector2d(piece.x, piece.y) + turn * p);
+  if (const auto room = roomAt(building_.rooms, {piece.x, piece.y})) top.room = building_.rooms[*room].name;
+  tops_.push_back(std::move(top));
+  return tops_.back();
+}
+
 void Arrangement::objectsOn(std::size_t piece, const std::string& part, int count,
                             const std::vector<std::string>& shapes) {
-  const FurniturePlan& base = plan.furniture[piece];
-  const Usable usable = usableOf(base);
-  Top top{base.name + "/" + part, "", {}, base.yaw, {}};
-  const Eigen::Rotation2Dd turn(base.yaw);
-  for (const Vector2d& p : rectangle(usable.low, usable.high))
-    top.usable_in_map.push_back(Vector2d(base.x, base.y) + turn * p);
-  if (const auto room = roomAt(building_.rooms, {base.x, base.y})) top.room = building_.rooms[*room].name;
+  Top& top = topOf(plan.furniture[piece], part);
   for (int i = 0; i < count; ++i) {
     ObjectSpec spec;
     spec.shape = shapes[random.integer(0, static_cast<int>(shapes.size()) - 1)];
@@ -71,14 +115,13 @@ void Arrangement::objectsOn(std::size_t piece, const std::string& part, int coun
     spec.seed = seedOfObject(plan.seed, plan.objects.size());
     const Eigen::Vector3d reach = reachOf(makeObject(spec).body);
     const auto place = freePlace(top, reach.head<2>());
-    if (!place) continue;
+    if (!place || reach.z() >= top.headroom) continue;
     ObjectPlan object;
     object.name = newName(spec.shape);
     object.shape = spec.shape;
     object.place = *place;
     plan.objects.push_back(object);
   }
-  tops_.push_back(std::move(top));
 }
 
 void Arrangement::carryObjects(double share) {
@@ -90,8 +133,11 @@ void Arrangement::carryObjects(double share) {
     spec.shape = object.shape;
     spec.name = object.name;
     spec.seed = seedOfObject(plan.seed, i);
-    const auto place = freePlace("", reachOf(makeObject(spec).body).head<2>());
-    if (place && place->on != object.place.on) object.moves.push_back({options_.move_time, place});
+    const Eigen::Vector3d reach = reachOf(makeObject(spec).body);
+    const auto place = freePlace("", reach.head<2>());
+    if (!place || place->on == object.place.on) continue;
+    const auto top = std::find_if(tops_.begin(), tops_.end(), [&](const Top& t) { return t.surface == place->on; });
+    if (reach.z() < top->headroom) object.moves.push_back({options_.move_time, place});
   }
 }
 
