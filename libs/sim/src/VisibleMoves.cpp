@@ -25,7 +25,7 @@ std::map<double, Carrying> carryingsOf(const World& world, double duration) {
   for (const Marker& marker : world.markers) names.insert(marker.name);
   std::map<double, Carrying> carryings;
   for (const Body& body : world.bodies) {
-    if (names.count(body.name) == 0) continue;
+    if (names.count(body.name) == 0 || body.track.kind() == Track::Kind::motion) continue;
     const auto& places = body.track.places();
     for (std::size_t i = 1; i < places.size() && places[i].time < duration; ++i) {
       Carrying& carrying = carryings[places[i].time];

@@ -124,6 +124,8 @@ Json objectsJson(const World& world) {
                        {"moveable", object.moveable},
                        {"moved", !body->track.isFixed()},
                        {"places", placesJson(body->track)}});
+    // Between two places of a motion the object goes straight from one to the other; otherwise it stays until the next.
+    if (body->track.kind() == Track::Kind::motion) objects.back()["motion"] = true;
   }
   return objects;
 }

@@ -43,6 +43,17 @@ const std::vector<std::string>& objectShapes() {
   return names;
 }
 
+const std::vector<std::string>& carryingShapes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const ObjectShape& shape : shapesOfObjects()) {
+      if (shape.top) list.push_back(shape.name);
+    }
+    return list;
+  }();
+  return names;
+}
+
 Eigen::Vector3d extentsOf(const Body& body) {
   if (body.vertices_in_body.empty()) return Eigen::Vector3d::Zero();
   const Extent extent = extentOf(body);
@@ -70,7 +81,12 @@ MadeObject makeObject(const ObjectSpec& spec) {
     p.z() -= base_z;
     p = p.cwiseProduct(factor);
   }
-  return {std::move(body), {spec.name, spec.shape, spec.moveable}};
+  std::optional<LevelTop> top = shape.top;
+  if (top) {
+    top->z = (top->z - base_z) * factor.z();
+    for (Eigen::Vector2d& p : top->outline_in_body) p = p.cwiseProduct(factor.head<2>());
+  }
+  return {std::move(body), {spec.name, spec.shape, spec.moveable}, std::move(top)};
 }
 
 }  // namespace omnimapper::sim

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "HandCarry.h"
 #include "PersonBodies.h"
 #include "Posture.h"
 
@@ -44,6 +45,8 @@ void checkWaypoints(const PersonSpec& spec) {
 void checkSpan(const PersonSpec& spec) {
   double begin = spec.waypoints.front().time, end = spec.waypoints.back().time;
   for (const Person::Pointing& act : spec.acts) begin = std::min(begin, act.begin), end = std::max(end, act.end);
+  for (const auto& carrying : spec.carryings)
+    begin = std::min(begin, carrying.begin), end = std::max(end, carrying.end);
   if (!(end - begin <= kLongest))
     refuse(spec, "it walks and points from ", begin, " to ", end, " s; at most ", kLongest, " s are possible");
 }
@@ -69,6 +72,55 @@ void checkActs(const PersonSpec& spec, const Walk& walk, const Anatomy& anatomy)
   }
 }
 
+void checkReach(const PersonSpec& spec, const PersonSpec::Carrying& carrying, double time, const geometry::Se3& object,
+                const Walk& walk, const Anatomy& anatomy) {
+  constexpr double kNearest = 0.2;  // of an object to the middle of the body [m]
+  if (!walk.stands(time - kReachTime, time + kReachTime)) {
+    refuse(spec, "it walks while it should take or put down '", carrying.object, "' at ", time,
+           " s; let it stand from ", kReachTime, " s before to ", kReachTime, " s after");
+  }
+  const Eigen::Vector2d place = walk.at(time).body;
+  const BodyFrame body{{place.x(), place.y(), spec.floor_z}, headingTo(object, place)};
+  const double distance = (object.translation.head<2>() - place).norm();
+  if (distance < kNearest || !stoopFor(handsOn(carrying, object, body, anatomy), body, anatomy)) {
+    refuse(spec, "at ", time, " s the place of '", carrying.object, "' is ", distance, " m away, ",
+           object.translation.z() - spec.floor_z, " m above the floor, which ",
+           distance < kNearest ? "is too near" : "is out of reach", "; let the person stand about 0.4 m from it");
+  }
+}
+
+void checkCarryings(const PersonSpec& spec, const Walk& walk, const Anatomy& anatomy) {
+  for (std::size_t i = 0; i < spec.carryings.size(); ++i) {
+    const PersonSpec::Carrying& carrying = spec.carryings[i];
+    if (!(carrying.end - carrying.begin >= 2 * kLiftTime)) {
+      refuse(spec, "it takes '", carrying.object, "' at ", carrying.begin, " s and puts it down at ", carrying.end,
+             " s; at least ", 2 * kLiftTime, " s are needed");
+    }
+    if (i > 0 && carrying.begin < spec.carryings[i - 1].end + 2 * kReachTime) {
+      refuse(spec, "it takes '", carrying.object, "' at ", carrying.begin, " s, but puts down '",
+             spec.carryings[i - 1].object, "' at ", spec.carryings[i - 1].end, " s; leave ", 2 * kReachTime, " s");
+    }
+    for (const Person::Pointing& act : spec.acts) {
+      if (act.begin - kArmRaiseTime < carrying.end + kReachTime &&
+          carrying.begin - kReachTime < act.end + kArmRaiseTime)
+        refuse(spec, "it points at ", act.begin, " s while its hands are busy with '", carrying.object, "'");
+    }
+    checkReach(spec, carrying, carrying.begin, carrying.map_from_object_before, walk, anatomy);
+    checkReach(spec, carrying, carrying.end, carrying.map_from_object_after, walk, anatomy);
+  }
+}
+
+MadePerson::Carried carriedAlong(const PersonSpec::Carrying& carrying, const std::vector<Posture>& postures) {
+  constexpr double kApart = 1e-6;  // least time between two places [s]
+  MadePerson::Carried carried{carrying.object, {{carrying.begin, carrying.map_from_object_before}}};
+  for (const Posture& posture : postures) {
+    if (posture.time > carrying.begin + kApart && posture.time < carrying.end - kApart)
+      carried.places.push_back({posture.time, posture.map_from_held});
+  }
+  carried.places.push_back({carrying.end, carrying.map_from_object_after});
+  return carried;
+}
+
 }  // namespace
 
 MadePerson makePerson(const PersonSpec& spec) {
@@ -77,6 +129,7 @@ MadePerson makePerson(const PersonSpec& spec) {
   const Anatomy anatomy(spec.height);
   const Walk walk(spec.waypoints, anatomy.half_hips, kStepOfHeight * spec.height);
   checkActs(spec, walk, anatomy);
+  checkCarryings(spec, walk, anatomy);
   const std::vector<Posture> postures = posturesOf(spec, walk, anatomy);
   MadePerson made;
   made.bodies = bodiesOf(spec, anatomy, postures);
@@ -89,6 +142,7 @@ MadePerson makePerson(const PersonSpec& spec) {
     made.person.joints.push_back({kJointNames[i], trackAlong(postures, placeOf)});
   }
   made.person.pointing = spec.acts;
+  for (const auto& carrying : spec.carryings) made.carried.push_back(carriedAlong(carrying, postures));
   return made;
 }
 

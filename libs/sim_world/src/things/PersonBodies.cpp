@@ -145,7 +145,9 @@ class Dresser {
   void addTorso() {
     const PoseOf pose = [](const Posture& posture) {
       const Vector3d hips = 0.5 * (posture.in_map[Joint::left_hip] + posture.in_map[Joint::right_hip]);
-      return Se3{Eigen::Quaterniond(Eigen::AngleAxisd(posture.yaw, Vector3d::UnitZ())), hips};
+      const Eigen::Quaterniond upright(Eigen::AngleAxisd(posture.yaw, Vector3d::UnitZ()));
+      if (posture.lean == 0) return Se3{upright, hips};
+      return Se3{upright * Eigen::Quaterniond(Eigen::AngleAxisd(posture.lean, Vector3d::UnitY())), hips};
     };
     MeshBuilder mesh = builder("torso", pose);
     const double h = anatomy_.height;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "HandCarry.h"
+
 namespace omnimapper::sim {
 
 namespace {
@@ -16,6 +18,7 @@ using Eigen::Vector3d;
 constexpr double kPeriod = 0.05;     // [s]
 constexpr double kTurnRate = 3;      // largest turn rate of the body [rad/s]
 constexpr double kTurnTime = 1.3;    // time before an act or a walk at which the body begins to turn [s]
+constexpr double kFacingTime = 0.3;  // time after an object is taken or put down for which the body still faces it [s]
 constexpr double kLookAhead = 0.25;  // time by which a walking body turns before its path does [s]
 constexpr double kArmStretch = 0.995;
 // Largest angles between a pointing arm and the body's heading: outwards and across the body [rad].
@@ -28,11 +31,6 @@ Vector3d jointBetween(const Vector3d& root, const Vector3d& end, double upper, d
   const double along = (distance * distance + upper * upper - lower * lower) / (2 * distance);
   const Vector3d aside = (pole - pole.dot(ahead) * ahead).normalized();
   return root + along * ahead + std::sqrt(std::max(0.0, upper * upper - along * along)) * aside;
-}
-
-double eased(double share) {
-  const double s = std::clamp(share, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
 }
 
 // Share by which the arm is raised: 0 while it hangs, 1 from begin to end of the act.
@@ -61,12 +59,20 @@ class Poser {
     Posture posture;
     posture.time = time;
     posture.yaw = yaw_;
+    const std::optional<Busy> busy = busyAt(time, stance);
+    if (busy) posture.map_from_held = busy->hold.map_from_object;
+    const Stoop stoop(busy ? busy->stoop : 0, anatomy_);
+    posture.lean = stoop.lean;
     placeFeet(stance, posture);
-    const double hip_z = placeHips(stance, posture);
-    placeTrunk(stance, hip_z, posture);
+    const double hip_z = placeHips(stance, stoop, posture);
+    placeTrunk(stance, stoop, hip_z, posture);
     posture.head_yaw = yaw_;
-    placeArm(time, stance, false, posture);
-    placeArm(time, stance, true, posture);
+    for (const bool right : {false, true}) {
+      Vector3d hand = pointing(time, right, direction(hangingHand(stance, right, posture)), posture);
+      if (busy) hand = holding(*busy, right, hand, posture);
+      placeArm(hand, right, posture);
+    }
+    if (busy) look(posture.map_from_held->translation, busy->hold.share * (1 - busy->hold.lifted), posture);
     return posture;
   }
 
@@ -76,6 +82,32 @@ class Poser {
     return Vector3d(stance.body.x(), stance.body.y(), spec_.floor_z) + turned;
   }
   Vector3d direction(const Vector3d& in_body) const { return Eigen::AngleAxisd(yaw_, Vector3d::UnitZ()) * in_body; }
+  BodyFrame frame(const Stance& stance) const { return {{stance.body.x(), stance.body.y(), spec_.floor_z}, yaw_}; }
+
+  /// Hands that take, carry or put down an object.
+  struct Busy {
+    Hold hold;
+    HandsOn hands;
+    double stoop;  // share
+  };
+  // To be called for times in order: an object keeps the yaw that it has when it is taken.
+  std::optional<Busy> busyAt(double time, const Stance& stance) {
+    for (const PersonSpec::Carrying& carrying : spec_.carryings) {
+      if (time < carrying.begin) yaw_in_hand_ = yawOf(carrying.map_from_object_before) - yaw_;
+      const BodyFrame body = frame(stance);
+      const auto hold = holdAt(carrying, time, body, yaw_in_hand_, anatomy_);
+      if (time < carrying.begin && !hold) break;
+      if (!hold) continue;
+      const HandsOn hands = handsOn(carrying, hold->map_from_object, body, anatomy_);
+      return Busy{*hold, hands, hold->share * stoopFor(hands, body, anatomy_).value_or(1)};
+    }
+    return {};
+  }
+
+  static double yawOf(const geometry::Se3& pose) {
+    const Vector3d ahead = pose.rotation * Vector3d::UnitX();
+    return std::atan2(ahead.y(), ahead.x());
+  }
 
   void turn(double time, const Stance& stance) {
     double wanted = yaw_;
@@ -88,6 +120,13 @@ class Poser {
     for (const Person::Pointing& act : spec_.acts) {
       const bool soon = time >= act.begin - kArmRaiseTime - kTurnTime && time <= act.end;
       if (soon && !stance.walks) wanted = headingFor(act, stance.body, yaw_);
+    }
+    for (const PersonSpec::Carrying& carrying : spec_.carryings) {
+      if (stance.walks) break;
+      const bool takes = time >= carrying.begin - kReachTime - kTurnTime && time <= carrying.begin + kFacingTime;
+      const bool puts = time >= carrying.end - kLiftTime && time <= carrying.end + kFacingTime;
+      if (takes) wanted = headingTo(carrying.map_from_object_before, stance.body);
+      if (puts) wanted = headingTo(carrying.map_from_object_after, stance.body);
     }
     yaw_ += std::clamp(geometry::wrapToPi(wanted - yaw_), -kTurnRate * kPeriod, kTurnRate * kPeriod);
   }
@@ -108,17 +147,17 @@ class Poser {
   }
 
   // Places the hips as high as both legs allow. Returns their height above the floor.
-  double placeHips(const Stance& stance, Posture& posture) const {
+  double placeHips(const Stance& stance, const Stoop& stoop, Posture& posture) const {
     const double reach = 0.995 * (anatomy_.thigh + anatomy_.shin);
-    double hip_z = anatomy_.standing_hip_z;
+    double hip_z = anatomy_.standing_hip_z - stoop.drop;
     for (const bool right : {false, true}) {
       const Vector3d foot = posture.in_map[jointOf(right, Limb::foot)];
-      const Vector3d hip = inMap(stance, {0, right ? -anatomy_.half_hips : anatomy_.half_hips, 0});
+      const Vector3d hip = inMap(stance, {-stoop.back, right ? -anatomy_.half_hips : anatomy_.half_hips, 0});
       const double aside = std::min((foot - hip).head<2>().norm(), 0.9 * reach);
       hip_z = std::min(hip_z, foot.z() - spec_.floor_z + std::sqrt(reach * reach - aside * aside));
     }
     for (const bool right : {false, true}) {
-      const Vector3d hip = inMap(stance, {0, right ? -anatomy_.half_hips : anatomy_.half_hips, hip_z});
+      const Vector3d hip = inMap(stance, {-stoop.back, right ? -anatomy_.half_hips : anatomy_.half_hips, hip_z});
       const Vector3d& foot = posture.in_map[jointOf(right, Limb::foot)];
       posture.in_map[jointOf(right, Limb::hip)] = hip;
       posture.in_map[jointOf(right, Limb::knee)] =
@@ -127,13 +166,16 @@ class Poser {
     return hip_z;
   }
 
-  void placeTrunk(const Stance& stance, double hip_z, Posture& posture) const {
-    posture.in_map[Joint::torso] = inMap(stance, {0, 0, hip_z + anatomy_.torso_up});
-    posture.in_map[Joint::neck] = inMap(stance, {0, 0, hip_z + anatomy_.neck_up});
-    posture.in_map[Joint::head] = inMap(stance, {0, 0, hip_z + anatomy_.head_up});
+  void placeTrunk(const Stance& stance, const Stoop& stoop, double hip_z, Posture& posture) const {
+    const auto above = [&](double up, double side) {
+      return inMap(stance, {up * std::sin(stoop.lean) - stoop.back, side, hip_z + up * std::cos(stoop.lean)});
+    };
+    posture.in_map[Joint::torso] = above(anatomy_.torso_up, 0);
+    posture.in_map[Joint::neck] = above(anatomy_.neck_up, 0);
+    posture.in_map[Joint::head] = above(anatomy_.head_up, 0);
     for (const bool right : {false, true}) {
       const double side = right ? -anatomy_.half_shoulders : anatomy_.half_shoulders;
-      posture.in_map[jointOf(right, Limb::shoulder)] = inMap(stance, {0, side, hip_z + anatomy_.shoulder_up});
+      posture.in_map[jointOf(right, Limb::shoulder)] = above(anatomy_.shoulder_up, side);
     }
   }
 
@@ -158,22 +200,40 @@ class Poser {
     return from_shoulder + distance * ahead;
   }
 
-  void placeArm(double time, const Stance& stance, bool right, Posture& posture) const {
+  // A hand, from the shoulder, that has gone a share of its way, on an arc around the shoulder.
+  static Vector3d onTheWay(const Vector3d& from, const Vector3d& to, double share) {
+    const Eigen::Quaterniond arc = Eigen::Quaterniond::FromTwoVectors(from, to);
+    const double length = from.norm() + share * (to.norm() - from.norm());
+    return length * (Eigen::Quaterniond::Identity().slerp(share, arc) * from.normalized());
+  }
+
+  static void look(const Vector3d& target_in_map, double share, Posture& posture) {
+    const Vector3d gaze = target_in_map - posture.in_map[Joint::head];
+    posture.head_yaw += share * geometry::wrapToPi(std::atan2(gaze.y(), gaze.x()) - posture.head_yaw);
+    posture.head_pitch += share * std::atan2(gaze.z(), gaze.head<2>().norm());
+  }
+
+  // Where acts of pointing move a hand, from the shoulder.
+  Vector3d pointing(double time, bool right, Vector3d hand, Posture& posture) const {
     const Vector3d& shoulder = posture.in_map[jointOf(right, Limb::shoulder)];
-    const Vector3d& head = posture.in_map[Joint::head];
-    Vector3d hand = direction(hangingHand(stance, right, posture));
     for (const Person::Pointing& act : spec_.acts) {
       const double share = raised(act, time);
       if (act.right_arm != right || share <= 0) continue;
-      // The hand moves on an arc around the shoulder.
-      const Vector3d there = pointingHand(act, shoulder, head);
-      const Eigen::Quaterniond arc = Eigen::Quaterniond::FromTwoVectors(hand, there);
-      const double length = hand.norm() + share * (there.norm() - hand.norm());
-      hand = length * (Eigen::Quaterniond::Identity().slerp(share, arc) * hand.normalized());
-      const Vector3d gaze = act.target_in_map - head;
-      posture.head_yaw += share * geometry::wrapToPi(std::atan2(gaze.y(), gaze.x()) - posture.head_yaw);
-      posture.head_pitch += share * std::atan2(gaze.z(), gaze.head<2>().norm());
+      hand = onTheWay(hand, pointingHand(act, shoulder, posture.in_map[Joint::head]), share);
+      look(act.target_in_map, share, posture);
     }
+    return hand;
+  }
+
+  // Where an object that the hands are busy with moves a hand, from the shoulder.
+  static Vector3d holding(const Busy& busy, bool right, const Vector3d& hand, const Posture& posture) {
+    if (!right && !busy.hands.both) return hand;
+    const Vector3d& shoulder = posture.in_map[jointOf(right, Limb::shoulder)];
+    return onTheWay(hand, busy.hands.in_map[right ? 1 : 0] - shoulder, busy.hold.share);
+  }
+
+  void placeArm(const Vector3d& hand, bool right, Posture& posture) const {
+    const Vector3d& shoulder = posture.in_map[jointOf(right, Limb::shoulder)];
     const Vector3d pole = direction({-0.5, right ? -0.3 : 0.3, -1});
     posture.in_map[jointOf(right, Limb::hand)] = shoulder + hand;
     posture.in_map[jointOf(right, Limb::elbow)] =
@@ -184,6 +244,7 @@ class Poser {
   const Walk& walk_;
   const Anatomy& anatomy_;
   double yaw_;
+  double yaw_in_hand_ = 0;  // yaw of a carried object in the frame of the body [rad]
 };
 
 }  // namespace
@@ -194,8 +255,12 @@ std::vector<Posture> posturesOf(const PersonSpec& spec, const Walk& walk, const 
     begin = std::min(begin, act.begin);
     end = std::max(end, act.end);
   }
+  for (const PersonSpec::Carrying& carrying : spec.carryings) {
+    begin = std::min(begin, carrying.begin - kReachTime);
+    end = std::max(end, carrying.end + kReachTime);
+  }
   Poser poser(spec, walk, anatomy);
-  if (spec.acts.empty() && !walk.everWalks()) return {poser.next(begin)};
+  if (spec.acts.empty() && spec.carryings.empty() && !walk.everWalks()) return {poser.next(begin)};
   const auto first = static_cast<long>(std::floor((begin - kArmRaiseTime - kTurnTime) / kPeriod)),
              last = static_cast<long>(std::ceil((end + kArmRaiseTime) / kPeriod)) + 1;
   std::vector<Posture> postures;

@@ -1,5 +1,6 @@
 #include "objectShapes.h"
 
+#include <omnimapper/sim_world/Footprint.h>
 #include <omnimapper/sim_world/Textures.h>
 
 #include <cmath>
@@ -193,19 +194,47 @@ void addPot(MeshBuilder& builder, Random& random) {
   }
 }
 
-void addPrism(MeshBuilder& builder, Random& random) {
+Ring outlineOfPrism() {
   const double side = 0.09, height = side * std::sqrt(3) / 2;
-  builder.addPrism(addSurface(builder, "", textured(random, TextureKind::wood)),
-                   {{-side / 2, -height / 2}, {side / 2, -height / 2}, {0, height / 2}}, 0, 0.12);
+  return {{-side / 2, -height / 2}, {side / 2, -height / 2}, {0, height / 2}};
+}
+
+void addPrism(MeshBuilder& builder, Random& random) {
+  builder.addPrism(addSurface(builder, "", textured(random, TextureKind::wood)), outlineOfPrism(), 0, 0.12);
+}
+
+LevelTop rectangularTop(double half_length, double half_width, double z) {
+  return {rectangle({-half_length, -half_width}, {half_length, half_width}), z};
+}
+
+LevelTop roundTop(double radius, double z) {
+  constexpr int kCorners = 24;
+  LevelTop top{{}, z};
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * M_PI * i / kCorners;
+    top.outline_in_body.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+  }
+  return top;
 }
 
 }  // namespace
 
 const std::vector<ObjectShape>& shapesOfObjects() {
   static const std::vector<ObjectShape> shapes{
-      {"ball", addBall},     {"book", addBook},   {"bottle", addBottle}, {"bowl", addBowl},  {"box", addBox},
-      {"brick", addBrick},   {"can", addCan},     {"cone", addCone},     {"cup", addCup},    {"lamp", addLamp},
-      {"laptop", addLaptop}, {"plate", addPlate}, {"pot", addPot},       {"prism", addPrism}};
+      {"ball", addBall},
+      {"book", addBook, rectangularTop(0.08, 0.115, 0.03)},
+      {"bottle", addBottle},
+      {"bowl", addBowl},
+      {"box", addBox, rectangularTop(0.095, 0.03, 0.28)},
+      {"brick", addBrick, rectangularTop(0.064, 0.032, 0.046)},  // others stand on its studs
+      {"can", addCan, roundTop(0.028, 0.121)},
+      {"cone", addCone},
+      {"cup", addCup},
+      {"lamp", addLamp},
+      {"laptop", addLaptop},
+      {"plate", addPlate, roundTop(0.07, 0.007)},
+      {"pot", addPot},
+      {"prism", addPrism, LevelTop{outlineOfPrism(), 0.12}}};
   return shapes;
 }
 

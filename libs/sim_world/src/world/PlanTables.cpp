@@ -18,7 +18,9 @@ void addPlace(OptionTable<Ini>& table) {
   table.number("x_m", &Ini::x, kAnywhere, "x coordinate of the centre in the map.")
       .number("y_m", &Ini::y, kAnywhere, "y coordinate of the centre in the map.")
       .number("yaw_deg", &Ini::yaw, kAnywhere, "Yaw in the map. At 0 the front faces -y.")
-      .text("on", &Ini::on, "Level surface that the item stands on, such as table_1/top. Empty means the floor.")
+      .text("on", &Ini::on,
+            "Level surface that the item stands on, such as table_1/top or, of an object, box_1/top. Empty means the "
+            "floor.")
       .list("moves", &Ini::move_words,
             "Moves of the item, separated by |: 'time x y yaw [on]' to carry it elsewhere or 'time away' to remove "
             "it, in s, m and deg.");
@@ -167,7 +169,12 @@ const OptionTable<ObjectIni>& ObjectIni::table() {
     OptionTable<ObjectIni> result;
     addPlace(result);
     addSize(result);
-    result.flag("moveable", &ObjectIni::moveable, "People carry the object about.");
+    result.flag("moveable", &ObjectIni::moveable, "People carry the object about.")
+        .text(
+            "touching", &ObjectIni::touching,
+            "Object on the same surface that this one touches at the start: it is slid along the line from the middle "
+            "of that object to x_m, y_m until their outlines from above touch. Empty means that it stands at x_m, "
+            "y_m.");
     return result;
   }();
   return table;
@@ -264,7 +271,11 @@ const OptionTable<PersonIni>& PersonIni::table() {
                 "Positions of the person over time: 'time x y' in s and m, groups separated by |.")
           .list("pointing", &PersonIni::pointing_words,
                 "Pointing gestures: 'begin end target [arm]' in s, groups separated by |. The target is the name of a "
-                "body or surface, or x y z in m, and the arm is right or left, right if none is given.");
+                "body or surface, or x y z in m, and the arm is right or left, right if none is given.")
+          .list("carrying", &PersonIni::carrying_words,
+                "Objects that the person takes by hand, carries and puts down: 'begin end object x y yaw [on]' in s, m "
+                "and deg, groups separated by |. The place is that where the object stands from the end on. The person "
+                "must stand within reach of the object at the begin and of its place at the end.");
   return table;
 }
 

@@ -52,7 +52,7 @@ struct CompanionIni : CompanionPlan {
 };
 struct PersonIni {
   double height = 1.72, yaw = 0;
-  std::vector<std::string> path_words, pointing_words;
+  std::vector<std::string> path_words, pointing_words, carrying_words;
   static const base::OptionTable<PersonIni>& table();
 };
 

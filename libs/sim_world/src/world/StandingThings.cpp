@@ -4,6 +4,7 @@
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/sim_world/Furniture.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace omnimapper::sim {
@@ -30,12 +31,49 @@ StandingSpace::StandingSpace(const WorldPlan& plan, const Building& building) : 
   for (const Footprint& leaf : building.furniture) taken_.push_back({leaf});
 }
 
-void StandingSpace::take(const std::string& name, const std::string& key, Taken taken, const std::string& support) {
+const StandingSpace::Taken* StandingSpace::takenBy(const std::string& name, double time) const {
+  for (const Taken& taken : taken_) {
+    if (taken.footprint.name == name && taken.begin <= time && time < taken.end) return &taken;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> StandingSpace::carriersOf(const std::string& support, double time) const {
+  std::vector<std::string> carriers;
+  for (const Support* next = supports_.find(support); next;) {
+    carriers.push_back(next->carrier);
+    const Taken* taken = takenBy(next->carrier, time);
+    next = taken ? supports_.find(taken->on) : nullptr;
+  }
+  return carriers;
+}
+
+std::vector<std::string> StandingSpace::ridersOf(const std::string& item, double time) const {
+  const double before = std::nextafter(time, -std::numeric_limits<double>::infinity());
+  std::vector<std::string> riders;
+  for (const Taken& taken : taken_) {
+    if (taken.begin > before || before >= taken.end) continue;
+    const std::vector<std::string> carriers = carriersOf(taken.on, before);
+    if (std::find(carriers.begin(), carriers.end(), item) != carriers.end()) riders.push_back(taken.footprint.name);
+  }
+  return riders;
+}
+
+void StandingSpace::take(const Stage& stage, Taken taken) {
+  const std::vector<std::string> carriers = carriersOf(taken.on, std::max(stage.begin, taken.begin));
   for (const Taken& other : taken_) {
-    if (other.footprint.name == support || other.end <= taken.begin || taken.end <= other.begin) continue;
+    const bool carries = std::find(carriers.begin(), carriers.end(), other.footprint.name) != carriers.end();
+    if (carries || other.end <= taken.begin || taken.end <= other.begin) continue;
     if (!overlap(taken.footprint, other.footprint)) continue;
-    const std::string when = key == "moves" ? "from " + base::brief(std::max(taken.begin, other.begin)) + " s on " : "";
-    refuse(plan_, name, key, when + "stands in '" + other.footprint.name + "'");
+    const double from = std::max(taken.begin, other.begin);
+    const std::string when = std::isfinite(from) ? "from " + base::brief(from) + " s on " : "";
+    refuse(plan_, stage.section, stage.key, when + "stands in '" + other.footprint.name + "'");
+  }
+  for (const std::string& carrier : carriers) {
+    if (!supports_.reachesInto(carrier, taken.footprint)) continue;
+    refuse(plan_, stage.section, stage.key,
+           "does not fit on '" + taken.on + "': '" + carrier + "' has other parts in its place of " +
+               base::brief(taken.footprint.high_z - taken.footprint.low_z) + " m above it; make it lower or move it");
   }
   taken_.push_back(std::move(taken));
 }
@@ -51,87 +89,13 @@ geometry::Se3 StandingSpace::put(const FurniturePlan& sized, bool follows_slope)
     refuse(plan_, sized.name, "x_m", "stands in a wall of '" + room.name + "'");
   if (!room.is_outdoors && sized.z + sized.height > room.height + kFloorTolerance)
     refuse(plan_, sized.name, "height_m", "reaches above the ceiling of '" + room.name + "'");
-  take(sized.name, "x_m", {footprint}, "");
+  take({0, 0, nullptr, sized.name, "x_m"}, {footprint});
   Eigen::Quaterniond turn(Eigen::AngleAxisd(sized.yaw, Vector3d::UnitZ()));
   if (follows_slope) {
     const Vector3d up = Vector3d(-room.slope.x(), -room.slope.y(), 1).normalized();
     turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * turn;
   }
   return {turn, {sized.x, sized.y, floor + sized.z}};
-}
-
-void StandingSpace::addSupports(const Body& body) {
-  const auto pose = body.track.at(0);
-  if (!pose) return;
-  for (const Surface& surface : body.surfaces) {
-    if (!surface.face || (*pose * surface.face->plane_in_body).normal.z() < 1 - 1e-9) continue;
-    Support support{surface.name, {}, 0};
-    for (const Vector3d& p : surface.face->outline_in_body) {
-      const Vector3d in_map = *pose * p;
-      support.outline_in_map.push_back(in_map.head<2>());
-      support.z = in_map.z();
-    }
-    supports_.push_back(std::move(support));
-  }
-}
-
-geometry::Se3 StandingSpace::poseOf(const std::string& name, const std::string& key, const PlacePlan& place,
-                                    const Vector3d& extents) const {
-  const Vector2d middle(place.x, place.y);
-  const Ring outline = rectangle(middle, extents.x(), extents.y(), place.yaw);
-  double z = 0;
-  if (place.on.empty()) {
-    const auto room = roomAt(building_.rooms, middle);
-    if (!room)
-      refuse(plan_, name, key, "the place " + base::brief(place.x) + " " + base::brief(place.y) + " lies in no room");
-    if (!isWithin(outline, building_.rooms[*room].outline))
-      refuse(plan_, name, key, "stands in a wall of '" + building_.rooms[*room].name + "'");
-    z = building_.rooms[*room].floorAt(middle);
-  } else {
-    const Support* support = nullptr;
-    std::vector<std::string> names;
-    for (const Support& candidate : supports_) {
-      names.push_back(candidate.name);
-      if (candidate.name == place.on) support = &candidate;
-    }
-    const bool is_move = key == "moves";
-    if (!support) {
-      const std::string near = base::nearestName(place.on, names);
-      refuse(plan_, name, is_move ? key : "on",
-             "no level surface is called '" + place.on + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?"));
-    }
-    if (!isWithin(outline, support->outline_in_map))
-      refuse(plan_, name, key, "reaches over the rim of '" + place.on + "'");
-    z = support->z;
-  }
-  return {Eigen::Quaterniond(Eigen::AngleAxisd(place.yaw, Vector3d::UnitZ())), {place.x, place.y, z}};
-}
-
-Track StandingSpace::trackOf(const std::string& name, const PlacePlan& place, const std::vector<MovePlan>& moves,
-                             const Vector3d& extents) {
-  std::vector<Track::Place> places{{0, {}}};
-  for (const MovePlan& move : moves) {
-    if (move.time <= places.back().time) {
-      refuse(plan_, name, "moves",
-             "times must increase, from above 0: " + base::brief(move.time) + " comes after " +
-                 base::brief(places.back().time));
-    }
-    places.push_back({move.time, {}});
-  }
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::string key = i == 0 ? "x_m" : "moves";
-    const PlacePlan* at = i == 0 ? &place : moves[i - 1].place ? &*moves[i - 1].place : nullptr;
-    if (!at) continue;
-    const geometry::Se3 pose = poseOf(name, key, *at, extents);
-    const double z = pose.translation.z();
-    Taken taken{{name, rectangle({at->x, at->y}, extents.x(), extents.y(), at->yaw), z, z + extents.z()}};
-    if (i > 0) taken.begin = places[i].time;
-    if (i + 1 < places.size()) taken.end = places[i + 1].time;
-    take(name, key, std::move(taken), at->on.substr(0, at->on.rfind('/')));  // a board lies inside of its shelf
-    places[i].map_from_body = pose;
-  }
-  if (places.size() == 1) return Track(*places.front().map_from_body);
-  return {Track::Kind::steps, std::move(places)};
 }
 
 void StandingSpace::refuseBlocked(const std::string& person, const std::string& stretch, const Taken& swept) const {

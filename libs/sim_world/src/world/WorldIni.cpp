@@ -107,6 +107,17 @@ std::vector<std::vector<std::string>> groupsOf(const std::vector<std::string>& w
   return groups;
 }
 
+// Reads 'x y yaw [on]' from a word of a group on.
+PlacePlan readPlace(const Entry& entry, const std::string& key, const std::vector<std::string>& group,
+                    std::size_t from) {
+  PlacePlan place;
+  place.x = entry.number(key, group[from]);
+  place.y = entry.number(key, group[from + 1]);
+  place.yaw = entry.number(key, group[from + 2]) * base::option_text::kRadiansPerDegree;
+  if (group.size() > from + 3) place.on = group[from + 3];
+  return place;
+}
+
 std::vector<MovePlan> readMoves(const Entry& entry, const std::vector<std::string>& words) {
   std::vector<MovePlan> moves;
   for (const auto& group : groupsOf(words)) {
@@ -115,12 +126,7 @@ std::vector<MovePlan> readMoves(const Entry& entry, const std::vector<std::strin
       move.time = entry.number("moves", group[0]);
     } else if (group.size() == 4 || group.size() == 5) {
       move.time = entry.number("moves", group[0]);
-      PlacePlan place;
-      place.x = entry.number("moves", group[1]);
-      place.y = entry.number("moves", group[2]);
-      place.yaw = entry.number("moves", group[3]) * base::option_text::kRadiansPerDegree;
-      if (group.size() == 5) place.on = group[4];
-      move.place = place;
+      move.place = readPlace(entry, "moves", group, 1);
     } else {
       entry.refuse("moves", "'" + format(group) + "' must be 'time x y yaw', 'time x y yaw on' or 'time away'");
     }
@@ -149,8 +155,18 @@ Person::Pointing readPointing(const Entry& entry, std::vector<std::string> words
   return act;
 }
 
-PersonSpec readPerson(const Entry& entry, std::uint64_t seed) {
-  const PersonIni ini = entry.section.read<PersonIni>({"class"});
+std::vector<CarryPlan> readCarryings(const Entry& entry, const std::vector<std::string>& words) {
+  std::vector<CarryPlan> carryings;
+  for (const auto& group : groupsOf(words)) {
+    if (group.size() != 6 && group.size() != 7)
+      entry.refuse("carrying", "'" + format(group) + "' must be 'begin end object x y yaw', optionally followed by on");
+    carryings.push_back({entry.name, entry.number("carrying", group[0]), entry.number("carrying", group[1]), group[2],
+                         readPlace(entry, "carrying", group, 3)});
+  }
+  return carryings;
+}
+
+PersonSpec readPerson(const Entry& entry, const PersonIni& ini, std::uint64_t seed) {
   PersonSpec person;
   person.name = entry.name;
   person.height = ini.height;
@@ -260,10 +276,13 @@ WorldPlan readWorldPlan(const base::Config& config) {
        [&](const Entry& entry) { plan.landmarks.push_back(read<LandmarkIni>(entry)); });
   for (const std::string& name : options.people) {
     const Entry entry = open(config, plan, name, kPersonClasses, kPersonClasses.front());
-    if (entry.class_name == "person")
-      plan.people.push_back(readPerson(entry, plan.seed * 1000 + plan.people.size()));
-    else
+    if (entry.class_name == "companion") {
       plan.companions.push_back(readCompanion(entry));
+      continue;
+    }
+    const auto ini = entry.section.read<PersonIni>({"class"});
+    plan.people.push_back(readPerson(entry, ini, plan.seed * 1000 + plan.people.size()));
+    for (CarryPlan& carrying : readCarryings(entry, ini.carrying_words)) plan.carryings.push_back(std::move(carrying));
   }
   const std::vector<CompanionPlan> group = companionsOf(options.companions, plan.seed);
   plan.companions.insert(plan.companions.end(), group.begin(), group.end());

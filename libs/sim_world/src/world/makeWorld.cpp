@@ -1,13 +1,14 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/sim_world/Furniture.h>
 #include <omnimapper/sim_world/MarkerMaking.h>
-#include <omnimapper/sim_world/ObjectMaking.h>
 #include <omnimapper/sim_world/PosterMaking.h>
 #include <omnimapper/sim_world/SignMaking.h>
 #include <omnimapper/sim_world/WorldPlan.h>
 
 #include <algorithm>
 
+#include "HandCarrying.h"
+#include "ObjectPlacing.h"
 #include "PlanChecks.h"
 #include "StandingThings.h"
 #include "WallThings.h"
@@ -56,12 +57,13 @@ class WorldMaker {
     world_.bodies = building_.bodies;
     world_.obstacles = building_.obstacles;
     for (std::size_t i = 0; i < plan_.furniture.size(); ++i) add(plan_.furniture[i], i);
-    for (std::size_t i = 0; i < plan_.objects.size(); ++i) add(plan_.objects[i], i);
+    addObjects();
     for (const SignPlan& sign : plan_.signs) add(sign);
     for (const MarkerPlan& marker : plan_.markers) add(marker);
     for (std::size_t i = 0; i < plan_.posters.size(); ++i) add(plan_.posters[i], i);
     for (const LandmarkPlan& landmark : plan_.landmarks) add(landmark);
     for (const PersonSpec& person : plan_.people) add(person);
+    moveByHand(plan_, floor_, std::move(carried_), world_);
     validate(world_);
     return std::move(world_);
   }
@@ -75,28 +77,33 @@ class WorldMaker {
     const geometry::Se3 map_from_body = floor_.put(sized, shape->follows_slope);
     world_.bodies.push_back(
         makeFurniture(sized, *shape, Track(map_from_body), Random(plan_.seed, {kFurnitureStream, number})));
-    floor_.addSupports(world_.bodies.back());
+    floor_.addFurnitureTops(world_.bodies.back());
     if (sized.z < kRobotHeight)
       world_.obstacles.push_back(rectangle({sized.x, sized.y}, sized.length, sized.width, sized.yaw));
   }
 
-  void add(const ObjectPlan& plan, std::size_t number) {
-    ObjectSpec spec;
-    spec.name = plan.name;
-    spec.shape = plan.shape;
-    spec.seed = seedOfObject(plan_.seed, number);
-    spec.moveable = plan.moveable;
-    if (plan.length > 0 || plan.width > 0 || plan.height > 0) {
-      if (!(plan.length > 0 && plan.width > 0 && plan.height > 0))
-        refuse(plan_, plan.name, "length_m", "give all of length_m, width_m and height_m, or none");
-      spec.size = Vector3d(plan.length, plan.width, plan.height);
+  void addObjects() {
+    std::vector<MadeObject> made = placeObjects(plan_, floor_);
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      PlacePlan first = plan_.objects[i].place;
+      const Vector3d& stands = made[i].body.track.places().front().map_from_body->translation;
+      first.x = stands.x(), first.y = stands.y();  // which differ if it is slid against another object
+      blockFloor(first, plan_.objects[i].moves, reachOf(made[i].body));
+      made[i].object.stands = standsOf(plan_.objects[i]);
+      world_.bodies.push_back(std::move(made[i].body));
+      world_.objects.push_back(std::move(made[i].object));
     }
-    MadeObject made = makeOrRefuse(plan.name, "class", [&] { return makeObject(spec); });
-    const Vector3d extents = reachOf(made.body);
-    made.body.track = floor_.trackOf(plan.name, plan.place, plan.moves, extents);
-    blockFloor(plan.place, plan.moves, extents);
-    world_.bodies.push_back(std::move(made.body));
-    world_.objects.push_back(std::move(made.object));
+  }
+
+  std::vector<Object::Stand> standsOf(const ObjectPlan& object) const {
+    const auto nameOf = [&](const PlacePlan& place) {
+      if (!place.on.empty()) return place.on;
+      return building_.rooms[static_cast<std::size_t>(*roomAt(building_.rooms, {place.x, place.y}))].name + "/floor";
+    };
+    std::vector<Object::Stand> stands{{0, nameOf(object.place)}};
+    for (const MovePlan& move : object.moves)
+      stands.push_back({move.time, move.place ? nameOf(*move.place) : move.person});
+    return stands;
   }
 
   // Robots plan one path for the whole run, so they keep away from places where something stands at any time.
@@ -176,7 +183,7 @@ class WorldMaker {
   // The track of a marker in a frame on a foot: it is upright and faces -y of the place.
   Track standing(const MarkerPlan& plan, const Vector3d& plate) {
     const Vector3d extents(plate.x(), kFootDepth, plate.y());
-    const Track foot = floor_.trackOf(plan.name, plan.place, plan.moves, extents);
+    const Track foot = floor_.trackOf({plan.name, plan.place, plan.moves, boxSpace(extents)});
     blockFloor(plan.place, plan.moves, extents);
     const geometry::Se3 foot_from_marker{Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX())),
                                          {0, -kFootDepth / 2 + kMarkerThickness, plate.y() / 2}};
@@ -220,7 +227,10 @@ class WorldMaker {
       if (!target) refuse(plan_, person.name, "pointing", "nothing is called '" + act.target + "' at that time");
       act.target_in_map = *target;
     }
-    MadePerson made = makeOrRefuse(person.name, "path", [&] { return makePerson(person); });
+    person.carryings = carryingsOf(plan_, person.name, world_);
+    const char* const key = person.carryings.empty() ? "path" : "path or carrying";
+    MadePerson made = makeOrRefuse(person.name, key, [&] { return makePerson(person); });
+    for (auto& carried : made.carried) carried_.push_back(std::move(carried));
     for (Body& body : made.bodies) world_.bodies.push_back(std::move(body));
     world_.people.push_back(std::move(made.person));
   }
@@ -241,6 +251,7 @@ class WorldMaker {
   Building building_;
   WallSpace walls_;
   StandingSpace floor_;
+  std::vector<MadePerson::Carried> carried_;
   World world_;
 };
 
@@ -253,7 +264,8 @@ std::uint64_t seedOfObject(std::uint64_t world_seed, std::size_t number) {
 World makeWorld(const WorldPlan& plan) {
   refuseTwins(plan);
   refuseHugePlaces(plan);
-  return WorldMaker(plan).make();
+  const WorldPlan moved = withMovesByHand(plan);
+  return WorldMaker(moved).make();
 }
 
 }  // namespace omnimapper::sim

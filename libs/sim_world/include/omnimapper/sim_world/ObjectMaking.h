@@ -23,10 +23,20 @@ struct ObjectSpec {
   bool moveable = false;
 };
 
+/// A level area of an object on which others can stand.
+struct LevelTop {
+  std::vector<Eigen::Vector2d> outline_in_body;  ///< convex, counter-clockwise [m]
+  double z = 0;                                  ///< height above the object's lowest point [m]
+};
+
 struct MadeObject {
   Body body;
   Object object;
+  std::optional<LevelTop> top;  ///< none: nothing can stand on it
 };
+
+/// The shapes that have a level top, sorted: "book", "box", ...
+const std::vector<std::string>& carryingShapes();
 
 /// An object that stands on z = 0 of its body. Its axis, or its middle if it has no axis, is on the z axis of the body;
 /// its front, if it has one, faces -y. Surfaces: "<name>", and "<name>/<part>" for parts of other colours; none has a

@@ -18,6 +18,14 @@ struct PersonSpec {
     Eigen::Vector2d in_map;  ///< [m]
     double time = 0;         ///< [s]
   };
+  /// An object that the person takes where it stands, carries and puts down.
+  struct Carrying {
+    double begin = 0, end = 0;  ///< time at which the hands take it, and time at which they let it go [s]
+    std::string object;
+    geometry::Se3 map_from_object_before, map_from_object_after;  ///< where it stands upright before and after
+    std::vector<Eigen::Vector2d> outline_in_object;  ///< convex, seen from above, with the origin inside [m]
+    double height = 0;                               ///< of the object [m]
+  };
   std::string name;                    ///< bodies and their surfaces are called "<name>/head", ...
   double height = 1.72;                ///< [m]
   double floor_z = 0;                  ///< [m]
@@ -25,6 +33,9 @@ struct PersonSpec {
   std::uint64_t seed = 0;              ///< determines clothes, skin and hair
   std::vector<Waypoint> waypoints;     ///< in order of time, at least one
   std::vector<Person::Pointing> acts;  ///< in order of time; the person must stand then
+  /// In order of time; the person must stand while it takes an object or puts it down, and neither points nor carries
+  /// anything else meanwhile.
+  std::vector<Carrying> carryings = {};
 };
 
 struct MadePerson {
@@ -33,9 +44,15 @@ struct MadePerson {
   /// with its track at 20 Hz, exact at multiples of 0.05 s; of equal places in a row, only the first and the last are
   /// kept.
   std::vector<Body> bodies;
+  /// The poses of a carried object, from where it stood at the begin of the carrying to where it stands at its end.
+  struct Carried {
+    std::string object;
+    std::vector<Track::Place> places;
+  };
+  std::vector<Carried> carried = {};
 };
 
-/// A person who walks, stands and points.
+/// A person who walks, stands, points and carries objects.
 ///
 /// Lengths of limbs are parts of the height after Drillis and Contini (1966; in Winter: Biomechanics and Motor Control
 /// of Human Movement). The legs are chains whose joint angles follow from the footprints (inverse kinematics): a
@@ -50,9 +67,14 @@ struct MadePerson {
 /// (This holds for targets 1.5 to 2.5 m away, 0.2 to 1.5 m above the floor.) The sensor SkeletonTracker adds the errors
 /// of people and of skeleton trackers. A person turns before pointing if the target is out of the arm's reach.
 ///
+/// Carrying: the person turns to the object, bends down as far as the arms need, grips it on its right side or, if it
+/// is wider than 0.17 m, on both sides, and lifts it within 1 s to where it is carried upright, before the chest with
+/// bent elbows.
+///
 /// Throws base::Error(out_of_range) for a height outside [0.8, 2.3] m, times that do not increase, a speed above 2.5
 /// m/s, an act of pointing while the person walks or that overlaps another act, more than 7200 s from the first time to
-/// the last, and a target nearer than 0.6 m to the head.
+/// the last, a target nearer than 0.6 m to the head, and an object that is out of reach or is taken or
+/// put down while the person walks.
 MadePerson makePerson(const PersonSpec& spec);
 
 /// Waypoints along a line at constant speed [m/s] from time `begin` on [s]. Throws std::invalid_argument unless speed >

@@ -54,6 +54,13 @@ struct Object {
   std::string name;   ///< of its body
   std::string shape;  ///< "cup", "box", ...
   bool moveable = false;
+  /// What it stands on from a time on: a surface ("table_1/top", "kitchen/floor", "box_1/top"), the person who carries
+  /// it by hand, or nothing while it is away.
+  struct Stand {
+    double from = 0;  ///< [s]
+    std::string on;
+  };
+  std::vector<Stand> stands = {};
 };
 
 /// A person: several bodies that move, and the joints a skeleton tracker would see.

@@ -47,13 +47,14 @@ struct OpeningPlan {
 struct PlacePlan {
   double x = 0, y = 0;  ///< [m]
   double yaw = 0;       ///< [rad]
-  std::string on;       ///< the level surface it stands on, "table_1/top"; empty: the floor
+  std::string on;       ///< the level surface it stands on, "table_1/top" or "box_1/top"; empty: the floor
 };
 
 /// A move of an object or marker at `time`: to another place or out of the world.
 struct MovePlan {
   double time = 0;  ///< [s]
   std::optional<PlacePlan> place;
+  std::string person = {};  ///< the person who carries it by hand; empty: it is there at once
 };
 
 /// Frame: origin in the middle of its outline on the floor, x along its length, the front faces -y.
@@ -73,6 +74,7 @@ struct ObjectPlan {
   PlacePlan place;
   double length = 0, width = 0, height = 0;  ///< all 0: as is usual [m]
   bool moveable = true;
+  std::string touching;         ///< object of the same support that it is slid against at the start; empty: none
   std::vector<MovePlan> moves;  ///< in order
 };
 
@@ -117,6 +119,14 @@ struct LandmarkPlan {
   double x = 0, y = 0, z = 0;  ///< [m]
 };
 
+/// An object that a person takes by hand, carries and puts down.
+struct CarryPlan {
+  std::string person;         ///< section of the person
+  double begin = 0, end = 0;  ///< times at which it is taken and put down [s]
+  std::string object;
+  PlacePlan to;
+};
+
 /// A person who accompanies the robot. The path of such a person follows from the drive of the robot, which is planned
 /// first.
 struct CompanionPlan {
@@ -150,6 +160,7 @@ struct WorldPlan {
   std::vector<MarkerPlan> markers;
   std::vector<LandmarkPlan> landmarks;
   std::vector<PersonSpec> people;         ///< a target that has a name needs no position; its position is looked up
+  std::vector<CarryPlan> carryings;       ///< by people of these
   std::vector<CompanionPlan> companions;  ///< makeWorld() only checks their names, since they need the robot's drive
 };
 
