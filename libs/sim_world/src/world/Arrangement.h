@@ -57,6 +57,9 @@ class Arrangement {
   void objectsOn(std::size_t piece, const std::string& part, int count, const std::vector<std::string>& shapes);
   /// Lets a share of the objects be carried to other surfaces at the options' move_time.
   void carryObjects(double share);
+  /// Puts groups of objects on the surfaces given to objectsOn() and on further boards of shelves: single ones, thin
+  /// ones among them, pairs that touch, and stacks. To be called after everything else.
+  void crowdSurfaces(double per_square_metre);
   /// A free place for an item with these extents on one of the surfaces given to objectsOn(), in rooms whose names
   /// begin with `rooms`; it is taken from then on.
   std::optional<PlacePlan> freePlace(const std::string& rooms, const Eigen::Vector2d& reach);
@@ -103,6 +106,8 @@ class Arrangement {
   std::optional<PlacePlan> freePlace(Top& top, const Eigen::Vector2d& reach);
   /// The level surface of a piece on which objects are put; it is added if it has not been used yet.
   Top& topOf(const FurniturePlan& piece, const std::string& part);
+  /// Puts one group of objects on a surface if there is room for it.
+  void crowd(Top& top);
 
   WorldOptions options_;
   Building building_;

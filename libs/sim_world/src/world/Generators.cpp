@@ -57,6 +57,8 @@ WorldPlan generate(const WorldOptions& options, const std::string& file_for_mess
     place.repeatSigns(options.repeated_signs);
     if (options.exit_signs) place.exitSigns();
     place.announcements(options.announcements);
+    static const double groups[] = {0, 2, 5, 10};  // per square metre
+    place.crowdSurfaces(groups[static_cast<int>(options.object_clutter)]);
     return std::move(place.plan);
   }
   const std::string near = base::nearestName(options.generator, generatorNames());

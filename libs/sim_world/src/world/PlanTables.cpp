@@ -59,6 +59,15 @@ const OptionTable<WorldOptions>& WorldOptions::table() {
           .choice("clutter", &WorldOptions::clutter,
                   {{"low", ClutterLevel::low}, {"medium", ClutterLevel::medium}, {"high", ClutterLevel::high}},
                   "Amount of clutter that stands about in a generated place.")
+          .choice(
+              "object_clutter", &WorldOptions::object_clutter,
+              {{"none", ObjectClutter::none},
+               {"low", ObjectClutter::low},
+               {"medium", ObjectClutter::medium},
+               {"high", ObjectClutter::high}},
+              "Additional objects on tables, counters and shelves of a generated place: some 2, 5 or 10 groups on a "
+              "square metre, as far as there is room. Thin objects, pairs that touch and stacks are among them. "
+              "They change nothing else.")
           .number("length_m", &WorldOptions::length, {24, 1000},
                   "Length of a generated loop along the middle of its corridor.")
           .number("move_time_s", &WorldOptions::move_time, kAnywhere,

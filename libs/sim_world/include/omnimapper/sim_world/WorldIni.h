@@ -11,6 +11,7 @@
 namespace omnimapper::sim {
 
 enum class ClutterLevel { low, medium, high };
+enum class ObjectClutter { none, low, medium, high };
 
 /// People who accompany the robot without sections of their own.
 enum class CompanionGroup {
@@ -27,6 +28,7 @@ struct WorldOptions {
   int plan_seed = 0;               ///< seed of the rooms and openings that the generator makes; 0: its fixed plan
   std::string generator = "none";  ///< one of generatorNames()
   ClutterLevel clutter = ClutterLevel::medium;
+  ObjectClutter object_clutter = ObjectClutter::none;
   double length = 200;    ///< of a loop of corridor, along its middle [m]
   double move_time = 90;  ///< time at which moveable objects are carried elsewhere; negative: never [s]
   double wear = 0;  ///< standard deviation of the brightness of static surfaces, divided by its mean; see World::wear
