@@ -26,6 +26,7 @@ int report(const Arguments& arguments, const Result& result, const Reference&...
 int run(const std::string& verb, const Arguments& arguments) {
   if (verb == "map") return judgeMap(arguments);
   if (verb == "views") return judgeByViews(arguments);
+  if (verb == "seen") return countSeen(arguments);
   const auto estimate = eval::readTrajectory(arguments.estimate);
   const auto tolerance = base::durationFromSeconds(arguments.tolerance);
   if (verb == "relations") {

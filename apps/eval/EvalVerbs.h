@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "program/Program.h"
+
 namespace omnimapper::evaluation {
 
 struct Arguments {
@@ -11,16 +13,21 @@ struct Arguments {
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
   std::string alignment = "none", unit = "frames";
   double delta = 1;
-  std::string log;          // log that the verb "views" reads
-  std::size_t views = 200;  // largest number of depth images that the verb "views" uses
+  std::string log;                // log that the verb "views" reads
+  std::size_t views = 200;        // largest number of depth images that the verb "views" uses
+  int pixels = 300, images = 20;  // of an object, in the verb "seen"
+  double distance = 0;            // of an object, in the verb "seen"; 0: any [m]
 };
 
-/// Runs the verb (ate, rpe, relations, map or views), prints and writes its result, and returns the exit code.
+/// Runs the verb (ate, rpe, relations, map, views or seen), prints and writes its result, and returns the exit code.
 int run(const std::string& verb, const Arguments& arguments);
 
 /// The verb map: compares the surfaces of a map with the true ones.
 int judgeMap(const Arguments& arguments);
 /// The verb views: compares the surfaces of a map with the depth images of a log.
 int judgeByViews(const Arguments& arguments);
+/// The verb seen: counts the images of a simulated log that show each object.
+void addSeen(CLI::App& app, Arguments& arguments);
+int countSeen(const Arguments& arguments);
 
 }  // namespace omnimapper::evaluation

@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
       "  omnimapper-graphslam -i rgbd_planes.ini -r cabinet.rawlog -o out/cabinet\n"
       "  omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum -o out/views\n"
       "With the map's own poses: omnimapper-eval views out/map LOG out/map/trajectory.tum");
+  evaluation::addSeen(app, arguments);
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -88,6 +89,7 @@ int main(int argc, char** argv) {
       "  omnimapper-eval relations out/trajectory.tum aces.relations\n"
       "  omnimapper-eval map out/map out/home -o out/quality\n"
       "  omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum -o out/views\n"
+      "  omnimapper-eval seen out/home\n"
       "Options of one verb: omnimapper-eval ate --help. Exit codes: doc/exit_codes.md.");
   return program::run(app, argc, argv, [&] {
     if (map->parsed() || views->parsed()) arguments.alignment = map_alignment;

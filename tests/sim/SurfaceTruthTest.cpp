@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "CameraFixture.h"
+#include "MeshFile.h"
 #include "SurfaceTruth.h"
 
 namespace surface_truth_test {

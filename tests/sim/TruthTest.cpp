@@ -98,6 +98,44 @@ TEST_P(Truth, idealDepthLiesOnThePlanesThatTheLabelImageNames) {
   EXPECT_GT(on_planes, 0.6 * static_cast<double>(pixels));
 }
 
+TEST_P(Truth, objectsAreCountedAsTheLabelImageShowsThem) {
+  const sim::Sensor& camera = sensor("camera");
+  const sim::World& world = simulation_.world();
+  const auto refs = sim::numberSurfaces(world);
+  int images_with_objects = 0;
+  for (int k = 0; k < camera.count(); k += std::max(1, camera.count() / 10)) {
+    const auto measurement = camera.measure(k);
+    const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*measurement.observation);
+    const auto labels = labelsOf(measurement);
+    std::map<std::string, int> pixels, with_depth;
+    std::map<std::string, std::pair<int, int>> columns;
+    for (int row = 0; row < 240; ++row) {
+      for (int column = 0; column < 320; ++column) {
+        const int label = labels.ptrLine<std::uint16_t>(static_cast<unsigned>(row))[column];
+        if (label == 0) continue;
+        const std::string& body =
+            world.bodies[static_cast<std::size_t>(refs[static_cast<std::size_t>(label - 1)].body)].name;
+        ++pixels[body];
+        with_depth[body] += scan.rangeImage(row, column) > 0 ? 1 : 0;
+        auto& range = columns.try_emplace(body, column, column).first->second;
+        range = {std::min(range.first, column), std::max(range.second, column)};
+      }
+    }
+    std::size_t expected = 0;
+    for (const auto& object : world.objects) expected += pixels.count(object.name);
+    EXPECT_EQ(measurement.objects.size(), expected) << k;
+    for (const auto& view : measurement.objects) {
+      const std::string& name = world.objects[static_cast<std::size_t>(view.object)].name;
+      EXPECT_EQ(view.pixels, pixels[name]) << name;
+      EXPECT_EQ(view.with_depth, with_depth[name]) << name;
+      EXPECT_EQ(std::make_pair(view.left, view.right), columns[name]) << name;
+      EXPECT_GT(view.distance, 0.1) << name;
+    }
+    images_with_objects += expected > 0 ? 1 : 0;
+  }
+  EXPECT_TRUE(world.objects.empty() || images_with_objects > 0);
+}
+
 TEST_P(Truth, idealBeamsEndOnTheSurfacesThatTheTruthNames) {
   const sim::Sensor& laser = sensor("laser");
   std::size_t on_planes = 0, beams = 0;

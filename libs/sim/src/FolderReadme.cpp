@@ -33,6 +33,12 @@ std::string meaningOf(const std::string& file, const std::string& name) {
   if (file == "signs_seen.csv")
     return "a line for each sign in each picture: its corners in pixels, the height of its capitals, the angle at "
            "which it is seen, how much of it is visible and whether it is legible";
+  if (file == "objects.csv")
+    return "a line for each object and each of its places: shape, extents, what it stands on, pose in the map, mesh";
+  if (file == "objects_seen.csv")
+    return "a line for each object in each image of a camera: the number of pixels that show it, those with a depth, "
+           "the rectangle around them and their distance; `omnimapper-eval seen` counts them";
+  if (file == "objects/") return "the mesh of each object in its own frame";
   if (file == "plan.svg") return "the world from above, with the robot's path";
   if (file == "README.md") return "this page";
   if (ends(".png"))

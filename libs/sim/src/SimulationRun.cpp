@@ -18,6 +18,8 @@
 
 #include "FolderReadme.h"
 #include "LogWriter.h"
+#include "MeshFile.h"
+#include "ObjectTruth.h"
 #include "Pictures.h"
 #include "SignTruth.h"
 #include "SurfaceTruth.h"
@@ -137,7 +139,7 @@ void removeImages(const std::string& folder, const std::vector<std::string>& ste
 
 void writeLog(const Simulation& simulation, const SimulationRequest& request, const std::string& folder,
               base::Progress& progress, const std::function<bool()>& stop, TruthFolder& truth, SurfaceTruth& surfaces,
-              SignTruth& signs, std::set<base::Stamp>& stamps, SimulationResult& result) {
+              SignTruth& signs, ObjectTruth& objects, std::set<base::Stamp>& stamps, SimulationResult& result) {
   const auto arrivals = arrivalsOf(simulation, result.sensors);
   const std::string images = folder + "/" + request.name + "_Images";
   const bool is_external = simulation.options().images == SimulationOptions::Images::external;
@@ -174,6 +176,7 @@ void writeLog(const Simulation& simulation, const SimulationRequest& request, co
           truth.add(sensor, arrival.k, measurement);
           surfaces.add(measurement.seen, sensor.timeOf(arrival.k));
           signs.add(sensor, arrival.k, measurement.signs);
+          objects.add(sensor, arrival.k, measurement.objects);
           stamps.insert(measurement.observation->timestamp);
           progress.report(arrival.time / simulation.duration(), "simulating " + request.name);
         }
@@ -216,7 +219,8 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   std::set<base::Stamp> stamps;
   SurfaceTruth surfaces(simulation.world());
   SignTruth signs(simulation);
-  writeLog(simulation, request, folder, progress, stop, truth, surfaces, signs, stamps, result);
+  ObjectTruth objects(simulation);
+  writeLog(simulation, request, folder, progress, stop, truth, surfaces, signs, objects, stamps, result);
   truth.close();
   result.travel = travelOf(simulation.mapFromBase(), result.duration);
   result.files = {request.name + ".rawlog", "truth.tum", "landmarks.json", "surfaces.json", "world.ply", "plan.svg",
@@ -228,6 +232,7 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
     writeText(folder + "/signs_seen.csv", signs.table());
     result.signs = signs.counter();
   }
+  for (const auto& file : objects.write(folder)) result.files.push_back(file);
   for (const auto& file : truth.files()) result.files.push_back(file);
   for (const auto& file : drawPictures(simulation, folder)) result.files.push_back(file);
   result.files.push_back("README.md");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 
 namespace omnimapper::sim {
@@ -13,13 +12,6 @@ namespace {
 
 constexpr double kCell = 0.05;      // [m]
 constexpr double kOnPlane = 0.001;  // [m] distance of a point from its plane; points are in single precision
-
-template <class Number>
-void put(std::ostream& out, Number number) {
-  char bytes[sizeof(Number)];
-  std::copy_n(reinterpret_cast<const char*>(&number), sizeof number, bytes);
-  out.write(bytes, sizeof bytes);
-}
 
 std::vector<Eigen::Vector3d> moved(std::vector<Eigen::Vector3d> walk, const geometry::Se3& map_from_body) {
   for (auto& point : walk) point = map_from_body * point;
@@ -82,42 +74,6 @@ surfaces::SurfaceSet SurfaceTruth::surfaces(const std::string& title) const {
     surface.is_moved = !body.track.isFixed();
   }
   return set;
-}
-
-void writeMesh(std::ostream& out, const World& world) {
-  std::size_t vertices = 0, faces = 0;
-  for (const Body& body : world.bodies) {
-    if (!body.track.at(0)) continue;
-    vertices += body.vertices_in_body.size();
-    faces += body.triangles.size();
-  }
-  out << "ply\nformat binary_little_endian 1.0\ncomment frame: map, z up; metres\n";
-  const auto& classes = surfaces::allSurfaceClasses();
-  for (std::size_t i = 0; i < classes.size(); ++i) out << "comment class " << i << ": " << toString(classes[i]) << "\n";
-  out << "element vertex " << vertices << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
-      << faces << "\nproperty list uchar int vertex_indices\nproperty int surface\nproperty uchar class\nend_header\n";
-  for (const Body& body : world.bodies) {
-    const auto map_from_body = body.track.at(0);
-    if (!map_from_body) continue;
-    for (const auto& vertex : body.vertices_in_body) {
-      const Eigen::Vector3f in_map = (*map_from_body * vertex).cast<float>();
-      for (int i = 0; i < 3; ++i) put(out, in_map[i]);
-    }
-  }
-  int first_vertex = 0, first_surface = 1;
-  for (const Body& body : world.bodies) {
-    if (body.track.at(0)) {
-      for (const Triangle& triangle : body.triangles) {
-        put(out, std::uint8_t{3});
-        for (const int corner : triangle.corners) put(out, std::int32_t{first_vertex + corner});
-        put(out, std::int32_t{first_surface + triangle.surface});
-        const auto is = body.surfaces[static_cast<std::size_t>(triangle.surface)].is;
-        put(out, static_cast<std::uint8_t>(std::find(classes.begin(), classes.end(), is) - classes.begin()));
-      }
-      first_vertex += static_cast<int>(body.vertices_in_body.size());
-    }
-    first_surface += static_cast<int>(body.surfaces.size());
-  }
 }
 
 }  // namespace omnimapper::sim

@@ -4,13 +4,12 @@
 #include <omnimapper/sim_world/Patches.h>
 #include <omnimapper/surfaces/SurfaceSet.h>
 
-#include <ostream>
 #include <string>
 #include <vector>
 
 namespace omnimapper::sim {
 
-/// The true surfaces of a world with the parts that the measurements of a log show: surfaces.json and world.ply.
+/// The true surfaces of a world with the parts that the measurements of a log show: surfaces.json.
 class SurfaceTruth {
  public:
   /// `world` must outlive it.
@@ -30,9 +29,5 @@ class SurfaceTruth {
   std::vector<std::vector<std::size_t>> patch_of_;  // indices of the patches of each surface, by its number
   std::vector<int> body_of_;                        // index of the body of each surface, by its number
 };
-
-/// Writes all triangles at time 0 as a binary PLY, in the map [m]. "surface" of a face is its label in landmarks.json,
-/// "class" the index of its class in surfaces::allSurfaceClasses(), which comments in the file list.
-void writeMesh(std::ostream& out, const World& world);
 
 }  // namespace omnimapper::sim

@@ -58,7 +58,8 @@ ColourCamera::ColourCamera(const ColourCameraOptions& options, const SensorOptio
     : Sensor(mount, context),
       options_of_camera_(options),
       camera_(Pinhole::centred(options.width, options.height, options.focal * options.width / 640.0)),
-      shader_(*context.world, *context.scenes) {}
+      shader_(*context.world, *context.scenes),
+      objects_(*context.world) {}
 
 ColourCamera::Angles ColourCamera::anglesAt(double time) const {
   const ColourCameraOptions& o = options_of_camera_;
@@ -114,6 +115,7 @@ Measurement ColourCamera::measure(int k) const {
   truth.update(facesInView(*context().world, *context().scenes, scene, view, signs));
   Measurement measurement{picture, truth.dump(), {}};
   measurement.signs = signs;
+  measurement.objects = objects_.find(frame, [](int, int) { return false; });
   if (o.labels) {
     measurement.truth_files.push_back(
         {frameName("labels", label(), k),

@@ -2,6 +2,7 @@
 
 #include <omnimapper/sim/Sensor.h>
 
+#include "../camera/ObjectsInFrame.h"
 #include "../camera/Photograph.h"
 #include "../camera/Shader.h"
 
@@ -36,6 +37,7 @@ class ColourCamera : public Sensor {
   ColourCamera(const ColourCameraOptions& options, const SensorOptions& mount, const SensorContext& context);
   Measurement measure(int k) const override;
   std::optional<CameraView> pictureView(int k) const override;
+  bool isCamera() const override { return true; }
   std::size_t sizeOfMeasurement() const override;
 
  private:
@@ -49,6 +51,7 @@ class ColourCamera : public Sensor {
   ColourCameraOptions options_of_camera_;
   Pinhole camera_;
   Shader shader_;
+  ObjectsInFrame objects_;
 };
 
 }  // namespace omnimapper::sim

@@ -34,6 +34,7 @@ RgbdCamera::RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, c
       options_of_camera_(options),
       settings_(settle(options, context.place())),
       shader_(*context.world, *context.scenes),
+      objects_(*context.world),
       sensor_from_colour_{Eigen::Quaterniond::Identity(), {0, -settings_.colour_right, 0}},
       hands_out_colour_view_(options.registered && !settings_.coincide) {}
 
@@ -56,7 +57,8 @@ RgbdCamera::Pictures RgbdCamera::cast(double time) const {
     pictures.colour = castFrame(scenes, at_once ? scene : scenes.at(colour_time), settings_.colour_camera,
                                 mapFromColour(colour_time));
   }
-  const bool wanted = settings_.exact || options_of_camera_.labels || options_of_camera_.true_depth;
+  const bool wanted = settings_.exact || options_of_camera_.labels || options_of_camera_.true_depth ||
+                      !context().world->objects.empty();
   if (hands_out_colour_view_ && wanted && !(options_of_camera_.colour && at_once))
     pictures.handed_out = castFrame(scenes, scene, settings_.colour_camera, mapFromColour(time));
   return pictures;
@@ -170,6 +172,7 @@ Measurement RgbdCamera::measure(int k) const {
   truth["map_from_sensor"] = poseJson(mapFromSensor(pictures.time) * sensor_from_handed_out);
   Measurement measurement{scan, truth.dump(), {}};
   measurement.signs = std::move(signs);
+  measurement.objects = objects_.find(exact, [&](int column, int row) { return scan->rangeImage(row, column) != 0; });
   measurement.seen = seenPoints(settings_.exact ? exact : pictures.depth, depths);
   const Pinhole& camera = exact.camera;
   if (options_of_camera_.labels) {

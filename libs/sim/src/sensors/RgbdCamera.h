@@ -2,6 +2,7 @@
 
 #include <omnimapper/sim/Sensor.h>
 
+#include "../camera/ObjectsInFrame.h"
 #include "../camera/Shader.h"
 #include "RgbdOptions.h"
 
@@ -16,6 +17,7 @@ class RgbdCamera : public Sensor {
   RgbdCamera(const RgbdOptions& options, const SensorOptions& mount, const SensorContext& context);
   Measurement measure(int k) const override;
   std::optional<CameraView> pictureView(int k) const override;
+  bool isCamera() const override { return true; }
   std::size_t sizeOfMeasurement() const override;
 
  private:
@@ -32,6 +34,7 @@ class RgbdCamera : public Sensor {
   RgbdOptions options_of_camera_;
   RgbdSettings settings_;
   Shader shader_;
+  ObjectsInFrame objects_;
   geometry::Se3 sensor_from_colour_;  // both look along x
   /// From the depth camera's optical frame to the colour camera's.
   Eigen::Vector3d depthToColour() const { return {-settings_.colour_right, 0, 0}; }

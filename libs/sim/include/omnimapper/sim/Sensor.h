@@ -3,6 +3,7 @@
 #include <mrpt/obs/CObservation.h>
 #include <omnimapper/base/Config.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/sim/ObjectView.h>
 #include <omnimapper/sim/SignView.h>
 #include <omnimapper/sim_world/Random.h>
 #include <omnimapper/sim_world/Scene.h>
@@ -68,6 +69,8 @@ struct Measurement {
   std::vector<TruthFile> truth_files;
   std::vector<VisiblePoint> seen = {};
   std::vector<SignView> signs = {};  ///< the signs in the picture, if the observation has a picture
+  /// The objects in the image of a camera, with depth in the range image.
+  std::vector<ObjectView> objects = {};
   /// Lines for truth/<label>_bodies.csv, the beams that ended on people; none: the sensor has no such file.
   std::optional<std::string> body_rows = {};
 };
@@ -93,6 +96,8 @@ class Sensor {
   virtual Measurement measure(int k) const = 0;
   /// The view of the colour picture of measurement k; none if the sensor takes no pictures.
   virtual std::optional<CameraView> pictureView(int /*k*/) const { return {}; }
+  /// Whether its measurements are images, which show objects.
+  virtual bool isCamera() const { return false; }
   /// Approximate size of a measurement in memory [bytes].
   virtual std::size_t sizeOfMeasurement() const { return 16 << 10; }
 
