@@ -27,6 +27,8 @@ Se3 moved(double x, double y, double yaw) {
   return {Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ())), {x, y, 0}};
 }
 
+using Factory = mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>;
+
 /// A run whose key frames are added by hand, one each second.
 class ViewLinks : public ::testing::Test {
  protected:
@@ -218,7 +220,7 @@ TEST(ViewLinksOptions, nameASectionThatIsThere) {
   context.config_text = "[view_links]\nclass = ViewLinksPlugin\nodometry = nothing\n";
   const auto config = base::Config::fromText(context.config_text, "test.ini");
   try {
-    mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>().make(config.section("view_links"), context);
+    Factory().make(config.section("view_links"), context);
     FAIL() << "a section that is not there was taken";
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("[nothing]"), std::string::npos) << error.what();
@@ -230,8 +232,7 @@ TEST(ViewLinksOptions, nameAnOdometryOfACamera) {
   context.section = "view_links";
   context.config_text = "[view_links]\nodometry = wheels\n[wheels]\nclass = OdometryPlugin\n";
   const auto config = base::Config::fromText(context.config_text, "test.ini");
-  EXPECT_THROW(mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>().make(config.section("view_links"), context),
-               base::Error);
+  EXPECT_THROW(Factory().make(config.section("view_links"), context), base::Error);
 }
 
 TEST(ViewLinksOptions, takeDefaultsBesideAnotherOdometry) {
@@ -240,8 +241,7 @@ TEST(ViewLinksOptions, takeDefaultsBesideAnotherOdometry) {
   context.config_text =
       "[view_links]\nclass = ViewLinksPlugin\n[visual_odometry]\nclass = CloudOdometryPlugin\nsource = voxels\n";
   const auto config = base::Config::fromText(context.config_text, "test.ini");
-  EXPECT_NE(mapper::FactoryOf<ViewLinksPlugin, ViewLinksOptions>().make(config.section("view_links"), context),
-            nullptr);
+  EXPECT_NE(Factory().make(config.section("view_links"), context), nullptr);
 }
 
 }  // namespace
