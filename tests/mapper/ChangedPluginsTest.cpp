@@ -113,6 +113,40 @@ TEST(ChangedPlugins, otherSettingsMakeAPluginAnewAndTheRestIsNamed) {
   EXPECT_TRUE(differenceOf(now, now, {}, {}).isNone());
 }
 
+// View links take the options of the camera's matching from the section of its odometry.
+TEST(ChangedPlugins, aPluginThatReadsAChangedSectionIsMadeAnewToo) {
+  loadFeatures();
+  const auto before = base::Config::fromText(R"(
+[mapper]
+pose_plugins = camera
+measurement_plugins = links
+[camera]
+class = VisualOdometryPlugin
+[links]
+class = ViewLinksPlugin
+odometry = camera
+)",
+                                             "test.ini");
+  auto now = before;
+  now.set("camera.max_depth_m=3");
+  const auto difference = differenceOf(before, now, {}, {});
+  EXPECT_EQ(difference.sentence(), "gave other settings to camera, links");
+  EXPECT_EQ(difference.change.removed, (std::vector<std::string>{"camera", "links"}));
+}
+
+TEST(ChangedPlugins, aNewSectionThatNobodyReadsIsAnError) {
+  loadFeatures();
+  auto now = withWalls();
+  now.set("tirgger.distance_m=0.1");
+  try {
+    differenceOf(withWalls(), now, {}, {});
+    FAIL() << "a misspelt section was accepted";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("[tirgger] is not known"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("trigger"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ChangedPlugins, theLastPosePluginCannotGo) {
   const auto engine = testing::makeEngine(testing::kLaserIni);
   PluginChange change;

@@ -235,9 +235,18 @@ std::vector<std::string> Config::unreadSections() const {
 }
 
 void Config::refuseUnreadSections() const {
-  const std::vector<std::string> known(asked_.begin(), asked_.end());
+  refuseUnread(nullptr);
+}
+
+void Config::refuseUnreadSections(const Config& before) const {
+  refuseUnread(&before);
+}
+
+void Config::refuseUnread(const Config* before) const {
+  std::vector<std::string> known(asked_.begin(), asked_.end());
+  if (before != nullptr) known.insert(known.end(), before->asked_.begin(), before->asked_.end());
   for (const auto& section : unreadSections()) {
-    if (ini_.keyExists(section, "class")) continue;
+    if (ini_.keyExists(section, "class") || (before != nullptr && before->has(section))) continue;
     throw Error(ExitCode::unknown_key,
                 placeOf(section) + ": section [" + section + "] is not known" + suggestion(section, known));
   }

@@ -24,6 +24,7 @@ struct ViewLinksOptions {
   double overlap = 0.5;                      ///< smallest share of an older view that is still visible
   double loss_scale = 1;                     ///< [standard deviations] from which on a link counts less
 
+  std::vector<std::string> sectionsRead() const { return {odometry}; }
   static const base::OptionTable<ViewLinksOptions>& table();
 };
 

@@ -59,6 +59,16 @@ Names compare(const Names& before, const Names& now, const std::set<std::string>
   return to_make;
 }
 
+// Adds the plugins that read one of these sections beside their own.
+void addReaders(PluginKind kind, const Names& plugins, const base::Config& config, const Names& kept,
+                std::set<std::string>& changed) {
+  for (const auto& name : plugins) {
+    if (std::count(kept.begin(), kept.end(), name) > 0) continue;
+    for (const auto& read : factoryOfSection(kind, name, config)->sectionsReadBy(config.section(name)))
+      if (changed.count(read) > 0) changed.insert(name);
+  }
+}
+
 void append(std::string& text, const std::string& what, const Names& sections) {
   if (!sections.empty()) text += (text.empty() ? "" : "; ") + what + " " + base::option_text::format(sections);
 }
@@ -92,11 +102,6 @@ PluginDifference differenceOf(const base::Config& before, const base::Config& no
       difference.unused.push_back(each);
     }
   }
-  PluginSections to_make;
-  to_make.pose = compare(of_before.pose, of_now.pose, other_settings, difference);
-  to_make.extractors = compare(of_before.extractors, of_now.extractors, other_settings, difference);
-  to_make.measurement = compare(of_before.measurement, of_now.measurement, other_settings, difference);
-  to_make.output = compare(of_before.output, of_now.output, other_settings, difference);
   const auto libraries = [](const base::Config& config) {
     return config.section("mapper").read<EngineOptions>().plugin_libraries;
   };
@@ -104,8 +109,18 @@ PluginDifference differenceOf(const base::Config& before, const base::Config& no
     loadPluginLibraries(now);
     difference.change.layers = registeredKinds().layers;
   }
+  addReaders(PluginKind::pose, of_now.pose, now, kept, other_settings);
+  addReaders(PluginKind::extractor, of_now.extractors, now, kept, other_settings);
+  addReaders(PluginKind::measurement, of_now.measurement, now, kept, other_settings);
+  addReaders(PluginKind::output, of_now.output, now, kept, other_settings);
+  PluginSections to_make;
+  to_make.pose = compare(of_before.pose, of_now.pose, other_settings, difference);
+  to_make.extractors = compare(of_before.extractors, of_now.extractors, other_settings, difference);
+  to_make.measurement = compare(of_before.measurement, of_now.measurement, other_settings, difference);
+  to_make.output = compare(of_before.output, of_now.output, other_settings, difference);
   context.config_text = now.text();
   difference.change.added = makePlugins(to_make, now, context);
+  now.refuseUnreadSections(before);
   difference.change.removed = difference.removed;
   difference.change.removed.insert(difference.change.removed.end(), difference.renewed.begin(),
                                    difference.renewed.end());

@@ -118,21 +118,25 @@ void makeAll(const std::vector<std::string>& names, PluginKind kind, const base:
                                                           std::to_string(name.size()) + " bytes long; give it one of " +
                                                           "at most " + std::to_string(kLongest));
     }
-    if (!config.has(name)) failWithoutSection(name, kind, config);
-    const std::string place = config.placeOf(name, "class") + ": [" + name + "]";
-    const auto section = config.section(name);
-    std::string class_name;
-    if (!section.find("class", class_name)) {
-      throw base::Error(base::ExitCode::unknown_plugin,
-                        place + ": the section of " + withArticle(kind) + " needs a line 'class = ...'");
-    }
-    const auto factory = findFactory(kind, class_name, place + " class");
+    const auto factory = factoryOfSection(kind, name, config);
     context.section = name;
-    plugins.push_back({name, dynamic_cast<const Factory&>(*factory).make(section, context)});
+    plugins.push_back({name, dynamic_cast<const Factory&>(*factory).make(config.section(name), context)});
   }
 }
 
 }  // namespace
+
+std::shared_ptr<const PluginFactory> factoryOfSection(PluginKind kind, const std::string& name,
+                                                      const base::Config& config) {
+  if (!config.has(name)) failWithoutSection(name, kind, config);
+  const std::string place = config.placeOf(name, "class") + ": [" + name + "]";
+  std::string class_name;
+  if (!config.section(name).find("class", class_name)) {
+    throw base::Error(base::ExitCode::unknown_plugin,
+                      place + ": the section of " + withArticle(kind) + " needs a line 'class = ...'");
+  }
+  return findFactory(kind, class_name, place + " class");
+}
 
 PluginSet makePlugins(const PluginSections& sections, const base::Config& config, PluginContext context) {
   PluginSet set;

@@ -19,6 +19,10 @@ Kinds registeredKinds();
 /// the class is not available. `place`: where the INI names the class, for the message.
 std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place);
 
+/// The factory of the class that the section `name` names. Throws as makePlugins().
+std::shared_ptr<const PluginFactory> factoryOfSection(PluginKind kind, const std::string& name,
+                                                      const base::Config& config);
+
 /// Loads a shared library that registers factories (mrpt::system::loadPluginModule). Throws Error(plugin_library).
 void loadPluginLibrary(const std::string& path);
 /// Loads the libraries that [mapper] plugin_libraries of an INI names. Throws as loadPluginLibrary() and

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::mapper {
@@ -17,10 +18,17 @@ using AbstractFactoryOf =
                                           std::conditional_t<std::is_base_of_v<OutputPlugin, Made>, OutputPluginFactory,
                                                              ExtractorFactory>>>;
 
+/// Whether a struct of options says which other sections of the INI the plugin reads (sectionsRead()).
+template <class Struct, class = void>
+constexpr bool kReadsSections = false;
+template <class Struct>
+constexpr bool kReadsSections<Struct, std::void_t<decltype(std::declval<Struct>().sectionsRead())>> = true;
+
 /// The factory of a plugin class, by which an INI can name it. The constructor of `Made` takes one or more structs of
 /// options, and after them, if it must know the run, the context: `Made(const Structs&..., const PluginContext&)`. Its
 /// section of the INI has the keys of all these structs, in that order. `Made` has two constants: kName is the name
-/// after "class =" in an INI, and kSummary is one sentence for --list-plugins.
+/// after "class =" in an INI, and kSummary is one sentence for --list-plugins. A struct with a
+/// function sectionsRead() names the sections that the plugin reads beside its own.
 template <class Made, class... Structs>
 class FactoryOf : public AbstractFactoryOf<Made> {
  public:
@@ -36,6 +44,17 @@ class FactoryOf : public AbstractFactoryOf<Made> {
   const std::vector<base::OptionSpec>& options() const override { return SharedSection<Structs...>::options(); }
   void registerKinds([[maybe_unused]] Kinds& kinds) const override {
     if constexpr (std::is_base_of_v<MeasurementPlugin, Made>) Made::registerKinds(kinds);
+  }
+  std::vector<std::string> sectionsReadBy([[maybe_unused]] const base::ConfigSection& section) const override {
+    std::vector<std::string> sections;
+    [[maybe_unused]] const auto add = [&](auto* type) {
+      using Struct = std::remove_pointer_t<decltype(type)>;
+      if constexpr (kReadsSections<Struct>)
+        for (auto& read : SharedSection<Structs...>::template read<Struct>(section).sectionsRead())
+          sections.push_back(std::move(read));
+    };
+    (add(static_cast<Structs*>(nullptr)), ...);
+    return sections;
   }
   std::unique_ptr<Plugin> make(const base::ConfigSection& section,
                                [[maybe_unused]] const PluginContext& context) const override {

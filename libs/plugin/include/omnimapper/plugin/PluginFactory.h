@@ -56,6 +56,9 @@ class PluginFactory : public mrpt::rtti::CObject {
   /// Registers the variables, factors, payloads and layers that the class's plugins put into a map, so that a map file
   /// can be read.
   virtual void registerKinds(Kinds& /*kinds*/) const {}
+  /// Other sections that a plugin of `section` reads when it is made. When one of them changes during a run, the plugin
+  /// is made anew, too.
+  virtual std::vector<std::string> sectionsReadBy(const base::ConfigSection& /*section*/) const { return {}; }
 };
 
 /// make() reads the options from `section` and throws base::Error if they are invalid.
