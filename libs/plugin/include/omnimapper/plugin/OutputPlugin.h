@@ -16,12 +16,14 @@ class OutputPlugin {
   virtual bool isOfMap() const { return false; }
   /// Which images of a log it needs. Key frames keep the images that the most demanding output needs.
   virtual RawImages needsOfImages() const { return RawImages::none; }
-  /// Called after each solve, for live display.
+  /// Called after each solve, for live display. Without loop closures that is after [mapper] solve_every key frames, so
+  /// a display that follows the robot needs keyFrameAdded(), too.
   virtual void update(const View& /*view*/) {}
   /// Called after each key frame, for live display between solves. It must not take long.
   virtual void keyFrameAdded(const View& /*view*/) {}
   /// Called after each frame of the reference sensor that is not a key frame, for live display of the robot's pose. It
-  /// must not take long.
+  /// must not take long. No call follows a watcher's answer: a display finds a new layer here, or at the next key
+  /// frame.
   virtual void frameAdded(const View& /*view*/) {}
   /// Called once, at the end of the run. Throws base::Error if an output cannot be written.
   virtual void finish(const View& view) = 0;
