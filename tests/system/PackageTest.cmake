@@ -262,6 +262,12 @@ if(NOT unpacked STREQUAL plain)
   message(FATAL_ERROR "landmarks.obj.gz is not landmarks.obj")
 endif()
 
+# A live page from outside, here for the time of a log; the rooms that it takes are those of the next example.
+build("${EXAMPLES}/live_page" "${SCRATCH}/live_page")
+file(READ "${EXAMPLES}/live_page/live_page.ini" text)
+string(REPLACE "build/liblive_page" "${SCRATCH}/live_page/liblive_page" text "${text}")
+file(WRITE "${SCRATCH}/live_page.ini" "${text}")
+
 # A layer from outside: rooms that are named where their tags were read, and that a continued map still has.
 build("${EXAMPLES}/rooms_layer" "${SCRATCH}/rooms_layer")
 file(READ "${EXAMPLES}/rooms_layer/rooms.ini" text)
@@ -278,6 +284,12 @@ set(room_at "${CMAKE_MATCH_1}.${CMAKE_MATCH_2}")
 string(REGEX MATCH "\n1700000005[.]60* ([-0-9]+)[.]([0-9][0-9])" pose "${trajectory}")
 if(NOT room OR NOT room_at STREQUAL "${CMAKE_MATCH_1}.${CMAKE_MATCH_2}" OR NOT rooms MATCHES ",living room, south\n$")
   message(FATAL_ERROR "at 1700000005.6 the base was at '${pose}', and rooms.csv is:\n${rooms}")
+endif()
+run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/live_page.ini" -r "${box}" -r "${SCRATCH}/tags.rawlog"
+  -o "${SCRATCH}/paged" --set page.port=0 --set room_names.label=tags)
+execute_process(COMMAND "${prefix}/bin/omnimapper-query" "${SCRATCH}/paged" layers OUTPUT_VARIABLE layers)
+if(NOT layers MATCHES "rooms")
+  message(FATAL_ERROR "the map that was made with the live page has no layer of rooms:\n${layers}")
 endif()
 run("${SCRATCH}/rooms_layer/tag-log" "${SCRATCH}/more_tags.rawlog" 1700000008 office)
 run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/rooms.ini" -r "${box}" -r "${SCRATCH}/more_tags.rawlog"

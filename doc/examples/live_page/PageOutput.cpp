@@ -29,7 +29,8 @@ struct PageOptions {
   static const base::OptionTable<PageOptions>& table() {
     static const auto table =
         base::OptionTable<PageOptions>()
-            .integer("port", &PageOptions::port, {1, 65535}, "Port of this machine at which a browser finds the page.")
+            .integer("port", &PageOptions::port, {0, 65535},
+                     "Port of this machine at which a browser finds the page; 0 takes a free one.")
             .integer("request_port", &PageOptions::request_port, {1, 65535}, "Port of the driver NameRequests.");
     return table;
   }
