@@ -226,10 +226,13 @@ class Poser {
   }
 
   // Where an object that the hands are busy with moves a hand, from the shoulder.
-  static Vector3d holding(const Busy& busy, bool right, const Vector3d& hand, const Posture& posture) {
+  Vector3d holding(const Busy& busy, bool right, const Vector3d& hand, const Posture& posture) const {
     if (!right && !busy.hands.both) return hand;
     const Vector3d& shoulder = posture.in_map[jointOf(right, Limb::shoulder)];
-    return onTheWay(hand, busy.hands.in_map[right ? 1 : 0] - shoulder, busy.hold.share);
+    const Vector3d there = onTheWay(hand, busy.hands.in_map[right ? 1 : 0] - shoulder, busy.hold.share);
+    const double reach = kArmStretch * (anatomy_.upper_arm + anatomy_.forearm);
+    return std::min(1.0, reach / there.norm()) *
+           there;  // an arm on its way may still be stretched while the body bends
   }
 
   void placeArm(const Vector3d& hand, bool right, Posture& posture) const {

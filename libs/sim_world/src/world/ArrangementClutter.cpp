@@ -78,33 +78,37 @@ Group pairOf(Thing first, Thing second) {
   return group;
 }
 
-// One object, or two of which the second stands on the first.
-Group stackOf(Thing below, std::optional<Thing> above) {
-  Group group{{}, below.reach, below.space.height};
-  const bool fits = above && below.top && isWithin(above->space.foot, below.top->outline_in_body);
-  group.things.push_back(std::move(below));
-  if (!fits) return group;
-  group.reach = group.reach.cwiseMax(above->reach);
-  group.height += above->space.height;
-  group.things.push_back(std::move(*above));
+bool standsOn(const Thing& above, const Thing& below) {
+  return below.top && isWithin(above.space.foot, below.top->outline_in_body);
+}
+
+Group stackOf(Thing below, Thing above) {
+  Group group{{}, below.reach.cwiseMax(above.reach), below.space.height + above.space.height};
+  group.things = {std::move(below), std::move(above)};
   return group;
 }
 
 }  // namespace
 
 void Arrangement::crowd(Top& top) {
+  constexpr int kTries = 8;  // for an object that fits on another one
   enum How { alone, touching, stacked };
   const int how = std::min<int>(random.integer(0, 3), stacked);  // as many stacks as all others
   const std::size_t number = plan.objects.size();
   Thing first = drawThing(random, plan.seed, number);
-  Group group;
-  if (how == alone) {
-    group = stackOf(std::move(first), {});
-  } else {
-    Thing second = drawThing(random, plan.seed, number + 1);
-    group =
-        how == touching ? pairOf(std::move(first), std::move(second)) : stackOf(std::move(first), std::move(second));
+  std::optional<Thing> second;
+  if (how == touching) second = drawThing(random, plan.seed, number + 1);
+  for (int i = 0; how == stacked && !second && i < kTries; ++i) {
+    Thing above = drawThing(random, plan.seed, number + 1);
+    if (standsOn(above, first)) second = std::move(above);
   }
+  Group group{{}, first.reach, first.space.height};
+  if (!second)
+    group.things.push_back(std::move(first));
+  else if (how == touching)
+    group = pairOf(std::move(first), std::move(*second));
+  else
+    group = stackOf(std::move(first), std::move(*second));
   if (group.height >= std::min(top.headroom, kBelowCabinets)) return;
   const auto at = freePlace(top, group.reach);
   if (!at) return;
