@@ -96,7 +96,7 @@ TEST(Pages, programsKnowTheOptionsOfEveryCommand) {
   GTEST_SKIP() << "a feature is not in this build, but the pages have the commands of all features";
 #endif
   const std::regex command(
-      R"((omnimapper-(?:graphslam|query|eval|import|perceive|simulate|calibrate))((?:[^\n`|;&>\\#]|\\\n)*))");
+      R"((omnimapper-(?:graphslam|query|eval|import|perceive|simulate|calibrate|rooms))((?:[^\n`|;&>\\#]|\\\n)*))");
   const std::regex option(R"(\s(--?[A-Za-z][\w-]*))");
   std::size_t checked = 0;
   for (const auto& page : pages()) {
