@@ -19,10 +19,10 @@
 #include "FolderReadme.h"
 #include "LogWriter.h"
 #include "MeshFile.h"
-#include "ObjectTruth.h"
 #include "Pictures.h"
 #include "SignTruth.h"
 #include "SurfaceTruth.h"
+#include "TrueObjects.h"
 #include "TruthFolder.h"
 #include "WorldTruth.h"
 
@@ -139,7 +139,7 @@ void removeImages(const std::string& folder, const std::vector<std::string>& ste
 
 void writeLog(const Simulation& simulation, const SimulationRequest& request, const std::string& folder,
               base::Progress& progress, const std::function<bool()>& stop, TruthFolder& truth, SurfaceTruth& surfaces,
-              SignTruth& signs, ObjectTruth& objects, std::set<base::Stamp>& stamps, SimulationResult& result) {
+              SignTruth& signs, TrueObjects& objects, std::set<base::Stamp>& stamps, SimulationResult& result) {
   const auto arrivals = arrivalsOf(simulation, result.sensors);
   const std::string images = folder + "/" + request.name + "_Images";
   const bool is_external = simulation.options().images == SimulationOptions::Images::external;
@@ -219,7 +219,7 @@ SimulationResult simulateInto(const std::string& folder, const Simulation& simul
   std::set<base::Stamp> stamps;
   SurfaceTruth surfaces(simulation.world());
   SignTruth signs(simulation);
-  ObjectTruth objects(simulation);
+  TrueObjects objects(simulation);
   writeLog(simulation, request, folder, progress, stop, truth, surfaces, signs, objects, stamps, result);
   truth.close();
   result.travel = travelOf(simulation.mapFromBase(), result.duration);

@@ -39,7 +39,7 @@ std::string toText(const SimulationResult& result, const std::string& folder);
 /// Writes into the folder: <name>.rawlog (and <name>_Images), truth.tum (base poses at the stamp of every measurement),
 /// landmarks.json, surfaces.json (flat surfaces with the parts that the log shows, and openings), world.ply (the mesh
 /// of all that is there at time 0), signs_seen.csv (the signs that each picture shows, SignTruth), objects.csv,
-/// objects_seen.csv and objects/ (places, visibility and meshes of objects, ObjectTruth), truth/<label>.jsonl and other
+/// objects_seen.csv and objects/ (places, visibility and meshes of objects, TrueObjects), truth/<label>.jsonl and other
 /// truth files of sensors, plan.svg, pictures/ of what each sensor saw in the middle of the run, <name>.ini and
 /// README.md, which describes the files. Measurements are in the order of their arrival. `stop` is called before each
 /// measurement; once it returns true, the run ends. An older run in the folder is kept until the new one is complete,

@@ -18,9 +18,9 @@ namespace omnimapper::sim {
 /// objects_seen.csv has a line for each object that a camera image of the log shows, in the log's order. Columns: stamp
 /// (Unix time [s]), sensor (its label), measurement (its number), object, and the members of ObjectView: pixels,
 /// depth_pixels, left_px, top_px, right_px, bottom_px, distance_m.
-class ObjectTruth {
+class TrueObjects {
  public:
-  explicit ObjectTruth(const Simulation& simulation);
+  explicit TrueObjects(const Simulation& simulation);
 
   void add(const Sensor& sensor, int k, const std::vector<ObjectView>& objects);
   /// Writes the files if there are objects, objects_seen.csv only if there is a camera. Returns their names relative to

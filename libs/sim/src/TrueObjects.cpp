@@ -1,4 +1,4 @@
-#include "ObjectTruth.h"
+#include "TrueObjects.h"
 
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/CsvTable.h>
@@ -88,13 +88,13 @@ std::string rowsOf(const Object& object, const Body& body, const std::string& me
 
 }  // namespace
 
-ObjectTruth::ObjectTruth(const Simulation& simulation)
+TrueObjects::TrueObjects(const Simulation& simulation)
     : world_(simulation.world()),
       has_camera_(std::any_of(simulation.sensors().begin(), simulation.sensors().end(),
                               [](const auto& sensor) { return sensor->isCamera(); })),
       seen_("stamp,sensor,measurement,object,pixels,depth_pixels,left_px,top_px,right_px,bottom_px,distance_m\n") {}
 
-void ObjectTruth::add(const Sensor& sensor, int k, const std::vector<ObjectView>& objects) {
+void TrueObjects::add(const Sensor& sensor, int k, const std::vector<ObjectView>& objects) {
   const std::string begin =
       base::formatUnix(sensor.stampOf(k)) + "," + base::csvField(sensor.label()) + "," + std::to_string(k) + ",";
   for (const ObjectView& view : objects) {
@@ -105,7 +105,7 @@ void ObjectTruth::add(const Sensor& sensor, int k, const std::vector<ObjectView>
   }
 }
 
-std::vector<std::string> ObjectTruth::write(const std::string& folder) const {
+std::vector<std::string> TrueObjects::write(const std::string& folder) const {
   if (world_.objects.empty()) return {};
   std::vector<std::string> files{"objects.csv"};
   std::string table =
