@@ -118,7 +118,7 @@ TEST(Pages, programsKnowTheOptionsOfEveryCommand) {
 TEST(Names, noTwoFilesOfTheLibrariesHaveOneName) {
   std::map<std::string, std::vector<std::string>> places;
   for (const auto& file : files("libs", {".h", ".cpp"})) places[file.filename()].push_back(projectPath(file));
-  // Each feature has a register.cpp, and RelativeMotion.h of `plugin` only makes that of `matching` available.
+  // Each feature has a register.cpp, and RelativeMotion.h of `plugin` only makes that of `motion` available.
   for (const char* shared : {"register.cpp", "RelativeMotion.h"}) places.erase(shared);
   for (const auto& [name, paths] : places) {
     std::string all;
