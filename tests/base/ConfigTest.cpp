@@ -277,6 +277,16 @@ TEST(Config, ASectionThatNobodyReadIsRefusedWithTheNearestName) {
   EXPECT_NO_THROW(config.refuseUnreadSections());
 }
 
+TEST(Config, WhatAnEarlierIniHasOrItsReaderKnowsPassesInTheNext) {
+  const Config before = parsed("[trigger]\n[camera]\nrate_hz = 1\n");
+  before.section("trigger");
+  before.section("perception");
+  const Config next = parsed("[trigger]\n[camera]\nrate_hz = 1\n[perception]\nthreads = 2\n");
+  EXPECT_NO_THROW(next.refuseUnreadSections(before));
+  const Config misspelt = parsed("[trigger]\n[triger2]\nevery = 2\n");
+  expectError([&] { misspelt.refuseUnreadSections(before); }, ExitCode::unknown_key, {"[triger2]", "'trigger'"});
+}
+
 TEST(Config, DriverSectionsOfRawlogGrabberPass) {
   const Config config = parsed("[trigger]\n[LASER1]\ndriver = CHokuyoURG\nprocess_rate = 90\n");
   config.section("trigger");

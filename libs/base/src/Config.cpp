@@ -235,18 +235,15 @@ std::vector<std::string> Config::unreadSections() const {
 }
 
 void Config::refuseUnreadSections() const {
-  refuseUnread(nullptr);
+  refuseUnreadSections(Config());
 }
 
 void Config::refuseUnreadSections(const Config& before) const {
-  refuseUnread(&before);
-}
-
-void Config::refuseUnread(const Config* before) const {
-  std::vector<std::string> known(asked_.begin(), asked_.end());
-  if (before != nullptr) known.insert(known.end(), before->asked_.begin(), before->asked_.end());
+  std::set<std::string> asked = asked_;
+  asked.insert(before.asked_.begin(), before.asked_.end());
+  const std::vector<std::string> known(asked.begin(), asked.end());
   for (const auto& section : unreadSections()) {
-    if (ini_.keyExists(section, "class") || (before != nullptr && before->has(section))) continue;
+    if (ini_.keyExists(section, "class") || asked.count(section) > 0 || before.has(section)) continue;
     throw Error(ExitCode::unknown_key,
                 placeOf(section) + ": section [" + section + "] is not known" + suggestion(section, known));
   }

@@ -183,6 +183,7 @@ PluginDifference Run::prepareChange(const base::Config& next) {
     if (plugin->isLookedAt()) looked_at.push_back(section);
   auto difference =
       differenceOf(changed_config_ ? *changed_config_ : config_, next, request_.more_outputs, context_, looked_at);
+  next.refuseUnreadSections(config_);
   if (!difference.unused.empty())
     engine_->warn("a change of the INI during the run needs a new run to have an effect: " +
                   base::option_text::format(difference.unused));

@@ -34,12 +34,6 @@ bool isList(const std::string& difference) {
   return false;
 }
 
-// Whether it is about a plugin that no list names.
-bool isOfUnlisted(const std::string& section, const base::Config& config) {
-  std::string name;
-  return config.section(section).find("class", name);
-}
-
 // Adds to `difference` what changes in one of the lists; returns the sections to make.
 Names compare(const Names& before, const Names& now, const std::set<std::string>& other_settings,
               PluginDifference& difference) {
@@ -94,11 +88,13 @@ PluginDifference differenceOf(const base::Config& before, const base::Config& no
                            &of_before.extractors, &of_before.measurement, &of_before.output})
     plugins.insert(list->begin(), list->end());
   PluginDifference difference;
+  const auto unlisted = now.switchedOffPlugins();
   for (const auto& each : base::iniDifferences(now.text(), before.text())) {
     const std::string section = sectionOf(each);
     if (plugins.count(section) > 0 && std::count(kept.begin(), kept.end(), section) == 0) {
       other_settings.insert(section);
-    } else if (!isList(each) && (plugins.count(section) > 0 || !isOfUnlisted(section, now))) {
+    } else if (!isList(each) &&
+               (plugins.count(section) > 0 || std::count(unlisted.begin(), unlisted.end(), section) == 0)) {
       difference.unused.push_back(each);
     }
   }
@@ -120,7 +116,6 @@ PluginDifference differenceOf(const base::Config& before, const base::Config& no
   to_make.output = compare(of_before.output, of_now.output, other_settings, difference);
   context.config_text = now.text();
   difference.change.added = makePlugins(to_make, now, context);
-  now.refuseUnreadSections(before);
   difference.change.removed = difference.removed;
   difference.change.removed.insert(difference.change.removed.end(), difference.renewed.begin(),
                                    difference.renewed.end());

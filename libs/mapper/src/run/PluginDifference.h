@@ -23,7 +23,7 @@ struct PluginDifference {
 /// Makes the plugins that `now` adds to those of `before`, or gives other settings; they are made with the text of
 /// `now` in their context. `kept`: sections of outputs that stay as they are, such as a window that a user looks at.
 /// `more_outputs`: sections of outputs beside those of the INIs. Throws base::Error as makePlugins() and
-/// loadPluginLibraries(), and if `now` has a section of a name that nobody knows.
+/// loadPluginLibraries().
 PluginDifference differenceOf(const base::Config& before, const base::Config& now,
                               const std::vector<std::string>& more_outputs, PluginContext context,
                               const std::vector<std::string>& kept = {});

@@ -76,7 +76,8 @@ class Config {
   /// Throws Error(unknown_key) if the file has a section for which section() was never called. Allowed are only
   /// switchedOffPlugins() and sections with a key "driver", which may be for MRPT's rawlog-grabber.
   void refuseUnreadSections() const;
-  /// The same for an INI that replaces `before` during a run: sections that `before` has, too, are allowed.
+  /// The same for an INI that replaces `before` during a run: sections that were read from `before`, or that it has,
+  /// are allowed.
   void refuseUnreadSections(const Config& before) const;
   /// Sections of plugins (those with a key "class") for which section() was never called.
   std::vector<std::string> switchedOffPlugins() const;
@@ -98,7 +99,6 @@ class Config {
  private:
   friend class ConfigSection;
   std::vector<std::string> unreadSections() const;
-  void refuseUnread(const Config* before) const;
   void refuseOtherSpelling(const std::string& section, const std::string& key, const std::string& place) const;
 
   mrpt::config::CConfigFileMemory ini_;
