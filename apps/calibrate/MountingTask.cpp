@@ -19,7 +19,7 @@ CLI::App* addMountingTask(CLI::App& app, MountingArguments& arguments) {
       app.add_subcommand("mounting",
                          "robot with a laser or a depth camera: how its sensors are mounted, their clocks, and "
                          "the sweep of the laser, from walls, floor and motion");
-  task->add_option("-r,--rawlog,LOG", arguments.logs, "rawlogs of one drive; several are merged by stamp")->required();
+  task->add_option("-r,--rawlog,LOG", arguments.logs, "logs of one drive; several are merged by stamp")->required();
   task->add_option("-o,--output", arguments.output, "folder for mounting.ini and report.txt")->required();
   task->add_option("-i,--ini", arguments.inis,
                    "INI that declares the sensors; what it declares is measured, and mounting.ini is given after it")

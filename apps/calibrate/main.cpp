@@ -23,7 +23,7 @@ template <class Request>
 CLI::App* addTask(CLI::App& app, const std::string& name, const std::string& help, const std::string& picture,
                   Request& request, bool& quiet) {
   auto* task = app.add_subcommand(name, help);
-  task->add_option("-r,--rawlog", request.logs, "rawlog of the camera; several are merged by stamp (-r a -r b)")
+  task->add_option("-r,--rawlog", request.logs, "log of the camera; several are merged by stamp (-r a -r b)")
       ->required();
   task->add_option("-o,--output", request.output, "folder for calibration.ini, report.txt, summary.json, " + picture)
       ->required();

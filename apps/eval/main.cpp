@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
   CLI::App* views =
       app.add_subcommand("views", "compare the surfaces of a map with the depth images of a log with known poses");
   views->add_option("map", arguments.estimate, "folder of a map, or its surfaces.json")->required();
-  views->add_option("log", arguments.log, "rawlog with depth images")->required();
+  views->add_option("log", arguments.log, "log with depth images")->required();
   views->add_option("trajectory", arguments.reference, "poses of the base in that log: TUM")->required();
   addOutputs(views, arguments);
   views

@@ -19,7 +19,7 @@ struct Arguments {
 
 inline void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Maps a robot's log: reads rawlogs, configured by an INI file, and writes map, pictures and report to a folder.\n"
+      "Maps a robot's log: reads logs, configured by an INI file, and writes map, pictures and report to a folder.\n"
       "Example:  omnimapper-graphslam -i laser2d.ini -r office.rawlog -o out/office\n"
       "Check:    omnimapper-graphslam --check office.rawlog\n"
       "Continue: omnimapper-graphslam -i laser2d.ini -r next_day.rawlog --continue out/office -o out/both\n"
@@ -28,7 +28,9 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("-i,--ini", arguments.inis,
                  "INI file with the plugins and their options; later ones override earlier ones. Without a folder it "
                  "may be one that comes with the program, such as laser2d.ini");
-  auto* rawlogs = app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
+  auto* rawlogs =
+      app.add_option("-r,--rawlog", arguments.run.logs,
+                     "log of a format of --list-plugins, or rawlog; several are merged by stamp (-r a -r b)");
   auto* live = app.add_flag("--live", arguments.run.live,
                             "map the sensors of [live] until Ctrl-C, and record them in the subfolder recording of -o; "
                             "after the signal USR1 the plugins become those of the INI as it is then");

@@ -1,21 +1,23 @@
 #pragma once
 
-#include <omnimapper/base/Error.h>
-
-#include <functional>
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "Imports.h"
-#include "program/Program.h"
-
-/// The command line of omnimapper-import.
+/// The command line of omnimapper-import: a task for each registered format, with the format's options.
 struct Arguments {
-  std::string input, output, odometry = "automatic", images = "embedded";
+  std::string input, output, images = "embedded";
   bool poses = false;
-  omnimapper::source::RgbdFolderOptions rgbd;
-  omnimapper::source::PcdFolderOptions pcd;
-  omnimapper::source::ImageFolderOptions photographs;
+  /// The task, and the values of its options by key, which are empty if they were not given.
+  struct Format {
+    std::string name;
+    const CLI::App* task;
+    std::vector<std::pair<std::string, std::string>> values;
+  };
+  std::vector<std::unique_ptr<Format>> formats;
+
+  const Format& chosen() const;
 };
 
-/// Adds a subcommand for each kind of log. Returns a function that runs the import selected on the command line.
-std::function<omnimapper::base::ExitCode()> addKinds(CLI::App& app, Arguments& arguments);
+void addFormats(CLI::App& app, Arguments& arguments);

@@ -30,11 +30,12 @@ struct Arguments {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.description(
-      "Runs only perception: reads rawlogs and writes the results of the extractors in [perception] of an INI to a\n"
+      "Runs only perception: reads logs and writes the results of the extractors in [perception] of an INI to a\n"
       "rawlog. omnimapper-graphslam reads it together with the raw one: -r raw.rawlog -r derived.rawlog\n"
       "Example: omnimapper-perceive -i laser2d.ini -r office.rawlog -o derived.rawlog");
   app.add_option("-i,--ini", arguments.inis, "INI file with the extractors; later ones override earlier ones");
-  app.add_option("-r,--rawlog", arguments.run.logs, "rawlog; several are merged by stamp (-r a -r b)");
+  app.add_option("-r,--rawlog", arguments.run.logs,
+                 "log of a format of --list-plugins, or rawlog; several are merged by stamp (-r a -r b)");
   app.add_option("-o,--output", arguments.run.output, "rawlog to write");
   app.add_flag("--with-raw", arguments.run.with_raw, "also write the observations that were read");
   app.add_option("--pictures", arguments.pictures, "folder for pictures of the results, drawn over the sensor data");

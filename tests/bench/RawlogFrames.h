@@ -5,7 +5,7 @@
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <optional>
 #include <string>
@@ -47,7 +47,7 @@ inline PosedFrames readRawlog(const std::string& rawlog, const std::string& trut
   PosedFrames posed;
   const auto truth = eval::readTum(truth_file);
   const auto never = [] { return false; };
-  const auto log = source::openRawlogs({rawlog}, {}, never);
+  const auto log = source::openLogs({rawlog}, {}, never);
   while (const auto observation = log->next()) {
     const auto scan = std::dynamic_pointer_cast<const mrpt::obs::CObservation3DRangeScan>(observation);
     if (!scan) continue;

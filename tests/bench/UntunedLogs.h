@@ -6,8 +6,8 @@
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/source/CarmenLog.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/LogVariants.h>
@@ -64,7 +64,7 @@ inline Observations read(const Log& log) {
   if (log.path.find(".clf") != std::string::npos) {
     in = std::make_unique<source::CarmenLog>(log.path);
   } else {
-    in = source::openRawlogs({log.path}, {});
+    in = source::openLogs({log.path}, {});
   }
   Observations all;
   while (auto observation = in->next()) {

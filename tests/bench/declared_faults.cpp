@@ -14,8 +14,8 @@
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/obs/registerClasses.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/DeclaredFaults.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <omnimapper/testing/MemorySource.h>
@@ -104,7 +104,7 @@ Outcome outcomeOf(const check::LogFacts& facts, const std::vector<std::string>& 
 
 std::vector<Part> partsOf(const std::string& path, double seconds) {
   constexpr double kLeastTravel = 8;  // [m]
-  const auto log = source::openRawlogs({path}, {});
+  const auto log = source::openLogs({path}, {});
   std::vector<Part> parts;
   base::Stamp begin;
   while (const auto observation = log->next()) {

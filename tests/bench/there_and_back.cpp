@@ -7,8 +7,8 @@
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -26,7 +26,7 @@ using namespace omnimapper;
 using Observation = mrpt::obs::CObservation::Ptr;
 
 std::vector<Observation> read(const std::string& path) {
-  const auto log = source::openRawlogs({path}, {});
+  const auto log = source::openLogs({path}, {});
   std::vector<Observation> all;
   while (auto observation = log->next()) {
     if (base::isValid(observation->timestamp)) all.push_back(observation);

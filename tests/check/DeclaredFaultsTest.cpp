@@ -1,5 +1,5 @@
 // What a log declares of its sensors is contradicted by what they measured.
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/DeclaredFaults.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -15,7 +15,7 @@ using testing::withFault;
 
 Observations read(const std::string& path) {
   Observations all;
-  const auto log = source::openRawlogs({path}, {});
+  const auto log = source::openLogs({path}, {});
   while (auto observation = log->next()) all.push_back(std::move(observation));
   return all;
 }

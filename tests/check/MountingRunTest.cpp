@@ -1,8 +1,8 @@
 // How sensors are mounted is measured from logs whose truth is known.
 #include <omnimapper/base/Error.h>
 #include <omnimapper/check/MountingRun.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/DeclaredFaults.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -24,7 +24,7 @@ using State = Quantity::State;
 const Observations& home() {
   static const auto log = [] {
     Observations all;
-    const auto source = source::openRawlogs({testing::sourceFile("rawlogs/home_30s/home_30s.rawlog")}, {});
+    const auto source = source::openLogs({testing::sourceFile("rawlogs/home_30s/home_30s.rawlog")}, {});
     while (auto observation = source->next()) all.push_back(std::move(observation));
     return all;
   }();

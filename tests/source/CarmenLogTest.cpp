@@ -50,7 +50,7 @@ class CarmenLogTest : public ::testing::Test {
  protected:
   CarmenLog& open(const std::string& text, CarmenOdometry odometry = CarmenOdometry::automatic) {
     logs::writePlain(path_, text);
-    log_ = std::make_unique<CarmenLog>(path_, odometry);
+    log_ = std::make_unique<CarmenLog>(path_, CarmenOptions{odometry});
     return *log_;
   }
   Strings read(const std::string& text, CarmenOdometry odometry = CarmenOdometry::automatic) {

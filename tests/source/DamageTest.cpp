@@ -213,13 +213,13 @@ TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithARemedy) {
   };
   says("", "is empty");
   says("Dear diary,\ntoday\n", "is a text file");
-  says("# message_name ...\nPARAM robot_use_laser on nohost 0\n", "omnimapper-import carmen");
-  says("ODOM 0 0 0 0 0 0 1.0 nohost 0\n", "omnimapper-import carmen");
+  says("# message_name ...\nPARAM robot_use_laser on nohost 0\n", "is a CARMEN log, which -r reads");
+  says("ODOM 0 0 0 0 0 0 1.0 nohost 0\n", "is a CARMEN log, which -r reads");
   says("#ROSBAG V2.0\n\x0d\0\0\0", "rosbag2rawlog");
   says("\x89PNG\r\n\x1a\n" + std::string(100, '\1'), "is an image");
   says(std::string("PK\x03\x04") + std::string(100, '\1'), "ZIP");
-  says(std::string(1000, '\xee'), "no rawlog");
-  says("# .PCD v0.7\nVERSION 0.7\n", "omnimapper-import pcd");
+  says(std::string(1000, '\xee'), "no log of a format that is known");
+  says("# .PCD v0.7\nVERSION 0.7\n", "is a PCD cloud, no log; name the folder");
   says("OMNIMAP\n\1", "use it with --continue or --localize");
   says("\x1f\x8b and no more gzip than that", "decompress");
   says((Bytes() << mrpt::maps::CSimplePointsMap()).string(), "mrpt::maps::CSimplePointsMap");
@@ -236,15 +236,15 @@ TEST_F(DamageTest, aFolderIsRefusedWithWhatItIsFor) {
   says("nothing", "notes.txt", "is a folder, in which there is nothing that can be read");
   says("map", "map.omnimap", "is the folder of a map, no log");
   says("logs", "b.rawlog", "a log in it is " + (folder_ / "logs/b.rawlog"));
-  says("tum", "depth.txt", "omnimapper-import tum " + (folder_ / "tum"));
-  says("scenes", "frame-000000.depth.png", "omnimapper-import tum " + (folder_ / "scenes"));
+  says("tum", "depth.txt", "is a folder of RGB-D images, which -r reads");
+  says("scenes", "frame-000000.depth.png", "is a folder of RGB-D images, which -r reads");
   std::filesystem::create_directories(folder_ / "halves/depth");
   says("halves", "notes.txt", "nothing that can be read");  // the importer would refuse a folder of depth images alone
   says("parent/inner", "depth.txt", "is a folder of RGB-D images");
   EXPECT_NE(refusal(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),
             std::string::npos);
   says("located", "localization.csv", "is the folder of a run with --localize");
-  says("clouds", "1.pcd", "omnimapper-import pcd " + (folder_ / "clouds"));
+  says("clouds", "1.pcd", "is a folder of PCD clouds, which -r reads");
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST_F(ImportAppTest, exitCodesShowWhatWentWrong) {
   EXPECT_EQ(run("--help"), ExitCode::ok);
   EXPECT_TRUE(says("Example: omnimapper-import carmen")) << output_;
   EXPECT_EQ(run(""), ExitCode::command_line);
-  EXPECT_TRUE(says("the first argument is one of carmen, tum, pcd")) << output_;
+  EXPECT_TRUE(says("the first argument is one of carmen, images, pcd, tum")) << output_;
   EXPECT_EQ(run("tmu a b"), ExitCode::command_line);
   EXPECT_TRUE(says("there is no task 'tmu'; did you mean tum?")) << output_;
   EXPECT_EQ(run("carmen " + in_), ExitCode::command_line);
@@ -146,22 +146,22 @@ TEST_F(ImportTumTest, printsCameraAndDepthAndWarnsOfUnlikelyUnits) {
   EXPECT_TRUE(says("depth: 5000 units per metre, median 1.00 m")) << output_;
   EXPECT_FALSE(says("warning")) << output_;
   ASSERT_EQ(import("--intrinsics freiburg1 --depth-units 1000"), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("warning: half of the depths are above 5.01 m: is --depth-units 1000 right?")) << output_;
+  EXPECT_TRUE(says("warning: half of the depths are above 5.01 m: is depth_units_per_m = 1000 right?")) << output_;
   ASSERT_EQ(import("--intrinsics freiburg1 --depth-units 20000"), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("warning: half of the depths are below 0.25 m: is --depth-units 20000 right?")) << output_;
+  EXPECT_TRUE(says("warning: half of the depths are below 0.25 m: is depth_units_per_m = 20000 right?")) << output_;
 }
 
 TEST_F(ImportTumTest, posesThatAreNotThereAreAnError) {
   EXPECT_EQ(import("--intrinsics freiburg1 --poses"), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("images with a true pose in the rawlog: 2\n")) << output_;
+  EXPECT_TRUE(says("observations with a true pose in the rawlog: 2\n")) << output_;
   EXPECT_EQ(imported().size(), 5U);
   std::filesystem::remove(out_);
   writeText("groundtruth.txt", "20.0 1 2 3 0 0 0 1\n");
   EXPECT_EQ(import("--intrinsics freiburg1 --poses"), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("has no true pose within 0.020 s of any image") && says("nothing was written")) << output_;
+  EXPECT_TRUE(says("has no true pose at the time of any observation") && says("nothing was written")) << output_;
   std::filesystem::remove(folder_ / "groundtruth.txt");
   EXPECT_EQ(import("--intrinsics freiburg1 --poses"), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("has no ground truth (groundtruth.txt") && says(folder_.path())) << output_;
+  EXPECT_TRUE(says("has no ground truth for --poses") && says(folder_.path())) << output_;
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 

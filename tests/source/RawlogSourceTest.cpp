@@ -2,6 +2,7 @@
 #include <mrpt/obs/CRawlog.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include "Logs.h"
@@ -126,7 +127,7 @@ TEST_F(RawlogSourceTest, openingCanBeStopped) {
   const std::string other = writeGzip(folder_ / "y.rawlog", (Bytes() << scan(2)).string());
   for (int asked_before : {0, 1}) {
     try {
-      openRawlogs({path_, other}, {}, [&] { return asked_before-- == 0; });
+      openLogs({path_, other}, {}, [&] { return asked_before-- == 0; });
       ADD_FAILURE() << "it was not stopped";
     } catch (const base::Error& error) {
       EXPECT_EQ(error.code(), base::ExitCode::interrupted);
@@ -151,36 +152,35 @@ TEST_F(RawlogSourceTest, aLogIsReadWhileTheChildReadsAheadAndCanBeLeftAtAnyTime)
   EXPECT_EQ(source.report().ending, SourceReport::Ending::open);
 }
 
-TEST_F(RawlogSourceTest, openRawlogsMergesByStampAndCountsTimeFromTheEarliestLog) {
+TEST_F(RawlogSourceTest, openLogsMergesByStampAndCountsTimeFromTheEarliestLog) {
   writeGzip(path_, (Bytes() << odometry(10) << odometry(11) << odometry(12)).string());
   const auto other = writeGzip(folder_ / "y.rawlog", (Bytes() << scan(9) << scan(10.5) << scan(11.5)).string());
-  EXPECT_EQ(listing(readAll(*openRawlogs({path_, other}, {}))),
+  EXPECT_EQ(listing(readAll(*openLogs({path_, other}, {}))),
             (Strings{"laser 9", "wheels 10", "laser 10.5", "wheels 11", "laser 11.5", "wheels 12"}));
   SourceOptions options;
   options.start = 1.5;
   options.end = 2.5;
-  EXPECT_EQ(listing(readAll(*openRawlogs({path_, other}, options))),
-            (Strings{"laser 10.5", "wheels 11", "laser 11.5"}));
-  EXPECT_THROW(openRawlogs({}, {}), base::Error);
+  EXPECT_EQ(listing(readAll(*openLogs({path_, other}, options))), (Strings{"laser 10.5", "wheels 11", "laser 11.5"}));
+  EXPECT_THROW(openLogs({}, {}), base::Error);
 }
 
 TEST_F(RawlogSourceTest, sensorsWhoseClocksAreCorrectedAreSortedByTheirTrueStamps) {
   writeGzip(path_, (Bytes() << odometry(10) << scan(10.5) << odometry(11) << scan(11.5) << odometry(12)).string());
-  const auto log = openRawlogs({path_}, {});
+  const auto log = openLogs({path_}, {});
   EXPECT_EQ(listing(readAll(*log)), (Strings{"wheels 10", "laser 10.5", "wheels 11", "laser 11.5", "wheels 12"}));
   SourceOptions options;
   options.clock_offsets["laser"] = -1.25;
-  const auto corrected = openRawlogs({path_}, options);
+  const auto corrected = openLogs({path_}, options);
   EXPECT_EQ(listing(readAll(*corrected)),
             (Strings{"laser 9.25", "wheels 10", "laser 10.25", "wheels 11", "wheels 12"}));
   EXPECT_EQ(corrected->report().objects, log->report().objects) << "objects that are read twice count once";
   EXPECT_EQ(corrected->report().bytes, log->report().bytes);
   EXPECT_EQ(corrected->report().ending, Ending::complete);
   options.clock_offsets["wheels"] = -1.25;
-  EXPECT_EQ(listing(readAll(*openRawlogs({path_}, options))),
+  EXPECT_EQ(listing(readAll(*openLogs({path_}, options))),
             (Strings{"wheels 8.75", "laser 9.25", "wheels 9.75", "laser 10.25", "wheels 10.75"}));
   options.clock_offsets = {{"laser", 100}, {"other", 3}};
-  EXPECT_EQ(listing(readAll(*openRawlogs({path_}, options))),
+  EXPECT_EQ(listing(readAll(*openLogs({path_}, options))),
             (Strings{"wheels 10", "wheels 11", "wheels 12", "laser 110.5", "laser 111.5"}));
 }
 

@@ -2,6 +2,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/openLogs.h>
 
 #include "RgbdImages.h"
 
@@ -59,13 +60,14 @@ TEST_F(RgbdFolderTest, truthIsOfTheBaseThatLooksAlongX) {
   // The camera looks along the world's y: optical x along the world's x, y down.
   writeText("groundtruth.txt", "# truth\n10.0 1 2 3 -0.70710678 0 0 0.70710678\n");
   const RgbdFolder source(folder_.path(), freiburg1());
-  ASSERT_EQ(source.groundTruth().size(), 1U);
+  const auto truth = source.truth();
+  ASSERT_EQ(truth.size(), 1U);
   EXPECT_EQ(source.camera().dist[4], 1.1633) << "the lens as the benchmark calibrated it";
-  const geometry::Se3& world_from_base = source.groundTruth().front().second;
-  const auto stamp = source.groundTruth().front().first;
-  EXPECT_FALSE(source.truthAt(stamp + base::durationFromSeconds(0.3), 0.2));
-  ASSERT_TRUE(source.truthAt(stamp + base::durationFromSeconds(-0.3), 0.4));
-  EXPECT_EQ(source.truthAt(stamp, 0)->translation, world_from_base.translation);
+  const geometry::Se3& world_from_base = truth.front().second;
+  const auto stamp = truth.front().first;
+  EXPECT_FALSE(source.truthAt(stamp + base::durationFromSeconds(0.03)));
+  ASSERT_TRUE(source.truthAt(stamp + base::durationFromSeconds(-0.015)));
+  EXPECT_EQ(source.truthAt(stamp)->translation, world_from_base.translation);
   EXPECT_TRUE((world_from_base * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(1, 3, 3), 1e-6)) << "ahead";
   EXPECT_TRUE((world_from_base * Eigen::Vector3d(0, 1, 0)).isApprox(Eigen::Vector3d(0, 2, 3), 1e-6)) << "left";
   EXPECT_TRUE((world_from_base * Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(1, 2, 4), 1e-6)) << "up";
@@ -96,8 +98,8 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
   writeColour("frame-000000.color.png", 9);
   writeText("frame-000000.pose.txt", "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n");
   RgbdFolder seven_scenes(folder_.path());
-  ASSERT_EQ(seven_scenes.groundTruth().size(), 1U);
-  EXPECT_TRUE(seven_scenes.groundTruth().front().second.translation.isApprox(Eigen::Vector3d(5, 6, 7)));
+  ASSERT_EQ(seven_scenes.truth().size(), 1U);
+  EXPECT_TRUE(seven_scenes.truth().front().second.translation.isApprox(Eigen::Vector3d(5, 6, 7)));
   const auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(seven_scenes.next());
   ASSERT_TRUE(frame);
   EXPECT_FLOAT_EQ(frame->rangeUnits, 0.001f);
@@ -177,12 +179,16 @@ TEST_F(RgbdFolderTest, imagesOfAnotherSizeAreLeftOutAndCounted) {
   writeText("rgb.txt", "10.0 rgb/a.png\n10.1 rgb/b.png\n10.2 rgb/c.png\n10.3 rgb/d.png\n");
   writeDepth("depth/c.png", 5000, 40, 30);
   writeDepth("depth/d.png", 5000);
-  RgbdFolder source(folder_.path(), freiburg1());
+  SourceOptions options;
+  options.openers[RgbdFolder::kName] = [](const std::string& path) {
+    return std::make_unique<RgbdFolder>(path, freiburg1());
+  };
+  const auto source = openLogs({folder_.path()}, options);
   int taken = 0;
-  while (source.next()) ++taken;
+  while (source->next()) ++taken;
   EXPECT_EQ(taken, 3);
-  EXPECT_EQ(source.report().unusableCount(), 1U);
-  EXPECT_EQ(source.report().exitCode(), base::ExitCode::damaged_input);
+  EXPECT_EQ(source->report().unusableCount(), 1U);
+  EXPECT_EQ(source->report().exitCode(), base::ExitCode::damaged_input);
 }
 
 TEST_F(RgbdFolderTest, whatIsWrongIsSaidWithItsPlace) {
@@ -202,7 +208,7 @@ TEST(RgbdFolderRecording, freiburg1RpyIsWholeWithTruth) {
   RgbdFolder source(*folder);
   EXPECT_EQ(source.pairs().size(), 450U);
   EXPECT_LT(source.unpaired(), 20U);
-  EXPECT_GT(source.groundTruth().size(), 1000U);
+  EXPECT_GT(source.truth().size(), 1000U);
   const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(source.next());
   ASSERT_TRUE(scan);
   EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 517.3);

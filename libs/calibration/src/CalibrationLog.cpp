@@ -6,8 +6,8 @@
 #include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/motion/WheelOdometry.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <map>
@@ -113,7 +113,7 @@ CalibrationLog readCalibrationLog(const CalibrationRequest& request, base::Progr
   source::SourceOptions options;
   options.start = request.start;
   options.end = request.end;
-  source::ReadAhead log(source::openRawlogs(request.logs, options, stop), stop);
+  source::ReadAhead log(source::openLogs(request.logs, options, stop), stop);
   CalibrationLog result;
   result.label = request.label;
   ViewChooser chooser(static_cast<std::size_t>(request.views));

@@ -4,8 +4,9 @@
 #include <omnimapper/check/gatherFacts.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/check/proposeIni.h>
+#include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SensorPoses.h>
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -31,8 +32,9 @@ base::ExitCode codeOf(const source::SourceReport& report, const std::vector<Fitt
 
 CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& config, const std::string& output_folder,
                      base::Progress& progress, const std::function<bool()>& stop) {
+  mapper::loadPluginLibraries(config);
   const auto given = PluginLists::read(config);
-  const auto log = source::openRawlogs(logs, mapper::sourceOptions(config), stop);
+  const auto log = source::openLogs(logs, mapper::sourceOptions(config), stop);
   const auto facts = gatherFacts(*log, Declared::read(config), stop, &progress);
   if (stop())
     throw base::Error(base::ExitCode::interrupted,

@@ -4,7 +4,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/perception/PlaneSegmenter.h>
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -145,7 +145,7 @@ LogViews readViews(const std::string& log, const Trajectory& trajectory, const V
   LogViews result;
   ThinnedViews views(options.most_views);
   const perception::PlaneSegmenter segmenter({});
-  const auto source = source::openRawlogs({log}, {}, stop);
+  const auto source = source::openLogs({log}, {}, stop);
   base::Stamp first, last;
   while (const auto observation = source->next()) {
     if (stop()) throw base::Error(base::ExitCode::interrupted, "interrupted; nothing was judged");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <string_view>
 
 #include "CarmenLasers.h"
 #include "CarmenLine.h"
@@ -68,9 +69,29 @@ CarmenOdometry chooseOdometry(const std::string& path) {
 
 }  // namespace
 
+const base::OptionTable<CarmenOptions>& CarmenOptions::table() {
+  static const auto table = base::OptionTable<CarmenOptions>().choice<CarmenOdometry>(
+      "odometry", &CarmenOptions::odometry,
+      {{"automatic", CarmenOdometry::automatic}, {"lines", CarmenOdometry::lines}, {"scans", CarmenOdometry::scans}},
+      "Source of the odometry: the log's ODOM lines, or the odometry in the lines of its scans. automatic: lines if "
+      "there are any and no stamp of the log runs backwards, else scans.");
+  return table;
+}
+
+bool CarmenLog::recognizes(const LogLook& look) {
+  if (look.is_folder || look.head.find('\0') != std::string::npos) return false;
+  for (std::size_t line = 0; line < look.head.size();) {
+    const auto end = std::min(look.head.find('\n', line), look.head.size());
+    if (isCarmenWord(std::string_view(look.head).substr(line, std::min(look.head.find(' ', line), end) - line)))
+      return true;
+    line = end + 1;
+  }
+  return false;
+}
+
 class CarmenLog::Stream {
  public:
-  Stream(const std::string& path, CarmenOdometry odometry) : lines_(path), odometry_(odometry) {
+  Stream(const std::string& path, const CarmenOptions& options) : lines_(path), odometry_(options.odometry) {
     checkKind(path);
     if (odometry_ == CarmenOdometry::automatic) odometry_ = chooseOdometry(path);
   }
@@ -169,6 +190,7 @@ class CarmenLog::Stream {
   }
 
   void finish() {
+    note();
     const auto& file = lines_.file();
     const std::string place = file.path() + ": ";
     if (file.ending() == CompressedFile::Ending::corrupt) {
@@ -183,6 +205,19 @@ class CarmenLog::Stream {
     } else {
       report_.ending = SourceReport::Ending::complete;
     }
+  }
+
+  void note() {
+    auto& notes = report_.notes;
+    notes.push_back("lines read: " + std::to_string(report_.objects) + ", bad: " + std::to_string(bad_line_count_));
+    for (const auto& bad : bad_lines_)
+      notes.push_back("line " + std::to_string(bad.number) + " left out: it " + bad.reason);
+    if (bad_line_count_ > bad_lines_.size())
+      notes.push_back("... and " + std::to_string(bad_line_count_ - bad_lines_.size()) + " more bad lines");
+    notes.push_back("odometry: of the " +
+                    std::string(odometry_ == CarmenOdometry::lines ? "ODOM lines, and repeated for each scan"
+                                                                   : "scans' own lines") +
+                    "; ODOM lines or repetitions left out: " + std::to_string(unused_odometry_));
   }
 
   void end(SourceReport::Ending ending, const std::string& what) {
@@ -206,8 +241,8 @@ class CarmenLog::Stream {
   bool last_line_is_cut_ = false;
 };
 
-CarmenLog::CarmenLog(const std::string& path, CarmenOdometry odometry)
-    : stream_(std::make_unique<Stream>(path, odometry)) {}
+CarmenLog::CarmenLog(const std::string& path, const CarmenOptions& options)
+    : stream_(std::make_unique<Stream>(path, options)) {}
 CarmenLog::~CarmenLog() = default;
 
 CObservation::Ptr CarmenLog::next() {

@@ -42,7 +42,13 @@ mrpt::obs::CObservation::Ptr FolderSource::next() {
       if (report_.missing_images++ == 0) report_.first_missing_image = error.what();
     }
   }
-  report_.ending = SourceReport::Ending::complete;
+  if (report_.ending == SourceReport::Ending::open) {
+    report_.ending = SourceReport::Ending::complete;
+    report_.notes.emplace_back(areNamesTimes()
+                                   ? "stamps: from the names of the files"
+                                   : "stamps: assigned by rate_hz, because the files' names are no Unix times");
+    noteAtEnd(report_);
+  }
   return nullptr;
 }
 

@@ -18,13 +18,25 @@ namespace fs = std::filesystem;
 
 constexpr int kInColour = 1;  // for MRPT: three channels of 8 bits, whatever the file has
 
-bool isImage(const std::string& path) {
-  const fs::path file(path);
-  std::string extension = file.extension().string();
+std::string extensionOf(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  const bool is_mask = file.stem().extension() == ".mask";
-  return !is_mask && (extension == ".jpg" || extension == ".jpeg" || extension == ".png");
+  return extension;
+}
+
+bool isPicture(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  return extension == ".jpg" || extension == ".jpeg" || extension == ".png";
+}
+
+bool isImage(const std::string& path) {
+  return isPicture(path) && fs::path(path).stem().extension() != ".mask";
+}
+
+bool isText(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  return extension == ".txt" || extension == ".csv" || extension == ".json" || extension == ".md";
 }
 
 mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_px) {
@@ -50,6 +62,29 @@ mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_
 }
 
 }  // namespace
+
+const base::OptionTable<ImageFolderOptions>& ImageFolderOptions::table() {
+  static const auto table = base::OptionTable<ImageFolderOptions>()
+                                .text("label", &ImageFolderOptions::label, "Sensor label.")
+                                .number("rate_hz", &ImageFolderOptions::rate, base::Range::positive(),
+                                        "Rate of images whose names are no Unix times.")
+                                .number("focal_px", &ImageFolderOptions::focal_px, base::Range::notNegative(),
+                                        "Focal length; 0: the width of an image, which is a view of 53 deg.");
+  return table;
+}
+
+bool ImageFolder::recognizes(const LogLook& look) {
+  const auto& entries = look.entries;
+  return look.is_folder && std::any_of(entries.begin(), entries.end(), isImage) &&
+         std::all_of(entries.begin(), entries.end(), [&](const std::string& entry) {
+           return (isPicture(entry) && entry.find(".depth.") == std::string::npos) || isText(entry);
+         });
+}
+
+void ImageFolder::noteAtEnd(SourceReport& report) const {
+  if (focal_px_ == 0)
+    report.notes.emplace_back("camera: assumed, with a view of 53 deg; focal_px sets its focal length");
+}
 
 ImageFolder::ImageFolder(const std::string& folder, const ImageFolderOptions& options)
     : FolderSource(folder, isImage, "JPEG or PNG images", options.label, options.rate), focal_px_(options.focal_px) {}

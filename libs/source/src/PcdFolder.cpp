@@ -1,6 +1,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/source/PcdFolder.h>
 
 #include <algorithm>
@@ -107,6 +108,25 @@ mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud) {
   }
   made->pointcloud = points;
   return made;
+}
+
+const base::OptionTable<PcdFolderOptions>& PcdFolderOptions::table() {
+  static const auto table = base::OptionTable<PcdFolderOptions>()
+                                .text("label", &PcdFolderOptions::label, "Sensor label.")
+                                .number("rate_hz", &PcdFolderOptions::rate, base::Range::positive(),
+                                        "Rate of clouds whose files' names are no Unix times.");
+  return table;
+}
+
+bool PcdFolder::recognizes(const LogLook& look) {
+  return look.is_folder && !look.firstEnding(".pcd").empty();
+}
+
+void PcdFolder::noteAtEnd(SourceReport& report) const {
+  if (unorganized_ > 0)
+    report.notes.push_back(base::counted(unorganized_, "cloud") +
+                           " without rows and columns (HEIGHT 1): they remain clouds, which can only be mapped "
+                           "together with odometry or poses");
 }
 
 PcdFolder::PcdFolder(const std::string& folder, const PcdFolderOptions& options)

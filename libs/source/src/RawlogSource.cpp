@@ -4,9 +4,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/obs/registerAllClasses.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/base/Names.h>
 #include <omnimapper/obs/registerClasses.h>
-#include <omnimapper/source/MergedSource.h>
 #include <omnimapper/source/ObservationGate.h>
 #include <omnimapper/source/RawlogSource.h>
 
@@ -17,9 +15,8 @@
 #include "ActionSpans.h"
 #include "ExternalFiles.h"
 #include "ObjectReader.h"
-#include "ObservationFilter.h"
+#include "ObservationSelection.h"
 #include "SandboxedReader.h"
-#include "SensorClocks.h"
 #include "StepClock.h"
 #include "describeInput.h"
 
@@ -28,9 +25,6 @@ namespace omnimapper::source {
 using mrpt::obs::CObservation;
 
 namespace {
-
-// After so many observations in a row beyond the end of the wanted time, the rest of the log is not read.
-constexpr int kEnoughAfterTheEnd = 1000;
 
 std::string registeringClasses(const std::string& path) {
   mrpt::obs::registerAllClasses_mrpt_obs();
@@ -47,11 +41,15 @@ base::Stamp stampOf(const mrpt::obs::CSensoryFrame& frame) {
   return latest;
 }
 
-// What is done with each object, as far as it depends on its content. The child process does it first, in case it
-// crashes.
-void useOnce(mrpt::serialization::CSerializable& object) {
-  if (const auto* actions = dynamic_cast<const mrpt::obs::CActionCollection*>(&object))
-    for (const auto& action : *actions) motionOf(action.get_ptr());
+// What the child process does: reads each object and, in case that crashes, does with it what depends on its content.
+bool readRawlog(const std::string& path, const SandboxedReader::Took& took) {
+  ObjectReader reader(path);
+  while (const auto object = reader.next()) {
+    if (const auto* actions = dynamic_cast<const mrpt::obs::CActionCollection*>(object.get()))
+      for (const auto& action : *actions) motionOf(action.get_ptr());
+    if (!took()) return false;
+  }
+  return reader.ending() != ObjectReader::Ending::corrupt;
 }
 
 SourceReport::Ending endingOf(ObjectReader::Ending ending) {
@@ -74,13 +72,14 @@ SourceReport::Ending endingOf(ObjectReader::Ending ending) {
 
 class RawlogSource::Stream {
  public:
-  Stream(const std::string& path, const SourceOptions& options, const StopOpening& stop)
+  Stream(const std::string& path, const SourceOptions& options, const StopOpening& stop, double clock_offset)
       : reader_(registeringClasses(path)),
-        sandbox_(path, useOnce),
+        sandbox_([&](const SandboxedReader::Took& took) { return readRawlog(path, took); }),
         spans_(options.action_span, options.action_label),
         steps_(options.step),
-        filter_(options),
-        images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder) {
+        images_folder_(options.images_folder.empty() ? externalFolderOf(path) : options.images_folder),
+        selection_(options, clock_offset,
+                   [this](const CObservation& observation) { return loadExternalFiles(observation, images_folder_); }) {
     bool stopped = false;
     stop_waiting_ = [&] { return stopped = stopped || (stop && stop()); };
     if (!stop_waiting_()) {
@@ -98,50 +97,38 @@ class RawlogSource::Stream {
   }
 
   CObservation::Ptr next() {
-    while (!is_over_ && !interrupted_) {
+    while (!selection_.isOver() && !interrupted_) {
       while (waiting_.empty() && readObject()) {
       }
       if (waiting_.empty()) break;
       const auto observation = waiting_.front();
       waiting_.pop_front();
-      observation->sensorLabel = base::sensorName(observation->sensorLabel);
-      if (!clocks_.concerns(*observation)) continue;
-      clocks_.correct(*observation);
-      if (!passes(*observation)) continue;
-      report_.count(observation->sensorLabel, observation->GetRuntimeClass()->className, observation->timestamp);
-      return observation;
+      if (selection_.takes(*observation)) return observation;
     }
     return nullptr;
   }
 
-  double progress() const { return is_over_ ? 1.0 : reader_.file().fraction(); }
+  double progress() const { return selection_.isOver() ? 1.0 : reader_.file().fraction(); }
 
   SourceReport report() const {
     SourceReport report = report_;
-    report.ending = is_over_           ? SourceReport::Ending::complete
-                    : waiting_.empty() ? endingOf(reader_.ending())
-                                       : SourceReport::Ending::open;
+    report.ending = waiting_.empty() ? endingOf(reader_.ending()) : SourceReport::Ending::open;
     report.message = reader_.message();
     report.unregistered_class = reader_.unregisteredClass();
     report.objects = reader_.objects();
     report.bytes = reader_.bytes();
     report.dropped_actions = spans_.dropped();
-    if (!clocks_.areFirst()) {  // another reader of the same log counts these
-      report.objects = report.bytes = report.dropped_actions = report.repaired_stamps = 0;
-      report.other_objects.clear();
-    }
-    return report;
+    return selection_.report(std::move(report));
   }
 
   std::optional<base::Stamp> firstStamp() const {
     for (const auto& observation : waiting_)
-      if (base::isValid(observation->timestamp)) return clocks_.corrected(*observation);
+      if (base::isValid(observation->timestamp)) return selection_.corrected(*observation);
     return std::nullopt;
   }
 
-  void setLogStart(base::Stamp log_start) { filter_.setLogStart(log_start); }
-  void setGate(std::shared_ptr<ObservationGate> gate) { gate_ = std::move(gate); }
-  void setClocks(SensorClocks clocks) { clocks_ = std::move(clocks); }
+  void setLogStart(base::Stamp log_start) { selection_.setLogStart(log_start); }
+  void setGate(std::shared_ptr<ObservationGate> gate) { selection_.setGate(std::move(gate)); }
   void interrupt() { interrupted_ = true; }
 
  private:
@@ -189,45 +176,22 @@ class RawlogSource::Stream {
     }
   }
 
-  bool passes(const CObservation& observation) {
-    if (!filter_.knowsLogStart() && base::isValid(observation.timestamp)) filter_.setLogStart(observation.timestamp);
-    after_the_end_ = filter_.isAfterTheEnd(observation) ? after_the_end_ + 1 : 0;
-    if (after_the_end_ >= kEnoughAfterTheEnd) is_over_ = true;
-    if (!filter_.wants(observation)) {
-      ++report_.filtered_out;
-      report_.filtered_labels.insert(observation.sensorLabel);
-      return false;
-    }
-    if (const auto missing = loadExternalFiles(observation, images_folder_)) {
-      if (report_.missing_images++ == 0) report_.first_missing_image = *missing;
-      return false;
-    }
-    if (const auto reason = gate_->refuses(observation)) {
-      report_.countUnusable(observation.sensorLabel, *reason, observation.timestamp);
-      return false;
-    }
-    return true;
-  }
-
   ObjectReader reader_;
   SandboxedReader sandbox_;
   std::function<bool()> stop_waiting_;  // ends the wait for the child process
   std::atomic<bool> interrupted_{false};
   ActionSpans spans_;
   StepClock steps_;
-  ObservationFilter filter_;
   std::string images_folder_;
-  std::shared_ptr<ObservationGate> gate_ = std::make_shared<ObservationGate>();
-  SensorClocks clocks_;
+  ObservationSelection selection_;
   std::deque<CObservation::Ptr> waiting_;
   SourceReport report_;
   std::uint64_t rawlog_objects_ = 0;
-  int after_the_end_ = 0;  // number of observations in a row after the wanted time
-  bool is_over_ = false;   // everything wanted has been read
 };
 
-RawlogSource::RawlogSource(const std::string& path, const SourceOptions& options, const StopOpening& stop)
-    : stream_(std::make_unique<Stream>(path, options, stop)) {}
+RawlogSource::RawlogSource(const std::string& path, const SourceOptions& options, const StopOpening& stop,
+                           double clock_offset)
+    : stream_(std::make_unique<Stream>(path, options, stop, clock_offset)) {}
 RawlogSource::~RawlogSource() = default;
 
 CObservation::Ptr RawlogSource::next() {
@@ -251,26 +215,6 @@ void RawlogSource::setLogStart(base::Stamp log_start) {
 
 void RawlogSource::setGate(std::shared_ptr<ObservationGate> gate) {
   stream_->setGate(std::move(gate));
-}
-
-std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,
-                                               const StopOpening& stop) {
-  if (paths.empty()) throw base::Error(base::ExitCode::command_line, "no rawlog is named; give one with -r.");
-  std::vector<std::unique_ptr<RawlogSource>> logs;
-  std::optional<base::Stamp> start;
-  for (const auto& path : paths) {
-    for (const double offset : SensorClocks::offsetsIn(options.clock_offsets)) {
-      logs.push_back(std::make_unique<RawlogSource>(path, options, stop));
-      logs.back()->stream_->setClocks({options.clock_offsets, offset});
-    }
-    const auto first = logs.back()->firstStamp();
-    if (first && (!start || *first < *start)) start = first;
-  }
-  if (start && options.time_reference == TimeReference::log_start)
-    for (auto& log : logs) log->setLogStart(*start);
-  if (logs.size() == 1) return std::move(logs.front());
-  return std::make_unique<MergedSource>(std::vector<std::unique_ptr<ObservationSource>>(
-      std::make_move_iterator(logs.begin()), std::make_move_iterator(logs.end())));
 }
 
 }  // namespace omnimapper::source

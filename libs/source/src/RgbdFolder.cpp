@@ -1,5 +1,6 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/RgbdFolder.h>
 
@@ -86,8 +87,8 @@ Intrinsics readIntrinsics(const std::string& path) {
 Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
   if (name.empty()) {
     refuse(folder,
-           "does not show which camera took its images; name the camera with --intrinsics (freiburg1, ..., or a file "
-           "with fx, fy, cx, cy)");
+           "does not show which camera took its images; name the camera with --intrinsics of omnimapper-import, or as "
+           "[source_rgbd_folder] intrinsics in the INI (freiburg1, ..., or a file with fx, fy, cx, cy)");
   }
   const auto known = knownIntrinsics().find(name);
   return known != knownIntrinsics().end() ? known->second : readIntrinsics(name);
@@ -103,6 +104,23 @@ bool load(mrpt::img::CImage& image, const std::string& path, int how) {
 }
 
 }  // namespace
+
+const base::OptionTable<RgbdFolderOptions>& RgbdFolderOptions::table() {
+  using Options = RgbdFolderOptions;
+  static const auto table =
+      base::OptionTable<Options>()
+          .text("intrinsics", &Options::intrinsics,
+                "The camera: freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, "
+                "cy and the lens (k1, k2, p1, p2, k3). Empty: chosen by the name of the folder.")
+          .number("tolerance_s", &Options::largest_difference, base::Range::notNegative(),
+                  "Largest difference between the stamps of depth and colour, and of an image and its true pose.")
+          .number("depth_units_per_m", &Options::depth_units, base::Range::notNegative(),
+                  "Units of a depth image per metre; 0: 1000 for 7-Scenes and if the colour images are in image/, else "
+                  "5000.")
+          .number("rate_hz", &Options::rate, base::Range::positive(), "Rate of images without stamps.")
+          .text("label", &Options::label, "Sensor label.");
+  return table;
+}
 
 RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& options)
     : options_(options), depth_counts_(kDepthValues, 0) {
@@ -148,10 +166,6 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     scan->cameraParams = camera_;
     scan->cameraParams.ncols = width;
     scan->cameraParams.nrows = height;
-    if (const auto reason = gate_.refuses(*scan)) {
-      report_.countUnusable(options_.label, *reason, pair.stamp);
-      continue;
-    }
     for (int row = 0; row < height; ++row) {
       const auto* values = depth.ptrLine<std::uint16_t>(static_cast<unsigned>(row));  // at() counts columns in bytes
       for (int column = 0; column < width; ++column) {
@@ -168,11 +182,36 @@ mrpt::obs::CObservation::Ptr RgbdFolder::next() {
     report_.count(scan->sensorLabel, scan->GetRuntimeClass()->className, scan->timestamp);
     return scan;
   }
-  report_.ending = SourceReport::Ending::complete;
+  finish();
   return nullptr;
 }
 
-std::optional<geometry::Se3> RgbdFolder::truthAt(base::Stamp stamp, double tolerance) const {
+// With wrong depth units or a wrong camera the map is wrong although it looks right, so they are noted.
+void RgbdFolder::finish() {
+  if (report_.ending == SourceReport::Ending::complete) return;
+  report_.ending = SourceReport::Ending::complete;
+  auto& notes = report_.notes;
+  notes.push_back("depth images without a colour image at their time, kept without colour: " +
+                  std::to_string(unpaired_));
+  notes.push_back("camera: " + camera_name_ + ", fx " + base::fixed(camera_.fx(), 1) + " fy " +
+                  base::fixed(camera_.fy(), 1) + " cx " + base::fixed(camera_.cx(), 1) + " cy " +
+                  base::fixed(camera_.cy(), 1) + " pixels");
+  const std::string units = base::option_text::format(options_.depth_units);
+  const auto depth = medianDepth();
+  notes.push_back("depth: " + units + " units per metre" +
+                  (depth ? ", median " + base::fixed(*depth, 2) + " m" : ", no pixel has a depth"));
+  // A Kinect measures from 0.8 m to 4 m, or from 0.4 m to 3 m in its near mode, and the median depth of a room is
+  // seldom outside. freiburg1_rpy and freiburg3_cabinet read with 1000 units per metre have medians of 5.4 m and 7.2 m,
+  // ICL-NUIM's living room with 5000 one of 0.35 m.
+  constexpr double kNearest = 0.4, kFarthest = 4;  // [m]
+  if (!depth || (*depth >= kNearest && *depth <= kFarthest)) return;
+  report_.doubts.push_back("half of the depths are " + std::string(*depth < kNearest ? "below " : "above ") +
+                           base::fixed(*depth, 2) + " m: is depth_units_per_m = " + units +
+                           " right? An RGB-D camera sees rooms at 0.4 m to 4 m; with wrong units the map has a wrong "
+                           "scale");
+}
+
+std::optional<geometry::Se3> RgbdFolder::truthAt(base::Stamp stamp) const {
   const auto& truth = ground_truth_;
   auto nearest = std::lower_bound(truth.begin(), truth.end(), stamp,
                                   [](const auto& pose, base::Stamp wanted) { return pose.first < wanted; });
@@ -181,7 +220,7 @@ std::optional<geometry::Se3> RgbdFolder::truthAt(base::Stamp stamp, double toler
     if (nearest == truth.begin()) return std::nullopt;
     --nearest;
   }
-  if (off(nearest) > tolerance) return std::nullopt;
+  if (off(nearest) > options_.largest_difference) return std::nullopt;
   return nearest->second;
 }
 

@@ -254,43 +254,37 @@ RgbdFolderContent readSevenScenes(const fs::path& folder, const RgbdFolderOption
   return content;
 }
 
-bool isSevenScenes(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind("frame-", 0) == 0 && name.find(".depth.png") != std::string::npos) return true;
-  }
-  return false;
+bool isSevenScenes(const LogLook& look) {
+  return std::any_of(look.entries.begin(), look.entries.end(), [](const std::string& entry) {
+    return entry.rfind("frame-", 0) == 0 && entry.find(".depth.png") != std::string::npos;
+  });
 }
 
-bool isOfEqualNames(const fs::path& folder) {
-  std::error_code error;
-  return fs::is_directory(folder / "depth", error) &&
-         (fs::is_directory(folder / "rgb", error) || fs::is_directory(folder / "image", error));
+bool isOfEqualNames(const LogLook& look) {
+  return look.has("depth") && (look.has("rgb") || look.has("image"));
 }
 
 }  // namespace
 
-bool isRgbdFolder(const fs::path& folder) {
-  std::error_code error;
-  return fs::exists(folder / "depth.txt", error) || fs::exists(folder / "associations.txt", error) ||
-         isOfEqualNames(folder) || isSevenScenes(folder);
+bool RgbdFolder::recognizes(const LogLook& look) {
+  return look.has("depth.txt") || look.has("associations.txt") || isOfEqualNames(look) || isSevenScenes(look);
 }
 
 RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
   std::error_code error;
   if (fs::is_regular_file(folder, error)) refuse(folder, "is no folder: it " + describeInput(folder));
   if (!fs::is_directory(folder, error)) refuse(folder, "there is no such folder; is the path right?");
+  const auto look = LogLook::at(folder);
   RgbdFolderContent content;
-  if (fs::exists(folder / "depth.txt"))
+  if (look.has("depth.txt"))
     content = readTum(folder, options);
-  else if (fs::exists(folder / "rgb.txt"))
+  else if (look.has("rgb.txt"))
     refuse(folder, "has rgb.txt but no depth.txt: a TUM RGB-D folder needs both");
-  else if (fs::exists(folder / "associations.txt"))
+  else if (look.has("associations.txt"))
     content = readAssociations(folder / "associations.txt", options);
-  else if (isOfEqualNames(folder))
+  else if (isOfEqualNames(look))
     content = readEqualNames(folder, options);
-  else if (isSevenScenes(folder))
+  else if (isSevenScenes(look))
     content = readSevenScenes(folder, options);
   else
     refuse(folder,

@@ -17,9 +17,6 @@ struct RgbdFolderContent {
   double usual_depth_units = 5000;
 };
 
-/// Whether the folder is of one of the forms that readRgbdFolder() knows; throws nothing.
-bool isRgbdFolder(const std::filesystem::path& folder);
-
 /// Throws Error(unreadable_input).
 RgbdFolderContent readRgbdFolder(const std::filesystem::path& folder, const RgbdFolderOptions& options);
 

@@ -5,6 +5,10 @@ namespace omnimapper::source {
 const base::OptionTable<SourceOptions>& SourceOptions::table() {
   static const auto table =
       base::OptionTable<SourceOptions>()
+          .list(
+              "formats", &SourceOptions::formats,
+              "Formats that a log may have: rawlog and those of --list-plugins, whose own options are in the sections "
+              "[source_FORMAT]. Empty for all of them. It decides where a log looks like one of several formats.")
           .list("labels", &SourceOptions::labels,
                 "Labels of the sensors to read; empty reads all. The motions in a rawlog's actions have the label that "
                 "action_label sets.")
@@ -16,10 +20,11 @@ const base::OptionTable<SourceOptions>& SourceOptions::table() {
                   {{"log_start", TimeReference::log_start}, {"unix", TimeReference::unix_epoch}},
                   "Time from which start_s and end_s are counted: the first stamp of the earliest log, or the Unix "
                   "epoch (1970).")
-          .number("step_s", &SourceOptions::step, base::Range{0, 1e6},
-                  "Time from one step of the log to the next, for a log whose own stamps do not advance; 0 uses the "
-                  "log's own stamps. A step ends when a sensor, or an action, occurs in it for the second time, so the "
-                  "fastest sensor determines the steps.")
+          .number(
+              "step_s", &SourceOptions::step, base::Range{0, 1e6},
+              "Time from one step of a rawlog to the next, for a rawlog whose own stamps do not advance; 0 uses the "
+              "rawlog's own stamps. A step ends when a sensor, or an action, occurs in it for the second time, so the "
+              "fastest sensor determines the steps.")
           .choice("action_span", &SourceOptions::action_span,
                   {{"automatic", ActionSpan::automatic}, {"frames", ActionSpan::frames}, {"own", ActionSpan::own}},
                   "Time span that the motion of a rawlog's action gets, because the action states none. frames: from "

@@ -95,6 +95,7 @@ std::string SourceReport::text() const {
     text += "observations left out because an external file cannot be read: " + std::to_string(missing_images) +
             ", first " + first_missing_image + "\n";
   }
+  for (const auto& note : notes) text += note + "\n";
   return text;
 }
 
@@ -162,6 +163,8 @@ void SourceReport::add(const SourceReport& other) {
   }
   missing_images += other.missing_images;
   if (first_missing_image.empty()) first_missing_image = other.first_missing_image;
+  notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+  doubts.insert(doubts.end(), other.doubts.begin(), other.doubts.end());
   has_logs_apart = has_logs_apart || other.has_logs_apart;
 }
 

@@ -5,7 +5,7 @@
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -19,7 +19,7 @@ namespace {
 Observations readLog(const std::string& path, double seconds) {
   source::SourceOptions options;
   options.end = seconds;
-  const auto source = source::openRawlogs({path}, options);
+  const auto source = source::openLogs({path}, options);
   Observations log;
   while (auto observation = source->next()) log.push_back(std::move(observation));
   if (log.empty()) throw std::runtime_error(path + " has no observation");

@@ -3,8 +3,8 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/camera/CameraCalibration.h>
 #include <omnimapper/camera/RgbdView.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 
@@ -92,7 +92,7 @@ DepthLog readDepthLog(const DepthRequest& request, base::Progress& progress, con
   source::SourceOptions options;
   options.start = request.start;
   options.end = request.end;
-  source::ReadAhead log(source::openRawlogs(request.logs, options, stop), stop);
+  source::ReadAhead log(source::openLogs(request.logs, options, stop), stop);
   DepthLog result;
   result.label = request.label;
   DepthImageChooser chooser(static_cast<std::size_t>(request.images));

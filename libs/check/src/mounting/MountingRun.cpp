@@ -5,7 +5,8 @@
 #include <omnimapper/check/gatherFacts.h>
 #include <omnimapper/check/judge.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <ostream>
@@ -27,7 +28,7 @@ struct Reading {
 
 Reading readLogs(const std::vector<std::string>& logs, const base::Config& config, base::Progress& progress,
                  const std::function<bool()>& stop) {
-  const auto log = source::openRawlogs(logs, mapper::sourceOptions(config), stop);
+  const auto log = source::openLogs(logs, mapper::sourceOptions(config), stop);
   Reading reading;
   reading.facts = gatherFacts(*log, Declared::read(config), stop, &progress);
   reading.report = log->report();
@@ -131,6 +132,7 @@ MountingResult runMounting(const std::vector<std::string>& logs, const base::Con
   const base::InputsKept inputs_kept(logs);
   base::makeWritableFolder(output_folder);
   const auto title = joined(logs, " + ");
+  mapper::loadPluginLibraries(config);
   auto reading = readLogs(logs, config, progress, stop);
   auto mounting = sensorMounting(reading.facts, {});
   refuseEmpty(mounting, title);

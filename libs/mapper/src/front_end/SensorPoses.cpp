@@ -3,6 +3,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/SensorPoses.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,7 +139,7 @@ mrpt::obs::CObservation::Ptr SensorPoses::applied(const mrpt::obs::CObservation:
 }
 
 source::SourceOptions sourceOptions(const base::Config& config) {
-  auto options = config.section("source").read<source::SourceOptions>();
+  auto options = source::readSourceOptions(config);
   options.clock_offsets = SensorPoses(config.section("mapper").read<EngineOptions>().sensors, config).clockOffsets();
   return options;
 }

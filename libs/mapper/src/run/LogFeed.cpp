@@ -1,6 +1,6 @@
 #include "run/LogFeed.h"
 
-#include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <chrono>
@@ -35,7 +35,11 @@ class Pace {
 
 std::string LogFeed::title() const {
   std::string title;
-  for (const auto& log : logs_) title += (title.empty() ? "" : " + ") + std::filesystem::path(log).stem().string();
+  for (const auto& log : logs_) {
+    auto path = std::filesystem::path(log).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();  // a folder that ends with a slash
+    title += (title.empty() ? "" : " + ") + path.stem().string();
+  }
   return title;
 }
 
@@ -46,7 +50,7 @@ std::string LogFeed::name() const {
 }
 
 void LogFeed::open(const Stop& stop) {
-  log_.emplace(source::openRawlogs(logs_, options_, stop), stop);
+  log_.emplace(source::openLogs(logs_, options_, stop), stop);
 }
 
 bool LogFeed::feed(Engine& engine, SensorSamples& samples, base::Progress& progress, const Stop& stop) {

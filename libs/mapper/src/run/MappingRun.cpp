@@ -156,7 +156,6 @@ void Run::open() {
 
 void Run::makeEngine() {
   const auto& options = settings_.engine;
-  loadPluginLibraries(config_);
   SensorPoses sensor_poses(options.sensors, config_);
   auto outputs = options.output_plugins;
   outputs.insert(outputs.end(), request_.more_outputs.begin(), request_.more_outputs.end());
@@ -404,6 +403,7 @@ const FixedSections& fixedSections() {
 RunResult runMapping(const RunRequest& request, const base::Config& config, base::Progress& progress,
                      const std::function<bool()>& stop) {
   checkRequest(request);
+  loadPluginLibraries(config);
   Run run(request, config, progress, stop);
   run.open();
   run.feed();

@@ -4,9 +4,9 @@
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/mapper/SensorPoses.h>
 #include <omnimapper/plugin/StageTimes.h>
-#include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/ReadAhead.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <sstream>
 
@@ -52,6 +52,7 @@ void refuseNothing(const PerceptionRequest& request, const std::string& ini, con
 PerceptionResult runPerception(const PerceptionRequest& request, const base::Config& config, base::Progress& progress,
                                const std::function<bool()>& stop) {
   const StopWatch watch;
+  loadPluginLibraries(config);
   const auto options = config.section("perception").read<PerceptionOptions>();
   const auto settings = EngineSettings::read(config);
   const auto source_options = sourceOptions(config);
@@ -60,7 +61,6 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
                       config.placeOf("perception", "extractors") +
                           ": [perception] extractors is empty: name the sections of the extractors");
   }
-  loadPluginLibraries(config);
   PluginContext context;
   context.config_text = config.text();
   const auto plugins = makePlugins({{}, options.extractors, {}, {}}, config, context);
@@ -68,7 +68,7 @@ PerceptionResult runPerception(const PerceptionRequest& request, const base::Con
   config.refuseUnreadSections();
   PerceptionResult result;
   for (const auto& [section, extractor] : plugins.extractors) result.extractors.push_back({section});
-  source::ReadAhead log(source::openRawlogs(request.logs, source_options, stop), stop);
+  source::ReadAhead log(source::openLogs(request.logs, source_options, stop), stop);
   source::writeRawlog(request.output, [&](source::RawlogWriter& rawlog) {
     PerceptionLine line(plugins.extractors, std::max(1, request.threads));
     PerceivedLog output(request, rawlog, result);

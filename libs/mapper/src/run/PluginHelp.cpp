@@ -2,6 +2,7 @@
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
+#include <omnimapper/source/SourceFactory.h>
 
 #include <algorithm>
 #include <sstream>
@@ -21,6 +22,12 @@ std::string listPlugins() {
     }
     out << "  " << factory->name() << std::string(width + 2 - factory->name().size(), ' ') << factory->summary()
         << "\n";
+  }
+  const auto formats = source::registeredFormats();
+  if (!formats.empty()) out << "formats of logs\n";
+  for (const auto& format : formats) {
+    const std::string name = format->name();
+    out << "  " << name << std::string(width + 2 - std::min(width, name.size()), ' ') << format->summary() << "\n";
   }
   return out.str();
 }
@@ -52,6 +59,10 @@ std::string iniReference(const FixedSections& fixed) {
          "Comments start with `;`, `#` or `//`.\n\n";
   for (const auto& [name, specs] : fixed) {
     out << "## [" << name << "]\n\n" << base::optionsAsMarkdown(specs);
+  }
+  for (const auto& format : source::registeredFormats()) {
+    out << "## [" << source::sectionOfFormat(format->name()) << "]\n\nFor `-r` with " << format->summary() << ".\n\n"
+        << base::optionsAsMarkdown(format->options());
   }
   out << "# Plugin classes\n\nEach plugin has a section of its own, whose name is free and is listed in `[mapper]` or "
          "`[perception]`. In the section, `class = ...` names one of these classes.\n\n";

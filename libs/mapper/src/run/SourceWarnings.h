@@ -13,6 +13,7 @@ inline std::vector<std::string> warningsOf(const source::SourceReport& report) {
   std::vector<std::string> warnings;
   if (!report.message.empty()) warnings.push_back(report.message);
   for (const auto& sentence : report.unusableText()) warnings.push_back(sentence);
+  warnings.insert(warnings.end(), report.doubts.begin(), report.doubts.end());
   if (report.has_logs_apart) {
     warnings.push_back(
         "the stamps of one of the merged logs are a minute or more away from all others: are the logs of one drive, "

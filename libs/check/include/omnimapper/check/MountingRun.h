@@ -26,7 +26,7 @@ struct MountingResult {
 /// The exit code is that of the source's report if the log is damaged, doubtful_input if something has two causes or
 /// the log still contradicts what it and mounting.ini declare, else ok. Throws Error(nothing_to_map) if nothing can be
 /// measured, and Error(interrupted) if `stop` returns true; then nothing is written. Throws base::Error also as
-/// source::openRawlogs() and base::writeFile() do.
+/// source::openLogs() and base::writeFile() do.
 MountingResult runMounting(const std::vector<std::string>& logs, const base::Config& config,
                            const std::string& output_folder, base::Progress& progress,
                            const std::function<bool()>& stop);

@@ -47,7 +47,7 @@ struct LogViews {
 
 /// The planes of the depth images of a log, each image by itself, placed by the poses of the base in `trajectory`.
 /// Throws Error(unreadable_input) if the log has no depth images or none of them has a pose, Error(interrupted) if
-/// `stop` returns true, and as source::openRawlogs() does.
+/// `stop` returns true, and as source::openLogs() does.
 LogViews readViews(const std::string& log, const Trajectory& trajectory, const ViewOptions& options,
                    base::Progress& progress, const std::function<bool()>& stop);
 

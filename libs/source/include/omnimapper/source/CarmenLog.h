@@ -1,11 +1,12 @@
 #pragma once
 
+#include <omnimapper/base/OptionTable.h>
+#include <omnimapper/source/LogLook.h>
 #include <omnimapper/source/ObservationSource.h>
 
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace omnimapper::source {
@@ -20,6 +21,11 @@ enum class CarmenOdometry {
   scans,      ///< the odometry of scans gets the label ODOM; ODOM lines are left out
 };
 
+struct CarmenOptions {
+  CarmenOdometry odometry = CarmenOdometry::automatic;
+  static const base::OptionTable<CarmenOptions>& table();
+};
+
 /// Streams a CARMEN log (plain, gzip or bzip2) as MRPT observations: CObservation2DRangeScan for FLASER, RLASER,
 /// ROBOTLASER1 and ROBOTLASER2, labelled with these names, and CObservationOdometry.
 ///
@@ -32,8 +38,12 @@ enum class CarmenOdometry {
 /// The rear laser looks back. Readings of 80 m and more count as no echo.
 class CarmenLog : public ObservationSource {
  public:
+  static constexpr const char* kName = "carmen_log";
+  static constexpr const char* kSummary = "a CARMEN log";
+  static bool recognizes(const LogLook& look);
+
   /// Throws Error(unreadable_input) if the file cannot be opened or is no CARMEN log.
-  explicit CarmenLog(const std::string& path, CarmenOdometry odometry = CarmenOdometry::automatic);
+  explicit CarmenLog(const std::string& path, const CarmenOptions& options = {});
   ~CarmenLog() override;
 
   mrpt::obs::CObservation::Ptr next() override;

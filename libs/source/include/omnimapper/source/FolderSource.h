@@ -24,6 +24,8 @@ class FolderSource : public ObservationSource {
                const std::string& label, double rate);
   /// Reads one file; the caller sets stamp and label. Throws base::Error if the file cannot be read.
   virtual mrpt::obs::CObservation::Ptr read(const std::string& file) = 0;
+  /// Adds notes to the report when all files have been read.
+  virtual void noteAtEnd(SourceReport& /*report*/) const {}
 
  private:
   std::string label_;

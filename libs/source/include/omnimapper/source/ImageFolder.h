@@ -1,6 +1,8 @@
 #pragma once
 
+#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/source/FolderSource.h>
+#include <omnimapper/source/LogLook.h>
 
 #include <string>
 
@@ -10,6 +12,7 @@ struct ImageFolderOptions {
   std::string label = "camera";
   double rate = 1;      ///< images per second, if their names are no Unix times [1/s]
   double focal_px = 0;  ///< focal length; 0: the width of the image
+  static const base::OptionTable<ImageFolderOptions>& table();
 };
 
 /// Streams the JPEG and PNG images of a folder as CObservationImage, except NAME.mask.png, which marks the signs in the
@@ -19,11 +22,17 @@ struct ImageFolderOptions {
 /// along the base's x.
 class ImageFolder : public FolderSource {
  public:
+  static constexpr const char* kName = "image_folder";
+  static constexpr const char* kSummary = "a folder of JPEG or PNG images of one camera";
+  /// A folder of images that has no other files than texts beside them.
+  static bool recognizes(const LogLook& look);
+
   /// Throws Error(unreadable_input) for a folder without such images.
   explicit ImageFolder(const std::string& folder, const ImageFolderOptions& options = {});
 
  private:
   mrpt::obs::CObservation::Ptr read(const std::string& file) override;
+  void noteAtEnd(SourceReport& report) const override;
 
   double focal_px_;
 };

@@ -1,9 +1,17 @@
 #pragma once
 
 #include <mrpt/obs/CObservation.h>
+#include <omnimapper/geometry/Se3.h>
 #include <omnimapper/source/SourceReport.h>
 
+#include <optional>
+#include <utility>
+#include <vector>
+
 namespace omnimapper::source {
+
+/// Poses of the base in a world frame, in order of stamps.
+using TruePoses = std::vector<std::pair<base::Stamp, geometry::Se3>>;
 
 /// A stream of observations. A live driver can implement it too: next() then waits for data of getObservations() in
 /// mrpt::hwdrivers.
@@ -18,6 +26,10 @@ class ObservationSource {
   virtual SourceReport report() const = 0;
   /// Another thread calls this before it gives the source up; a call of next() that is waiting then returns null soon.
   virtual void interrupt() {}
+  /// The true poses that the log has beside its observations; empty if it has none.
+  virtual TruePoses truth() const { return {}; }
+  /// The true pose at a time; none if the log has none that is near enough.
+  virtual std::optional<geometry::Se3> truthAt(base::Stamp /*stamp*/) const { return std::nullopt; }
 };
 
 }  // namespace omnimapper::source

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/source/FolderSource.h>
+#include <omnimapper/source/LogLook.h>
 #include <omnimapper/source/PcdCloud.h>
 
 #include <string>
@@ -11,6 +13,7 @@ namespace omnimapper::source {
 struct PcdFolderOptions {
   std::string label = "RGBD";
   double rate = 30;  ///< clouds per second, if their names are no Unix times [1/s]
+  static const base::OptionTable<PcdFolderOptions>& table();
 };
 
 /// Converts an organized cloud in a camera's optical frame (x right, y down, z forward) to a depth image, with colours
@@ -25,6 +28,10 @@ mrpt::obs::CObservation::Ptr cloudOf(const PcdCloud& cloud);
 /// base (x forward, z up). Files that are no cloud, and organized clouds that depthImageOf() refuses, are left out.
 class PcdFolder : public FolderSource {
  public:
+  static constexpr const char* kName = "pcd_folder";
+  static constexpr const char* kSummary = "a folder of PCD clouds";
+  static bool recognizes(const LogLook& look);
+
   /// Throws Error(unreadable_input) for a folder without PCD files.
   explicit PcdFolder(const std::string& folder, const PcdFolderOptions& options = {});
 
@@ -33,6 +40,7 @@ class PcdFolder : public FolderSource {
 
  private:
   mrpt::obs::CObservation::Ptr read(const std::string& file) override;
+  void noteAtEnd(SourceReport& report) const override;
 
   std::size_t unorganized_ = 0;
 };

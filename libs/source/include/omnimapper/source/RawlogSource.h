@@ -1,18 +1,14 @@
 #pragma once
 
+#include <omnimapper/source/LogSource.h>
 #include <omnimapper/source/ObservationGate.h>
-#include <omnimapper/source/ObservationSource.h>
 #include <omnimapper/source/SourceOptions.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace omnimapper::source {
-
-/// Called before a log is opened, and ten times a second while its first object is awaited; true stops the opening.
-using StopOpening = std::function<bool()>;
 
 /// Streams one rawlog, plain, gzip or bzip2, in either of MRPT's formats or a mixture of both: observations one by one,
 /// or pairs of actions and sensory frames. Memory does not grow with the file.
@@ -28,14 +24,13 @@ using StopOpening = std::function<bool()>;
 ///
 /// Labels are converted by base::sensorName(), so that no log can forge lines of a terminal or an INI. Observations
 /// that ObservationGate refuses are left out.
-class RawlogSource : public ObservationSource {
-  friend std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths,
-                                                        const SourceOptions& options, const StopOpening& stop);
-
+class RawlogSource : public LogSource {
  public:
-  /// Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, and Error(interrupted) if `stop`
-  /// returns true.
-  explicit RawlogSource(const std::string& path, const SourceOptions& options = {}, const StopOpening& stop = {});
+  /// `clock_offset` [s]: of the sensors that options.clock_offsets names, those with this offset are handed out; with 0
+  /// also all others. Throws Error(unreadable_input) if the file cannot be opened or is no rawlog, and
+  /// Error(interrupted) if `stop` returns true.
+  explicit RawlogSource(const std::string& path, const SourceOptions& options = {}, const StopOpening& stop = {},
+                        double clock_offset = 0);
   ~RawlogSource() override;
 
   mrpt::obs::CObservation::Ptr next() override;
@@ -43,11 +38,8 @@ class RawlogSource : public ObservationSource {
   SourceReport report() const override;
   void interrupt() override;
 
-  /// The first stamp of the log, if one of its first objects has a stamp.
-  std::optional<base::Stamp> firstStamp() const;
-  /// Sets the time from which start_s and end_s are counted. By default this is the log's first stamp, or 1970 with
-  /// TimeReference::unix_epoch.
-  void setLogStart(base::Stamp log_start);
+  std::optional<base::Stamp> firstStamp() const override;
+  void setLogStart(base::Stamp log_start) override;
   /// For a log in several files that are read one after the other: sets the gate through which the earlier files
   /// passed. Must be called before next().
   void setGate(std::shared_ptr<ObservationGate> gate);
@@ -56,10 +48,5 @@ class RawlogSource : public ObservationSource {
   class Stream;
   std::unique_ptr<Stream> stream_;
 };
-
-/// Opens one rawlog, or several merged by stamp, with start_s and end_s counted from the earliest first stamp of all.
-/// Throws as RawlogSource, and Error(command_line) if there is no path.
-std::unique_ptr<ObservationSource> openRawlogs(const std::vector<std::string>& paths, const SourceOptions& options,
-                                               const StopOpening& stop = {});
 
 }  // namespace omnimapper::source

@@ -1,15 +1,15 @@
 #pragma once
 
 #include <mrpt/img/TCamera.h>
+#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/geometry/Se3.h>
-#include <omnimapper/source/ObservationGate.h>
+#include <omnimapper/source/LogLook.h>
 #include <omnimapper/source/ObservationSource.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace omnimapper::source {
@@ -22,6 +22,7 @@ struct RgbdFolderOptions {
   /// freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file that has fx, fy, cx and cy: four numbers,
   /// or OpenCV's "Camera.fx: 535.4". Empty: determined by the folder's form and name.
   std::string intrinsics;
+  static const base::OptionTable<RgbdFolderOptions>& table();
 };
 
 /// A depth image with its colour image, if it has one.
@@ -45,6 +46,10 @@ struct RgbdPair {
 /// A depth image without a colour image of its time is handed out without colour.
 class RgbdFolder : public ObservationSource {
  public:
+  static constexpr const char* kName = "rgbd_folder";
+  static constexpr const char* kSummary = "a folder of RGB-D images";
+  static bool recognizes(const LogLook& look);
+
   /// Throws Error(unreadable_input) if the folder has no known form, a list cannot be read, or intrinsics are missing.
   explicit RgbdFolder(const std::string& folder, const RgbdFolderOptions& options = {});
 
@@ -64,21 +69,21 @@ class RgbdFolder : public ObservationSource {
   double depthUnits() const { return options_.depth_units; }
   /// Median depth [m] of all pixels with a depth in the images that next() returned; none before the first image.
   std::optional<double> medianDepth() const;
-  /// True poses of the base in the world frame of the folder, as far as the folder has them: stamp and pose, in order
-  /// of stamps.
-  const std::vector<std::pair<base::Stamp, geometry::Se3>>& groundTruth() const { return ground_truth_; }
-  /// The true pose nearest in time; none if it is more than `tolerance` [s] away.
-  std::optional<geometry::Se3> truthAt(base::Stamp stamp, double tolerance) const;
+  /// True poses of the base in the world frame of the folder.
+  TruePoses truth() const override { return ground_truth_; }
+  /// The true pose nearest in time; none if it is more than RgbdFolderOptions::largest_difference away.
+  std::optional<geometry::Se3> truthAt(base::Stamp stamp) const override;
 
  private:
+  void finish();
+
   RgbdFolderOptions options_;
   std::string camera_name_;
   mrpt::img::TCamera camera_;
   std::vector<RgbdPair> pairs_;
-  std::vector<std::pair<base::Stamp, geometry::Se3>> ground_truth_;
+  TruePoses ground_truth_;
   std::size_t unpaired_ = 0, next_ = 0;
   std::vector<std::uint64_t> depth_counts_;  // number of pixels of each depth value
-  ObservationGate gate_;
   SourceReport report_;
 };
 

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <omnimapper/base/OptionTable.h>
+#include <omnimapper/source/ObservationSource.h>
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,11 +24,15 @@ enum class TimeReference {
   unix_epoch  ///< 1970
 };
 
+/// Opens a log of one format at a path. Throws Error(unreadable_input) if it is no such log.
+using OpenLog = std::function<std::unique_ptr<ObservationSource>(const std::string& path)>;
+
 /// Section [source] of an INI file.
 struct SourceOptions {
-  std::vector<std::string> labels;  ///< sensor labels to hand out; empty: all
-  double start = 0;                 ///< [s] observations before this time are left out
-  double end = 0;                   ///< [s] observations after this time are left out; 0: none are left out
+  std::vector<std::string> formats;  ///< formats that a log may have; empty: all that are known
+  std::vector<std::string> labels;   ///< sensor labels to hand out; empty: all
+  double start = 0;                  ///< [s] observations before this time are left out
+  double end = 0;                    ///< [s] observations after this time are left out; 0: none are left out
   TimeReference time_reference = TimeReference::log_start;
   double step = 0;  ///< [s] time between the steps of a log whose stamps stand still; 0: the log's own stamps
   ActionSpan action_span = ActionSpan::automatic;
@@ -35,6 +42,10 @@ struct SourceOptions {
   /// Time [s] to add to all stamps of a sensor, by label; no key of [source], because it belongs to the sensor. The
   /// sensors are then sorted by their corrected stamps, for which the log is read once more for each different offset.
   std::map<std::string, double> clock_offsets;
+
+  /// What opens logs with the options of [source_FORMAT], by format; no key of [source]. A registered format that is
+  /// not here has its default options.
+  std::map<std::string, OpenLog> openers;
 
   static const base::OptionTable<SourceOptions>& table();
 };

@@ -54,6 +54,8 @@ struct SourceReport {
   std::map<std::pair<std::string, std::string>, LeftOut> unusable;
   std::uint64_t missing_images = 0;  ///< observations left out because an external file cannot be read
   std::string first_missing_image;   ///< the first such file
+  std::vector<std::string> notes;    ///< at the end: lines about the log that only its format has
+  std::vector<std::string> doubts;   ///< at the end: sentences about what in the log is probably wrong
   bool has_logs_apart = false;       ///< one of several merged logs lies far from all others in time
 
   /// Observations handed out.
