@@ -149,14 +149,14 @@ function(omnimapper_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "${absent}^$" EXCLUDE)
 endfunction()
 
-# omnimapper_feature(NAME PLUGINS <classes...> [NEEDS <target> <text>] LINKS <targets...>)
+# omnimapper_feature(NAME [PLUGINS <classes...>] [FORMATS <names...>] [NEEDS <target> <text>] LINKS <targets...>)
 # A feature: the shared library omnimapper-NAME from the folder's sources, in the folder omnimapper/ beside the other
-# libraries, where programs find it when they start. PLUGINS are the classes that it registers, as an INI writes them.
-# If the target that it NEEDS is missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the feature is left out, and an INI
-# that names one of its plugins gets an error with the reason.
+# libraries, where programs find it when they start. PLUGINS are the classes that it registers, as an INI writes them,
+# and FORMATS the formats of logs. If the target that it NEEDS is missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the
+# feature is left out, and whoever names one of its plugins or formats gets an error with the reason.
 function(omnimapper_feature name)
-  cmake_parse_arguments(ARG "" "" "PLUGINS;NEEDS;LINKS" ${ARGN})
-  option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}" ON)
+  cmake_parse_arguments(ARG "" "" "PLUGINS;FORMATS;NEEDS;LINKS" ${ARGN})
+  option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}" ON)
   set_property(GLOBAL APPEND PROPERTY omnimapper_declared_features ${name})
   set(left_out "")
   if(NOT OMNIMAPPER_FEATURE_${name})
@@ -168,9 +168,12 @@ function(omnimapper_feature name)
       set(left_out "it had no ${text}; install that, and configure and build again")
     endif()
   endif()
-  foreach(class ${ARG_PLUGINS})
-    set_property(GLOBAL APPEND_STRING PROPERTY omnimapper_feature_index
-      "    {\"${class}\", \"${name}\", \"${left_out}\"},\n")
+  foreach(kind PLUGIN FORMAT)
+    string(TOLOWER ${kind} registered)
+    foreach(each ${ARG_${kind}S})
+      set_property(GLOBAL APPEND_STRING PROPERTY omnimapper_feature_index
+        "    {Registered::${registered}, \"${each}\", \"${name}\", \"${left_out}\"},\n")
+    endforeach()
   endforeach()
   if(left_out)
     message(STATUS "Feature ${name} is left out: ${left_out}")

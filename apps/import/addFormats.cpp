@@ -1,3 +1,4 @@
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/source/SourceFactory.h>
 
 #include <algorithm>
@@ -33,6 +34,19 @@ void addOptions(CLI::App& task, const std::vector<base::OptionSpec>& options, Ar
   }
 }
 
+CLI::App* addTask(CLI::App& app, const std::string& name, const std::string& summary, Arguments& arguments) {
+  const auto found = kShortNames.find(name);
+  auto* task = app.add_subcommand(found == kShortNames.end() ? name : found->second, summary);
+  task->add_option("IN", arguments.input, summary)->required();
+  task->add_option("OUT", arguments.output,
+                   "rawlog to write; a ground truth is written beside it: out.rawlog, out.truth.tum")
+      ->required();
+  auto& format = *arguments.formats.emplace_back(std::make_unique<Arguments::Format>());
+  format.name = name;
+  format.task = task;
+  return task;
+}
+
 }  // namespace
 
 const Arguments::Format& Arguments::chosen() const {
@@ -41,20 +55,17 @@ const Arguments::Format& Arguments::chosen() const {
 
 void addFormats(CLI::App& app, Arguments& arguments) {
   for (const auto& factory : source::registeredFormats()) {
-    const auto found = kShortNames.find(factory->name());
-    auto* task = app.add_subcommand(found == kShortNames.end() ? factory->name() : found->second, factory->summary());
-    task->add_option("IN", arguments.input, factory->summary())->required();
-    task->add_option("OUT", arguments.output,
-                     "rawlog to write; a ground truth is written beside it: out.rawlog, out.truth.tum")
-        ->required();
-    auto& format = *arguments.formats.emplace_back(std::make_unique<Arguments::Format>());
-    format.name = factory->name();
-    format.task = task;
-    addOptions(*task, factory->options(), format);
+    auto* task = addTask(app, factory->name(), factory->summary(), arguments);
+    addOptions(*task, factory->options(), *arguments.formats.back());
     task->add_option("--images", arguments.images, "embedded: images are in the rawlog; external: in files beside it")
         ->check(CLI::IsMember({"embedded", "external"}))
         ->capture_default_str();
     task->add_flag("--poses", arguments.poses,
                    "also write the true poses into the rawlog, as observations that a map can use");
+  }
+  // A format that is left out says so, with the remedy, when it is named.
+  for (const auto& name : base::namesOfFeatures(base::Registered::format)) {
+    if (const auto why = base::whyUnavailable(name); !why.empty())
+      addTask(app, name, "not available: " + why, arguments)->allow_extras();
   }
 }

@@ -16,7 +16,7 @@ readonly address_cases='-StockTools.*:FalseClosuresInManhattanTest.*:WrongPlaces
 # --thorough runs these too, and the system tests of hostile and damaged input.
 readonly thorough_tests=("${trusted_tests[@]}" system-input system-robust fuzz-runs-share)
 # The unit cases that a sanitizer forbids, and those that try more seeds, bytes, logs and places without one.
-readonly release_tests=(obs-release source-release graph-release mapper-release mapper-release-2)
+readonly release_tests=(obs-release source-release plugins-release graph-release mapper-release mapper-release-2)
 readonly release_cases='StockTools.*:DamageTest.*:RawlogSourceTest.aLogIsReadWhileTheChildReads*:PcdCloudTest.aHeaderThatStates*:FalseClosuresInManhattanTest.*:EngineRandom.*:ShuffledArrival.*:ShuffledArrival.WithLoopClosures*:WrongPlaces.AnEmptyHall*'
 # The unit tests of threads, under the thread sanitizer.
 readonly thread_tests=(live-threads drivers-threads source-threads mapper-threads mapper-threads-2)

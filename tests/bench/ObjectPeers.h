@@ -1,11 +1,12 @@
 #pragma once
 
 #include <omnimapper/camera/DepthImage.h>
-#include <omnimapper/source/PcdCloud.h>
 
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "pcd_folder/PcdCloud.h"
 
 namespace omnimapper::bench {
 

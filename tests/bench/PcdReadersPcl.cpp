@@ -1,4 +1,3 @@
-#include <omnimapper/source/PcdCloud.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <pcl/io/pcd_io.h>
 #include <sys/resource.h>
@@ -15,6 +14,7 @@
 #include <string>
 
 #include "PcdReaders.h"
+#include "pcd_folder/PcdCloud.h"
 
 namespace omnimapper::bench {
 

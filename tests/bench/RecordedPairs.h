@@ -5,7 +5,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/eval/RelationError.h>
-#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -55,10 +55,10 @@ inline bool right(const TPose2D& found, const TPose2D& truth) {
 
 /// The scans of a log that have this label, by stamp.
 inline std::map<base::Stamp, RecordedScan> readScans(const std::string& path, const std::string& label) {
-  source::CarmenLog log(path);
+  const auto log = source::openLogs({path}, {});
   std::map<base::Stamp, RecordedScan> scans;
   TPose2D odometry;
-  while (const auto observation = log.next()) {
+  while (const auto observation = log->next()) {
     if (const auto* o = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get())) {
       odometry = o->odometry.asTPose();
       continue;

@@ -3,7 +3,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/matching/Relocalizer.h>
-#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +49,8 @@ inline std::vector<matching::MapScan> scansOf(source::ObservationSource& log, co
 
 /// The scans of FOLDER/NAME.clf.bz2 that have a pose in FOLDER/NAME.reference.tum.
 inline std::vector<matching::MapScan> referenceScans(const std::string& folder, const std::string& name) {
-  source::CarmenLog log(folder + "/" + name + ".clf.bz2");
-  return scansOf(log, eval::readTum(folder + "/" + name + ".reference.tum"));
+  const auto log = source::openLogs({folder + "/" + name + ".clf.bz2"}, {});
+  return scansOf(*log, eval::readTum(folder + "/" + name + ".reference.tum"));
 }
 
 }  // namespace omnimapper::bench

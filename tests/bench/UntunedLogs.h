@@ -5,7 +5,6 @@
 #include <omnimapper/base/Stamp.h>
 #include <omnimapper/eval/AbsoluteTrajectoryError.h>
 #include <omnimapper/eval/TumFile.h>
-#include <omnimapper/source/CarmenLog.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/ChildProgram.h>
@@ -60,12 +59,7 @@ inline std::optional<Log> logNamed(const std::string& name) {
 /// The observations of a log that have a stamp, in the order of stamps.
 inline Observations read(const Log& log) {
   namespace source = omnimapper::source;
-  std::unique_ptr<source::ObservationSource> in;
-  if (log.path.find(".clf") != std::string::npos) {
-    in = std::make_unique<source::CarmenLog>(log.path);
-  } else {
-    in = source::openLogs({log.path}, {});
-  }
+  const auto in = source::openLogs({log.path}, {});
   Observations all;
   while (auto observation = in->next()) {
     if (omnimapper::base::isValid(observation->timestamp)) all.push_back(std::move(observation));

@@ -7,7 +7,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/random/RandomGenerators.h>
 #include <omnimapper/perception/LaserLineExtractor.h>
-#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/LineScans.h>
 
 #include <CLI/CLI.hpp>
@@ -158,11 +158,11 @@ void compare(const Lines& before, const Lines& after, Steadiness& result) {
 // Pairs of consecutive scans between which the odometry measures almost no motion.
 std::vector<std::pair<CObservation2DRangeScan::Ptr, CObservation2DRangeScan::Ptr>> standingPairs(
     const std::string& path, std::size_t most) {
-  source::CarmenLog log(path);
+  const auto log = source::openLogs({path}, {});
   std::vector<std::pair<CObservation2DRangeScan::Ptr, CObservation2DRangeScan::Ptr>> pairs;
   CObservation2DRangeScan::Ptr last;
   mrpt::poses::CPose2D pose, last_pose;
-  while (const auto observation = log.next()) {
+  while (const auto observation = log->next()) {
     if (const auto odometry = std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(observation))
       pose = odometry->odometry;
     const auto scan = std::dynamic_pointer_cast<CObservation2DRangeScan>(observation);

@@ -6,7 +6,6 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Memory.h>
 #include <omnimapper/perception/ObjectFinder.h>
-#include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <CLI/CLI.hpp>
@@ -21,6 +20,7 @@
 
 #include "ObjectPeers.h"
 #include "Timing.h"
+#include "pcd_folder/PcdFolder.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <omnimapper/base/WorkerPool.h>
 #include <omnimapper/perception/EdgeExtractor.h>
 #include <omnimapper/perception/ObjectExtractor.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -24,9 +24,9 @@ using Scans = std::vector<Scan::ConstPtr>;
 using Work = std::function<bool(const Scan&)>;
 
 Scans readScans(const std::string& folder, int every) {
-  source::RgbdFolder images(folder, {});
+  const auto images = source::openLogs({folder}, {});
   Scans scans;
-  for (int i = 0; const auto observation = images.next(); ++i) {
+  for (int i = 0; const auto observation = images->next(); ++i) {
     auto scan = std::dynamic_pointer_cast<const Scan>(observation);
     if (scan && i % every == 0) scans.push_back(std::move(scan));
   }

@@ -5,7 +5,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -143,9 +143,9 @@ double lagOf(const Poses& odometry, const Poses& truth) {
 }
 
 Poses readOdometry(const std::string& path) {
-  source::CarmenLog log(path);
+  const auto log = source::openLogs({path}, {});
   Poses poses;
-  while (const auto observation = log.next()) {
+  while (const auto observation = log->next()) {
     if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get()))
       poses.emplace(base::unixSeconds(odometry->timestamp), geometry::fromMrpt(odometry->odometry));
   }

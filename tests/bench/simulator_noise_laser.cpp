@@ -6,8 +6,8 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/sim/Drive.h>
 #include <omnimapper/sim/Sensor.h>
-#include <omnimapper/source/CarmenLog.h>
 #include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -174,10 +174,10 @@ void writeLaser(const std::vector<Recording>& all, const std::string& folder) {
 }
 
 void run(const std::string& data, const std::string& folder) {
-  source::CarmenLog aces_log(data + "/aces.clf.bz2");
+  const auto aces_log = source::openLogs({data + "/aces.clf.bz2"}, {});
   source::RawlogSource ual_log(data + "/ual.rawlog"), office_log(data + "/driving_in_office.rawlog");
   std::vector<Recording> all;
-  all.push_back(read(aces_log, "ACES, 5 cm", "#c0392b", 50));
+  all.push_back(read(*aces_log, "ACES, 5 cm", "#c0392b", 50));
   all.push_back(read(ual_log, "ual, 1 cm", "#8e44ad"));
   all.push_back(read(office_log, "driving_in_office, 1 mm", "#1e8449"));
   const Simulated simulated(1);

@@ -9,7 +9,7 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -282,13 +282,12 @@ TEST_F(CalibrationRunTest, OfARealKinectItFindsTheLens) {
   const auto folder = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);
   request_.views = 60;
-  source::RgbdFolderOptions options;
-  options.intrinsics = "openni";
-  source::RgbdFolder images(*folder, options);
+  const auto ini = base::Config::fromText("[source_rgbd_folder]\nintrinsics = openni\n", "");
+  const auto images = source::openLogs({*folder}, source::readSourceOptions(ini));
   source::writeRawlog(
       request_.logs.front(),
       [&](source::RawlogWriter& rawlog) {
-        while (const auto image = images.next()) rawlog.add(*image);
+        while (const auto image = images->next()) rawlog.add(*image);
       },
       source::ColourImages::jpeg);
   const auto result = run();

@@ -6,7 +6,7 @@
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -323,9 +323,9 @@ TEST_F(DepthRunTest, TheProgramsFindAndApplyIt) {
 
 /// Writes every `every`-th depth image of a folder of the TUM RGB-D benchmark to a log.
 void importDepths(const std::string& folder, int every, const std::string& output) {
-  source::RgbdFolder images(folder, {});
+  const auto images = source::openLogs({folder}, {});
   source::writeRawlog(output, [&](source::RawlogWriter& rawlog) {
-    for (int i = 0; const auto image = images.next(); ++i) {
+    for (int i = 0; const auto image = images->next(); ++i) {
       auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(image);
       if (!scan || i % every != 0) continue;
       scan->hasIntensityImage = false;

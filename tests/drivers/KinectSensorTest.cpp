@@ -6,7 +6,7 @@
 #include <omnimapper/live/LiveSource.h>
 #include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/source/RawlogWriter.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/ChildProgram.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -171,10 +171,9 @@ TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
   }
   makeSession(folder, folder / "log");
   range_scans::Scans played;
-  source::RgbdFolderOptions options;
-  options.intrinsics = "freiburg1";
-  source::RgbdFolder images(folder / "log", options);
-  while (const auto one = images.next()) played.push_back(std::dynamic_pointer_cast<CObservation3DRangeScan>(one));
+  const auto ini = base::Config::fromText("[source_rgbd_folder]\nintrinsics = freiburg1\n", "");
+  const auto images = source::openLogs({folder / "log"}, source::readSourceOptions(ini));
+  while (const auto one = images->next()) played.push_back(std::dynamic_pointer_cast<CObservation3DRangeScan>(one));
   const auto ended = record("registration = none\ngrab_IMU = false\n", 1000);
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
   const auto scans = range_scans::recorded<CObservation3DRangeScan>(folder / "out/log.rawlog");

@@ -1,5 +1,6 @@
 // What the build knows of features and their plugins is what their libraries register.
 #include <gtest/gtest.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
@@ -15,9 +16,9 @@ TEST(Features, EveryPluginThatIsNoOutputBelongsToOne) {
   for (const auto& factory : mapper::registeredFactories()) {
     if (factory->kind() == mapper::PluginKind::output) continue;
     ++plugins;
-    EXPECT_NE(mapper::featureOf(factory->name()), "")
+    EXPECT_NE(base::featureOf(factory->name()), "")
         << "PLUGINS in the CMakeLists.txt of its feature lacks " << factory->name();
-    EXPECT_EQ(mapper::whyUnavailable(factory->name()), "");
+    EXPECT_EQ(base::whyUnavailable(factory->name()), "");
   }
   EXPECT_GT(plugins, 0U);
 }
@@ -26,14 +27,14 @@ TEST(Features, WhatIsThereRegistersAllThatTheBuildKnowsOfIt) {
   mapper::loadFeatures();
   std::set<std::string> registered;
   for (const auto& factory : mapper::registeredFactories()) registered.insert(factory->name());
-  for (const auto& plugin : mapper::pluginsOfFeatures()) {
-    EXPECT_TRUE(registered.count(plugin) > 0 || !mapper::whyUnavailable(plugin).empty()) << plugin;
+  for (const auto& plugin : base::namesOfFeatures(base::Registered::plugin)) {
+    EXPECT_TRUE(registered.count(plugin) > 0 || !base::whyUnavailable(plugin).empty()) << plugin;
   }
 }
 
 TEST(Features, OfTheProjectKnowNoOtherClass) {
-  EXPECT_EQ(mapper::featureOf("BeaconPlugin"), "");
-  EXPECT_EQ(mapper::whyUnavailable("BeaconPlugin"), "");
+  EXPECT_EQ(base::featureOf("BeaconPlugin"), "");
+  EXPECT_EQ(base::whyUnavailable("BeaconPlugin"), "");
 }
 
 }  // namespace

@@ -5,10 +5,9 @@
 #include <omnimapper/geometry/Covariance.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <cmath>
-
-#include "Logs.h"
 
 namespace omnimapper::source::action_spans_test {
 namespace {

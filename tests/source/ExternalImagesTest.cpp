@@ -4,10 +4,9 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <filesystem>
-
-#include "Logs.h"
 
 namespace omnimapper::source::external_images_test {
 namespace {

@@ -1,10 +1,9 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/LogLook.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <filesystem>
-
-#include "Logs.h"
 
 namespace omnimapper::source::log_look_test {
 namespace {

@@ -1,9 +1,8 @@
 #include <omnimapper/source/MergedSource.h>
+#include <omnimapper/testing/Logs.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
 #include <algorithm>
-
-#include "Logs.h"
 
 namespace omnimapper::source::merged_source_test {
 namespace {

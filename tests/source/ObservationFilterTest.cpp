@@ -1,8 +1,7 @@
 #include <omnimapper/base/Config.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
-
-#include "Logs.h"
+#include <omnimapper/testing/Logs.h>
 
 namespace omnimapper::source::observation_filter_test {
 namespace {

@@ -3,11 +3,10 @@
 #include <omnimapper/source/SourceFactory.h>
 #include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <csignal>
 #include <sstream>
-
-#include "Logs.h"
 
 namespace omnimapper::source::open_logs_test {
 namespace {

@@ -4,8 +4,7 @@
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/openLogs.h>
 #include <omnimapper/testing/Fixtures.h>
-
-#include "Logs.h"
+#include <omnimapper/testing/Logs.h>
 
 namespace omnimapper::source::rawlog_source_test {
 namespace {

@@ -2,12 +2,11 @@
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 #include <sys/resource.h>
 
 #include <csignal>
 #include <filesystem>
-
-#include "Logs.h"
 
 namespace omnimapper::source::rawlog_writer_test {
 namespace {

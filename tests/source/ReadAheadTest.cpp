@@ -2,12 +2,11 @@
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/ReadAhead.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <atomic>
 #include <condition_variable>
 #include <stdexcept>
-
-#include "Logs.h"
 
 namespace omnimapper::source::read_ahead_test {
 namespace {

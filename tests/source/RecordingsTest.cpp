@@ -1,13 +1,11 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <omnimapper/source/CarmenLog.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <fstream>
 #include <set>
 #include <sstream>
-
-#include "Logs.h"
 
 // Real logs; the other tests of this folder check the same properties on simulated ones.
 namespace omnimapper::source::recordings_test {
@@ -30,27 +28,6 @@ SourceReport reportOf(const std::string& path) {
 constexpr const char* kScan = "mrpt::obs::CObservation2DRangeScan";
 constexpr const char* kOdometry = "mrpt::obs::CObservationOdometry";
 constexpr const char* kMotion = "omnimapper::obs::CObservationRelativeMotion";
-
-// Stamps of the scans, as the log's text has them, to the microsecond.
-std::multiset<std::string> scanStampsOf(CarmenLog& log) {
-  std::multiset<std::string> stamps;
-  while (const auto observation = log.next())
-    if (observation->sensorLabel == "FLASER") stamps.insert(base::formatUnix(observation->timestamp, 6));
-  return stamps;
-}
-
-// The first `columns` fields of each line that is no comment.
-std::set<std::string> stampsIn(const std::string& path, int columns) {
-  std::set<std::string> stamps;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream fields(line);
-    std::string stamp;
-    for (int i = 0; i < columns && fields >> stamp; ++i) stamps.insert(stamp);
-  }
-  return stamps;
-}
 
 TEST(Recordings, ualHasItsOdometryAndScans) {
   const auto path = testing::sharedData("laser2d/ual.rawlog");
@@ -107,37 +84,6 @@ TEST(Recordings, simulatedActionsFitTheTruthBetweenTheFramesAroundThem) {
   const double rms = std::sqrt(squares / 1732);
   EXPECT_LT(rms, 0.05) << "one frame off it is 0.12 and more";
   EXPECT_GT(travel / 1732, 0.05) << "the robot does move";
-}
-
-TEST(Recordings, acesHasAllItsScansWithTheStampsOfTheRelations) {
-  const auto path = testing::sharedData("laser2d/aces.clf.bz2");
-  const auto relations = testing::sharedData("laser2d/aces.relations");
-  OMNIMAPPER_NEEDS(path && relations);
-  CarmenLog log(*path);
-  const auto stamps = scanStampsOf(log);
-  EXPECT_EQ(stamps.size(), 7374u);
-  EXPECT_EQ(log.report().ending, SourceReport::Ending::complete);
-  EXPECT_EQ(log.odometry(), CarmenOdometry::lines);
-  EXPECT_EQ(countOf(log.report(), "ODOM", kOdometry), 7375u);
-  EXPECT_EQ(countOf(log.report(), "FLASER_ODOM", kOdometry), 7374u);
-  EXPECT_EQ(log.report().repaired_stamps, 1u) << "two ODOM lines of one stamp";
-  const auto wanted = stampsIn(*relations, 2);
-  EXPECT_GT(wanted.size(), 1000u);
-  for (const auto& stamp : wanted) EXPECT_EQ(stamps.count(stamp), 1u) << stamp;
-}
-
-TEST(Recordings, intelHasAllItsScansWithTheRepairedStampsOfTheReference) {
-  const auto path = testing::sharedData("laser2d/intel.clf.bz2");
-  const auto reference = testing::sharedData("laser2d/intel.reference.tum");
-  OMNIMAPPER_NEEDS(path && reference);
-  CarmenLog log(*path);
-  const auto stamps = scanStampsOf(log);
-  EXPECT_EQ(stamps.size(), 13631u);
-  EXPECT_EQ(log.odometry(), CarmenOdometry::scans);
-  EXPECT_EQ(countOf(log.report(), "ODOM", kOdometry), 13631u);
-  // 631 stamps are earlier than the one before; the stamps after each are replaced, too, until the clock has caught up.
-  EXPECT_EQ(log.report().repaired_stamps, 3076u);
-  for (const auto& stamp : stampsIn(*reference, 1)) EXPECT_EQ(stamps.count(stamp), 1u) << stamp;
 }
 
 }  // namespace

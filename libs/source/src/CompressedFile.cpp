@@ -1,7 +1,9 @@
-#include "CompressedFile.h"
 
 #include <bzlib.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/source/CompressedFile.h>
+#include <omnimapper/source/describeInput.h>
+#include <omnimapper/source/refuse.h>
 #include <sys/stat.h>
 #include <zlib.h>
 
@@ -10,9 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <vector>
-
-#include "describeInput.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

@@ -3,12 +3,12 @@
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <omnimapper/source/ImageFile.h>
 
 #include <filesystem>
 #include <mutex>
 #include <vector>
 
-#include "ImageFile.h"
 #include "PayloadSize.h"
 
 namespace omnimapper::source {

@@ -1,12 +1,12 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/FolderSource.h>
+#include <omnimapper/source/describeInput.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "NamedTimes.h"
-#include "describeInput.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

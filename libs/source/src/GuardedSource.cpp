@@ -1,11 +1,10 @@
 #include "GuardedSource.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/source/refuse.h>
 
 #include <new>
 #include <utility>
-
-#include "refuse.h"
 
 namespace omnimapper::source {
 

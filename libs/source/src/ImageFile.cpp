@@ -1,4 +1,5 @@
-#include "ImageFile.h"
+
+#include <omnimapper/source/ImageFile.h>
 
 #include <cstdint>
 #include <fstream>

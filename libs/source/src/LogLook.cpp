@@ -1,12 +1,11 @@
+#include <omnimapper/source/CompressedFile.h>
 #include <omnimapper/source/LogLook.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <system_error>
-
-#include "CompressedFile.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <mrpt/serialization/CArchive.h>
+#include <omnimapper/source/CompressedFile.h>
 
 #include <functional>
 #include <string>
 #include <utility>
 
-#include "CompressedFile.h"
 #include "SandboxedReader.h"
 
 namespace omnimapper::source {

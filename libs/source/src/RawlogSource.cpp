@@ -7,6 +7,7 @@
 #include <omnimapper/obs/registerClasses.h>
 #include <omnimapper/source/ObservationGate.h>
 #include <omnimapper/source/RawlogSource.h>
+#include <omnimapper/source/describeInput.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,7 +19,6 @@
 #include "ObservationSelection.h"
 #include "SandboxedReader.h"
 #include "StepClock.h"
-#include "describeInput.h"
 
 namespace omnimapper::source {
 

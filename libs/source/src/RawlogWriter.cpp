@@ -1,6 +1,7 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/serialization/CArchive.h>
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/source/CompressedFile.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <zlib.h>
 
@@ -9,8 +10,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <vector>
-
-#include "CompressedFile.h"
 
 namespace omnimapper::source {
 

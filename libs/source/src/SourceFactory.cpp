@@ -1,3 +1,4 @@
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/source/SourceFactory.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(SourceFactory, mrpt::rtti::CObject, omnimapper::s
 namespace omnimapper::source {
 
 std::vector<std::shared_ptr<const SourceFactory>> registeredFormats() {
+  base::loadFeaturesOf(base::Registered::format);
   registerSourceFactory();
   mrpt::rtti::registerAllPendingClasses();
   std::vector<std::shared_ptr<const SourceFactory>> formats;

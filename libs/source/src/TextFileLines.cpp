@@ -1,4 +1,4 @@
-#include "TextFileLines.h"
+#include <omnimapper/source/TextFileLines.h>
 
 namespace omnimapper::source {
 

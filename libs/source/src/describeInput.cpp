@@ -1,7 +1,6 @@
-#include "describeInput.h"
 
-#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/source/SourceFactory.h>
+#include <omnimapper/source/describeInput.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,10 +13,6 @@ namespace omnimapper::source {
 namespace {
 
 constexpr const char *kMapFile = "map.omnimap", *kLocalizationFile = "localization.csv";
-
-std::string knownAsList() {
-  return base::option_text::format(knownFormats());
-}
 
 // Description of a log that formats recognize; empty if none does.
 std::string recognized(const LogLook& look) {
@@ -49,9 +44,9 @@ std::string describeFile(const std::string& path) {
   if (look.headBeginsWith("# .PCD")) return "is a PCD cloud, no log; name the folder that it is in.";
   if (!look.isText())
     return "is no rawlog, or is damaged from its first object on, and no log of another format that is known (" +
-           knownAsList() + ").";
+           formatsAsText() + ").";
   if (std::filesystem::path(path).extension() == ".ini") return "is an INI file; use it with -i.";
-  return "is a text file of unknown kind, no log of a format that is known (" + knownAsList() + ").";
+  return "is a text file of unknown kind, no log of a format that is known (" + formatsAsText() + ").";
 }
 
 // Description of a folder of a known kind; "" for any other.
@@ -78,7 +73,7 @@ std::string describeFolder(const std::string& path) {
   for (const auto& folder : inner)
     if (const auto known = knownFolder(folder); !known.empty()) return "is a folder; in it, " + folder + " " + known;
   return "is a folder, in which there is nothing that can be read; name a log of a format that is known (" +
-         knownAsList() + ").";
+         formatsAsText() + ").";
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/source/MergedSource.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/source/SourceFactory.h>
+#include <omnimapper/source/describeInput.h>
 #include <omnimapper/source/openLogs.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <iterator>
@@ -10,9 +13,7 @@
 
 #include "GuardedSource.h"
 #include "SensorClocks.h"
-#include "describeInput.h"
 #include "recognizedFormats.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 
@@ -62,7 +63,7 @@ OpenLog openerOf(const std::string& format, const SourceOptions& options) {
       std::find_if(formats.begin(), formats.end(), [&](const auto& one) { return one->name() == format; });
   if (found == formats.end())
     throw base::Error(base::ExitCode::unknown_plugin,
-                      "no format of logs is called '" + format + "' (known: " + listed(knownFormats()) + ")");
+                      "no format of logs is called '" + format + "' (known: " + formatsAsText() + ")");
   const auto defaults = base::Config::fromText("", "");
   return (*found)->opener(defaults.section(sectionOfFormat(format)));
 }
@@ -122,13 +123,15 @@ SourceOptions readSourceOptions(const base::Config& config) {
   auto options = config.section("source").read<SourceOptions>();
   for (const auto& format : registeredFormats())
     options.openers[format->name()] = format->opener(config.section(sectionOfFormat(format->name())));
+  for (const auto& name : base::namesOfFeatures(base::Registered::format))
+    config.section(sectionOfFormat(name));  // may be there, although the format is not available
   const auto known = knownFormats();
   for (const auto& name : options.formats) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const auto near = base::nearestName(name, known);
     throw base::Error(base::ExitCode::unknown_plugin,
                       config.placeOf("source", "formats") + ": [source] formats: no format of logs is called '" + name +
-                          "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") + " (known: " + listed(known) +
+                          "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") + " (known: " + formatsAsText() +
                           "; others come from [mapper] plugin_libraries)");
   }
   return options;

@@ -1,5 +1,7 @@
 #include "recognizedFormats.h"
 
+#include <omnimapper/base/FeatureLibraries.h>
+#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/source/SourceFactory.h>
 
 #include <algorithm>
@@ -36,6 +38,14 @@ std::vector<std::string> knownFormats() {
   std::vector<std::string> formats{kRawlog};
   for (const auto& format : registeredFormats()) formats.push_back(format->name());
   return formats;
+}
+
+std::string formatsAsText() {
+  std::string text = base::option_text::format(knownFormats());
+  for (const auto& name : base::namesOfFeatures(base::Registered::format)) {
+    if (const auto why = base::whyUnavailable(name); !why.empty()) text += "; " + name + " is not available: " + why;
+  }
+  return text;
 }
 
 }  // namespace omnimapper::source

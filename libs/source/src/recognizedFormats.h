@@ -16,4 +16,7 @@ std::vector<std::string> recognizedFormats(const LogLook& look);
 /// Names of all formats: rawlog, then those that are registered.
 std::vector<std::string> knownFormats();
 
+/// The names of all formats for a message, and which formats of the project are not available and why.
+std::string formatsAsText();
+
 }  // namespace omnimapper::source

@@ -6,8 +6,7 @@
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <omnimapper/drivers/KinectCalibration.h>
-#include <omnimapper/source/RawlogSource.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/openLogs.h>
 
 #include <cmath>
 #include <cstdio>
@@ -92,12 +91,7 @@ class Session {
 
 int main(int argc, char** argv) try {
   if (argc != 3 && argc != 4) return 2;
-  std::unique_ptr<source::ObservationSource> log;
-  if (std::filesystem::is_directory(argv[1])) {
-    log = std::make_unique<source::RgbdFolder>(argv[1]);
-  } else {
-    log = std::make_unique<source::RawlogSource>(argv[1]);
-  }
+  const auto log = source::openLogs({argv[1]}, {});
   Session session(argv[2], argc == 4 ? std::stod(argv[3]) : 1);
   while (const auto observation = log->next()) {
     if (const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation)) {

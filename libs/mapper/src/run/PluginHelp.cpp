@@ -1,5 +1,5 @@
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/base/OptionHelp.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginHelp.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <omnimapper/source/SourceFactory.h>
@@ -40,7 +40,7 @@ std::string printIni(const std::string& class_name) {
     return base::optionsAsIni(base::sectionNameFor(class_name, {"_plugin", "_output", "_extractor"}), class_name,
                               factory->summary(), factory->options());
   }
-  if (const auto why = whyUnavailable(class_name); !why.empty())
+  if (const auto why = base::whyUnavailable(class_name); !why.empty())
     throw base::Error(base::ExitCode::unknown_plugin, "--print-ini: '" + class_name + "' is not available: " + why);
   std::string near = base::nearestName(class_name, known);
   for (const char* ending : {"Plugin", "Extractor", "Output"})

@@ -1,7 +1,7 @@
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/system/os.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/mapper/EngineOptions.h>
-#include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
     if (factory->name() == name) return factory;
     known.push_back(factory->name());
   }
-  if (const auto why = whyUnavailable(name); !why.empty())
+  if (const auto why = base::whyUnavailable(name); !why.empty())
     throw base::Error(base::ExitCode::unknown_plugin, place + ": '" + name + "' is not available: " + why);
   const std::string near = base::nearestName(name, known);
   throw base::Error(base::ExitCode::unknown_plugin, place + ": no " + toString(kind) + " is called '" + name + "'" +

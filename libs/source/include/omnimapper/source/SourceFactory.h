@@ -28,8 +28,8 @@ class SourceFactory : public mrpt::rtti::CObject {
   virtual OpenLog opener(const base::ConfigSection& section) const = 0;
 };
 
-/// Every format that is registered with MRPT at the time of the call, sorted by name; rawlogs, which openLogs() knows
-/// itself, are not among them.
+/// Every format of the project's features, which are loaded for this, and of other libraries that were loaded, sorted
+/// by name; rawlogs, which openLogs() knows itself, are not among them.
 std::vector<std::shared_ptr<const SourceFactory>> registeredFormats();
 
 /// The section of a format's options.

@@ -1,6 +1,10 @@
+#include "CarmenLog.h"
+
 #include <mrpt/obs/CObservationOdometry.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/source/CarmenLog.h>
+#include <omnimapper/source/TextFileLines.h>
+#include <omnimapper/source/describeInput.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <deque>
@@ -9,9 +13,6 @@
 
 #include "CarmenLasers.h"
 #include "CarmenLine.h"
-#include "TextFileLines.h"
-#include "describeInput.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

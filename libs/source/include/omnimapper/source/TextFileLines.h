@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
+#include <omnimapper/source/CompressedFile.h>
 
-#include "CompressedFile.h"
+#include <string>
 
 namespace omnimapper::source {
 

@@ -2,102 +2,18 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/RawlogSource.h>
 #include <omnimapper/testing/Fixtures.h>
-#include <sys/wait.h>
+#include <omnimapper/testing/ImportApp.h>
+#include <omnimapper/testing/Logs.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
-#include "Logs.h"
 #include "RgbdImages.h"
 
-namespace omnimapper::source::import_app_test {
+namespace omnimapper::source::import_tum_test {
 namespace {
 
 using base::ExitCode;
-
-// Runs omnimapper-import; output_ is its output.
-class ImportApp : public ::testing::Test {
- protected:
-  ExitCode run(const std::string& arguments) { return runCommand("'" OMNIMAPPER_IMPORT "' " + arguments); }
-  ExitCode runCommand(const std::string& command) {
-    FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-    output_.clear();
-    char buffer[4096];
-    for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) output_.append(buffer, n);
-    return static_cast<ExitCode>(WEXITSTATUS(::pclose(pipe)));
-  }
-  bool says(const std::string& text) const { return output_.find(text) != std::string::npos; }
-
-  std::string output_;
-};
-
-class ImportAppTest : public ImportApp {
- protected:
-  testing::ScratchFolder folder_;
-  std::string in_ = folder_ / "x.clf", out_ = folder_ / "x.rawlog";
-  const std::string log_ =
-      "ODOM 1 0 0 0 0 0 10.4 h 0\nFLASER 3 1 2 3 1 0 0 1 0 0 10.5 h 0\nODOM 2 0 0 0 0 0 10.6 h 0\n";
-};
-
-TEST_F(ImportAppTest, writesARawlogAndSaysWhatIsInIt) {
-  logs::writePlain(in_, log_);
-  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::ok) << output_;
-  EXPECT_TRUE(says("FLASER") && says("ODOM") && says("10.500000") && says("complete")) << output_;
-  RawlogSource source(out_);
-  EXPECT_EQ(logs::readAll(source).size(), 4u) << "two of ODOM lines, a scan, its own odometry";
-}
-
-TEST_F(ImportAppTest, writtenRawlogIsReadByRawlogEdit) {
-  logs::writePlain(in_, log_);
-  ASSERT_EQ(run("carmen " + in_ + " " + out_), ExitCode::ok);
-  if (std::system("command -v rawlog-edit >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "rawlog-edit (Debian package mrpt-apps) is not installed";
-  EXPECT_EQ(runCommand("rawlog-edit --info -i '" + out_ + "'"), ExitCode::ok);
-  EXPECT_TRUE(says("FLASER, FLASER_ODOM, ODOM")) << output_;
-}
-
-TEST_F(ImportAppTest, truncatedLogGivesWhatIsReadableAndExitCode9) {
-  logs::writePlain(in_, log_ + "FLASER 3 1 2");
-  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::damaged_input);
-  EXPECT_TRUE(says("line 4 left out")) << output_;
-  RawlogSource source(out_);
-  EXPECT_EQ(logs::readAll(source).size(), 4u) << "two of ODOM lines, a scan, its own odometry";
-}
-
-TEST_F(ImportAppTest, exitCodesShowWhatWentWrong) {
-  EXPECT_EQ(run("--help"), ExitCode::ok);
-  EXPECT_TRUE(says("Example: omnimapper-import carmen")) << output_;
-  EXPECT_EQ(run(""), ExitCode::command_line);
-  EXPECT_TRUE(says("the first argument is one of carmen, images, pcd, tum")) << output_;
-  EXPECT_EQ(run("tmu a b"), ExitCode::command_line);
-  EXPECT_TRUE(says("there is no task 'tmu'; did you mean tum?")) << output_;
-  EXPECT_EQ(run("carmen " + in_), ExitCode::command_line);
-  EXPECT_EQ(run("carmen a b --odometry wheels"), ExitCode::command_line);
-  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::unreadable_input);
-  EXPECT_TRUE(says(in_ + ": No such file")) << output_;
-  logs::writePlain(in_, log_);
-  EXPECT_EQ(run("carmen " + in_ + " " + folder_.path() + "/no/x.rawlog"), ExitCode::unwritable_output);
-}
-
-TEST_F(ImportAppTest, inputOfAnotherTaskIsRefusedWithItsName) {
-  logs::writePlain(in_, log_);
-  EXPECT_EQ(run("tum " + in_ + " " + out_), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("is no folder: it is a CARMEN log")) << output_;
-  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::ok);
-  EXPECT_EQ(run("carmen " + out_ + " " + in_), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("it is a rawlog, or")) << output_;
-  EXPECT_EQ(run("pcd " + out_ + " " + in_), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("is no folder: it is a rawlog, or")) << output_;
-}
-
-TEST_F(ImportAppTest, aLogOfNothingLeavesWhatIsThere) {
-  logs::writePlain(in_, "ODOM 1 2\nFLASER 3 1 2\n");
-  logs::writePlain(out_, "an older log");
-  EXPECT_EQ(run("carmen " + in_ + " " + out_), ExitCode::unreadable_input) << output_;
-  EXPECT_TRUE(says(in_) && says("nothing was written")) << output_;
-  EXPECT_EQ(std::filesystem::file_size(out_), 12U);
-}
 
 /// A folder of two pairs and a depth image without a colour image of its time.
 class ImportTumTest : public ImportApp, protected RgbdImages {
@@ -228,47 +144,5 @@ TEST_F(ImportTumTest, whatIsWrongIsSaid) {
   EXPECT_EQ(imported().size(), 2U) << "what was there";
 }
 
-TEST_F(ImportAppTest, cloudsBecomeDepthImages) {
-  // 8 x 6 pixels of a wall 2 m ahead, focal length 10, one point missing; and a file that is none.
-  std::string text =
-      "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 8\nHEIGHT 6\nPOINTS 48\nDATA ascii\n";
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 8; ++column) {
-      const auto at = [](double pixel) { return std::to_string(2 * pixel / 10); };
-      text += row == 2 && column == 3
-                  ? "nan nan nan 0\n"
-                  : at(column - 3.5) + " " + at(row - 2.5) + " 2 " + std::to_string(0x0A141E) + "\n";
-    }
-  }
-  logs::writePlain(folder_ / "b.pcd", text);
-  EXPECT_EQ(run("pcd '" + folder_.path() + "' '" + out_ + "' --rate 5 --label kinect"), ExitCode::ok) << output_;
-  logs::writePlain(folder_ / "a.pcd", "none");
-  EXPECT_EQ(run("pcd '" + folder_.path() + "' '" + out_ + "' --rate 5 --label kinect"), ExitCode::missing_images);
-  EXPECT_TRUE(says("a.pcd")) << output_;
-  RawlogSource source(out_);
-  const auto all = logs::readAll(source);
-  ASSERT_EQ(all.size(), 1U);
-  const auto& scan = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*all[0]);
-  EXPECT_EQ(scan.sensorLabel, "kinect");
-  EXPECT_EQ(base::formatUnix(scan.timestamp, 1), "1000000000.2");
-  EXPECT_NEAR(scan.cameraParams.fx(), 10, 1e-4);
-  EXPECT_NEAR(scan.cameraParams.cy(), 2.5, 1e-4);
-  EXPECT_EQ(scan.rangeImage(2, 3), 0);
-  EXPECT_EQ(scan.rangeImage(5, 7), 20000);
-  EXPECT_NEAR(scan.intensityImage.at<std::uint8_t>(0, 0, 2), 0x0A, 3) << "red, as JPEG";
-  EXPECT_NEAR(scan.intensityImage.at<std::uint8_t>(0, 0, 0), 0x1E, 3);
-}
-
-TEST_F(ImportAppTest, cloudsThatNoCameraSawAreNamed) {
-  logs::writePlain(folder_ / "odd.pcd",
-                   "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 2\nDATA "
-                   "ascii\n1 2 3\n4 5 6\n7 8 9\n1 1 1\n");
-  EXPECT_EQ(run("pcd '" + folder_.path() + "' '" + out_ + "'"), ExitCode::unreadable_input);
-  EXPECT_TRUE(says("odd.pcd: its points do not lie on the rays of a pinhole camera") && says("nothing was written"))
-      << output_;
-  EXPECT_FALSE(std::filesystem::exists(out_));
-  EXPECT_EQ(run("pcd '" + folder_.path() + "/none' '" + out_ + "'"), ExitCode::unreadable_input);
-}
-
 }  // namespace
-}  // namespace omnimapper::source::import_app_test
+}  // namespace omnimapper::source::import_tum_test

@@ -1,15 +1,14 @@
 #include "RgbdFolderForms.h"
 
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/source/describeInput.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <map>
 #include <sstream>
-
-#include "describeInput.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

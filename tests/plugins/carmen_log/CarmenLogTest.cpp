@@ -1,10 +1,10 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/source/CarmenLog.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <omnimapper/testing/Logs.h>
 
 #include <cmath>
 
-#include "Logs.h"
+#include "carmen_log/CarmenLog.h"
 
 namespace omnimapper::source::carmen_log_test {
 namespace {
@@ -266,6 +266,18 @@ TEST_F(CarmenLogTest, whatIsNoCarmenLogIsRefused) {
   EXPECT_THROW(open(""), base::Error);
   EXPECT_THROW(open((logs::Bytes() << logs::scan(1)).string()), base::Error);
   EXPECT_THROW(CarmenLog(folder_ / "nowhere.clf"), base::Error);
+}
+
+TEST_F(CarmenLogTest, isRecognizedByTheFirstWordsOfItsLines) {
+  const auto isRecognized = [&](const std::string& text) {
+    return CarmenLog::recognizes(LogLook::at(logs::writePlain(path_, text)));
+  };
+  EXPECT_TRUE(isRecognized("# message_name ...\nPARAM robot_use_laser on nohost 0\n"));
+  EXPECT_TRUE(isRecognized("ODOM 0 0 0 0 0 0 1.0 nohost 0\n"));
+  EXPECT_TRUE(CarmenLog::recognizes(LogLook::at(logs::writeGzip(path_, "FLASER 1 2\n"))));
+  EXPECT_FALSE(isRecognized("the ODOM of a car\n"));
+  EXPECT_FALSE(isRecognized("ODOMETER 12\n"));
+  EXPECT_FALSE(isRecognized(std::string("ODOM 1\n\0", 8))) << "not text";
 }
 
 }  // namespace

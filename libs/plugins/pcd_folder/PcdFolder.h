@@ -4,9 +4,10 @@
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/source/FolderSource.h>
 #include <omnimapper/source/LogLook.h>
-#include <omnimapper/source/PcdCloud.h>
 
 #include <string>
+
+#include "PcdCloud.h"
 
 namespace omnimapper::source {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <omnimapper/source/RgbdFolder.h>
-
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "RgbdFolder.h"
 
 namespace omnimapper::source {
 

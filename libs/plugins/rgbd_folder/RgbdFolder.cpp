@@ -1,8 +1,11 @@
+#include "RgbdFolder.h"
+
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/ImageFile.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <array>
@@ -15,9 +18,7 @@
 #include <optional>
 #include <sstream>
 
-#include "ImageFile.h"
 #include "RgbdFolderForms.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

@@ -1,14 +1,14 @@
+#include "PcdFolder.h"
+
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/source/PcdFolder.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-
-#include "refuse.h"
 
 namespace omnimapper::source {
 

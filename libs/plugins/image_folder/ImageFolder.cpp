@@ -1,14 +1,14 @@
+#include "ImageFolder.h"
+
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/source/ImageFolder.h>
+#include <omnimapper/source/ImageFile.h>
+#include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-
-#include "ImageFile.h"
-#include "refuse.h"
 
 namespace omnimapper::source {
 

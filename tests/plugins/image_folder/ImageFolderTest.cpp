@@ -2,11 +2,12 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/draw/Image.h>
-#include <omnimapper/source/ImageFolder.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "image_folder/ImageFolder.h"
 
 namespace omnimapper::source {
 namespace {
@@ -112,6 +113,18 @@ TEST_F(ImageFolderTest, sixteenBitsBecomeEight) {
 TEST_F(ImageFolderTest, aFolderWithoutImagesIsRefused) {
   EXPECT_THROW(ImageFolder(folder_.path()), base::Error);
   EXPECT_THROW(ImageFolder(folder_ / "missing"), base::Error);
+}
+
+TEST_F(ImageFolderTest, isRecognizedIfThereAreImagesAndTextsAlone) {
+  const auto isRecognized = [&] { return ImageFolder::recognizes(LogLook::at(folder_.path())); };
+  EXPECT_FALSE(isRecognized()) << "empty";
+  for (const char* name : {"a.JPG", "a.mask.png", "notes.txt"}) std::ofstream(folder_ / name) << "x";
+  EXPECT_TRUE(isRecognized());
+  std::ofstream(folder_ / "report.html") << "x";
+  EXPECT_FALSE(isRecognized()) << "as the folder of a run has it";
+  std::filesystem::remove(folder_ / "report.html");
+  std::ofstream(folder_ / "frame-000000.depth.png") << "x";
+  EXPECT_FALSE(isRecognized()) << "a folder of RGB-D images";
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/source/RgbdFolder.h>
+#include <omnimapper/source/describeInput.h>
 #include <omnimapper/source/openLogs.h>
 
 #include "RgbdImages.h"
+#include "rgbd_folder/RgbdFolder.h"
 
 namespace omnimapper::source::rgbd_folder_test {
 namespace {
@@ -189,6 +190,27 @@ TEST_F(RgbdFolderTest, imagesOfAnotherSizeAreLeftOutAndCounted) {
   EXPECT_EQ(taken, 3);
   EXPECT_EQ(source->report().unusableCount(), 1U);
   EXPECT_EQ(source->report().exitCode(), base::ExitCode::damaged_input);
+}
+
+TEST_F(RgbdFolderTest, itsFormsAreRecognizedAndSaid) {
+  const auto isRecognized = [&](const std::string& folder) {
+    return RgbdFolder::recognizes(LogLook::at(folder_ / folder));
+  };
+  writeText("tum/depth.txt", "");
+  writeText("scenes/frame-000000.depth.png", "");
+  writeText("equal/depth/1.png", "");
+  writeText("equal/rgb/1.png", "");
+  writeText("listed/associations.txt", "");
+  for (const char* folder : {"tum", "scenes", "equal", "listed"}) {
+    EXPECT_TRUE(isRecognized(folder)) << folder;
+    EXPECT_NE(describeInput(folder_ / folder).find("is a folder of RGB-D images, which -r reads"), std::string::npos);
+  }
+  writeText("halves/depth/1.png", "");
+  EXPECT_FALSE(isRecognized("halves")) << "depth images alone";
+  writeText("parent/inner/depth.txt", "");
+  EXPECT_FALSE(isRecognized("parent"));
+  EXPECT_NE(describeInput(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),
+            std::string::npos);
 }
 
 TEST_F(RgbdFolderTest, whatIsWrongIsSaidWithItsPlace) {

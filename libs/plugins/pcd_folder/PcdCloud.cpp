@@ -1,6 +1,7 @@
+#include "PcdCloud.h"
+
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
-#include <omnimapper/source/PcdCloud.h>
 
 #include <algorithm>
 #include <cstring>

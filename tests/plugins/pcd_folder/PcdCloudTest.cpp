@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/source/PcdCloud.h>
-#include <omnimapper/source/PcdFolder.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <sys/resource.h>
 
@@ -10,6 +8,9 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+
+#include "pcd_folder/PcdCloud.h"
+#include "pcd_folder/PcdFolder.h"
 
 namespace omnimapper::source::pcd_cloud_test {
 namespace {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace omnimapper::base {
+
+/// What a feature registers.
+enum class Registered {
+  plugin,  ///< a class that an INI names
+  format,  ///< a format of logs
+};
+
+/// The folder of the features' libraries: `omnimapper` beside this library. The path does not depend on the current
+/// folder or on environment variables.
+std::string featureFolder();
+
+/// Loads from featureFolder() the library of every feature of this build that registers something of that kind; a
+/// library registers its classes as it is loaded. A library that cannot be loaded is skipped, and whyUnavailable()
+/// reports it. Further calls do nothing.
+void loadFeaturesOf(Registered kind);
+
+/// The feature of the project that a plugin class or a format belongs to, whether it is available or not; empty if it
+/// belongs to none.
+std::string_view featureOf(std::string_view name);
+
+/// Everything of that kind that the project's features register, available or not.
+std::vector<std::string> namesOfFeatures(Registered kind);
+
+/// A clause that says why a plugin class or a format of the project is not registered and how to get it. Empty for one
+/// that is registered, and for one that does not belong to the project.
+std::string whyUnavailable(std::string_view name);
+
+}  // namespace omnimapper::base
