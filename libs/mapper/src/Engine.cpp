@@ -142,6 +142,7 @@ void Engine::exchangePlugins(PluginChange& change) {
   };
   keep(plugins_.pose);
   keep(plugins_.extractors);
+  keep(plugins_.measurement);
   back_end_.evidence().keep([&](const std::string& section) { return isRemoved(change, section); });
   exchange(plugins_.pose, change.added.pose, change, change.order.pose);
   exchange(plugins_.extractors, change.added.extractors, change, change.order.extractors);
@@ -173,7 +174,6 @@ void Engine::finish() {
   while (back_end_.hasJobs()) tried([&] { back_end_.applyAllJobs(); });
   if (!state_.map.key_frames.empty()) {
     tried([&] { back_end_.solveFinally(); });
-    if (!state_.map_is_held) tried([&] { back_end_.findLevel(); });
     tried([&] { back_end_.conclude(); });
   }
   tried([&] { back_end_.savePlugins(); });

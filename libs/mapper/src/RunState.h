@@ -6,14 +6,12 @@
 #include <string>
 
 #include "ExtractionErrors.h"
-#include "LevelEvidence.h"
 
 namespace omnimapper::mapper {
 
 /// The data that front end, back end and session manager share; plugins see it through a View.
 struct RunState : ViewedRun {
   ExtractionErrors extraction_errors;
-  LevelEvidence level_evidence;
   std::set<std::string> fed;  ///< sections of pose and measurement plugins that received an observation
 };
 

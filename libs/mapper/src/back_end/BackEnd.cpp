@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "OneSensor.h"
-#include "back_end/estimateLevel.h"
 
 namespace omnimapper::mapper {
 
@@ -190,12 +189,6 @@ void BackEnd::solve(const graph::SolveOptions& options) {
     const auto timer = state_.times.measure(Stage::output, section);
     plugin->update(state_.view());
   }
-}
-
-void BackEnd::findLevel() {
-  auto judged = estimateLevel(state_.view(), state_.level_evidence, settings_.engine.motion);
-  state_.map.layers.set(std::move(judged.level));
-  for (auto& sentence : judged.warnings) state_.warnings.push_back(std::move(sentence));
 }
 
 // Each plugin sees the results of those before it.

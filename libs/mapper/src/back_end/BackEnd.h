@@ -53,8 +53,6 @@ class BackEnd {
   void applyAllJobs();
   /// Solves with the final options.
   void solveFinally() { solve(settings_.solver.final()); }
-  /// Determines which way is up.
-  void findLevel();
   /// Applies the edits that plugins make at the end of the log (MeasurementPlugin::atEnd()).
   void conclude();
   /// The evidence for and against the map, of which judge() makes the verdict.

@@ -20,12 +20,14 @@ std::vector<const Plugin*> pointers(const std::vector<Named<Plugin>>& plugins) {
   return all;
 }
 
-std::vector<WatchesObservations*> watchersOf(const std::vector<Named<MeasurementPlugin>>& plugins) {
-  std::vector<WatchesObservations*> watchers;
+// The plugins that implement an interface.
+template <class Interface>
+std::vector<Interface*> thatAre(const std::vector<Named<MeasurementPlugin>>& plugins) {
+  std::vector<Interface*> all;
   for (const auto& named : plugins) {
-    if (auto* watcher = dynamic_cast<WatchesObservations*>(named.plugin.get())) watchers.push_back(watcher);
+    if (auto* is = dynamic_cast<Interface*>(named.plugin.get())) all.push_back(is);
   }
-  return watchers;
+  return all;
 }
 
 }  // namespace
@@ -47,7 +49,10 @@ FrontEnd::FrontEnd(const EngineSettings& settings, SensorPoses sensor_poses, Plu
 
 void FrontEnd::pluginsChanged() {
   perception_.emplace(pointers(plugins_.extractors), pointers(plugins_.measurement), pool_, options_.cloud());
-  watchers_ = watchersOf(plugins_.measurement);
+  watchers_ = thatAre<WatchesObservations>(plugins_.measurement);
+  hearers_ = thatAre<HearsObservations>(plugins_.measurement);
+  only_moves_ = watchers_.empty() && std::all_of(plugins_.measurement.begin(), plugins_.measurement.end(),
+                                                 [](const auto& named) { return named.plugin->worksOnLandmarks(); });
 }
 
 void FrontEnd::add(const Arrival& arrival) {
@@ -62,10 +67,10 @@ void FrontEnd::add(const Arrival& arrival) {
   queue_.arrived(observation->timestamp);
   const auto placed = sensor_poses_.applied(observation);
   const bool is_taken = feedSources(placed);
-  state_.level_evidence.add(*placed);
+  for (auto* hearer : hearers_) hearer->heard(*placed);
   const bool is_watched = tellWatchers(*placed);
-  // Without measurement plugins, the observations of the pose sources make the key frames.
-  if (is_watched || perception_->wants(*placed) || (is_taken && plugins_.measurement.empty())) {
+  // If no measurement plugin takes or watches observations, those of the pose sources make the key frames.
+  if (is_watched || perception_->wants(*placed) || (is_taken && only_moves_)) {
     generation_of_.erase(placed.get());
     if (is_watched && arrival.generation > 0) generation_of_[placed.get()] = arrival.generation;
     if (!queue_.add(placed)) addLate(placed);
@@ -185,7 +190,7 @@ void FrontEnd::release(const ReleaseQueue::Group& group, bool late) {
     const auto made = generation_of_.extract(observation.get());
     if (isWatched(*observation)) bundle.watched.push_back({observation, made ? made.mapped() : 0});
     // Others were queued for watchers or for a plugin that has been removed since.
-    if (!plugins_.measurement.empty() && !perception_->wants(*observation)) continue;
+    if (!only_moves_ && !perception_->wants(*observation)) continue;
     const auto usable = usablePart(observation);
     const bool fires = !usable ? false
                        : late  ? trigger_.firesLate(observation->sensorLabel, group.stamp, motion)

@@ -75,6 +75,8 @@ class FrontEnd {
   std::optional<Perception> perception_;  // of the present plugins and extractors
   base::WorkerPool& pool_;
   std::vector<WatchesObservations*> watchers_;
+  std::vector<HearsObservations*> hearers_;
+  bool only_moves_ = false;  // no measurement plugin takes or watches observations
   std::unordered_map<const mrpt::obs::CObservation*, int> generation_of_;  // of the queued ones that watchers made
   std::string reference_sensor_;
   std::deque<FrameBundle> bundles_;

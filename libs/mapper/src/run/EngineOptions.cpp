@@ -13,6 +13,9 @@ const base::OptionTable<EngineOptions>& EngineOptions::table() {
           .list("measurement_plugins", &Options::measurement_plugins,
                 "INI sections of the measurement plugins, in processing order: a pose measured by one plugin is "
                 "available to the plugins after it.")
+          .list("default_plugins", &Options::default_plugins,
+                "Classes of measurement plugins that every run has, before those of measurement_plugins, unless one of "
+                "these is of the same class. Their sections have the names of their classes and may be missing.")
           .list("output_plugins", &Options::output_plugins, "INI sections of the output plugins.")
           .list("sensors", &Options::sensors, "INI sections that each give the pose of one sensor on the robot's base.")
           .list("plugin_libraries", &Options::plugin_libraries, "Shared libraries that contain further plugin classes.")

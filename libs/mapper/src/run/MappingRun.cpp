@@ -139,7 +139,7 @@ void Run::open() {
     engine_->warn(config_.placeOf("session") +
                   ": [session] gives the start of a log in a map that it continues or is localized in; without "
                   "--continue or --localize it has no effect");
-  if (engine_->plugins().measurement.empty() && (localizes() || !request_.continue_map.empty())) {
+  if (settings_.engine.measurement_plugins.empty() && (localizes() || !request_.continue_map.empty())) {
     failWithNoTie(config_.file());
   }
   loadMapInto(request_, settings_, config_, *engine_);
@@ -165,7 +165,7 @@ void Run::makeEngine() {
   context_.output_folder = outputs_.staging();
   context_.title = feed_->title();
   context_.config_text = config_.text();
-  auto plugins = makePlugins({options.pose_plugins, perception_.extractors, options.measurement_plugins, outputs},
+  auto plugins = makePlugins({options.pose_plugins, perception_.extractors, measurementSections(config_), outputs},
                              config_, context_);
   config_.refuseUnreadSections();
   measuring_.insert(options.measurement_plugins.begin(), options.measurement_plugins.end());
@@ -186,7 +186,8 @@ PluginDifference Run::prepareChange(const base::Config& next) {
   if (!difference.unused.empty())
     engine_->warn("a change of the INI during the run needs a new run to have an effect: " +
                   base::option_text::format(difference.unused));
-  if (difference.change.order.measurement.empty() && (localizes() || !request_.continue_map.empty()))
+  if (next.section("mapper").read<EngineOptions>().measurement_plugins.empty() &&
+      (localizes() || !request_.continue_map.empty()))
     failWithNoTie(next.file());
   return difference;
 }
@@ -242,6 +243,7 @@ std::vector<std::string> Run::warn(const RunResult& result) {
   };
   warn_of(engine_->plugins().pose);
   warn_of(engine_->plugins().extractors);
+  warn_of(engine_->plugins().measurement);
   warnOfNothingMeasured(
       measuring_, [this](const std::string& section) { return missingFor(section); }, *engine_);
   warnOfCounts(engine_->view().counts, result.new_key_frames, *engine_);

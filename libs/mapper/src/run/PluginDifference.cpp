@@ -16,7 +16,7 @@ using Names = std::vector<std::string>;
 PluginSections sectionsOf(const base::Config& config, const Names& more_outputs) {
   const auto engine = config.section("mapper").read<EngineOptions>();
   PluginSections sections{engine.pose_plugins, config.section("perception").read<PerceptionOptions>().extractors,
-                          engine.measurement_plugins, engine.output_plugins};
+                          measurementSections(config), engine.output_plugins};
   for (const auto& more : more_outputs)
     if (std::count(sections.output.begin(), sections.output.end(), more) == 0) sections.output.push_back(more);
   return sections;
@@ -29,7 +29,7 @@ std::string sectionOf(const std::string& difference) {
 
 bool isList(const std::string& difference) {
   for (const char* key : {"[mapper] pose_plugins", "[mapper] measurement_plugins", "[mapper] output_plugins",
-                          "[mapper] plugin_libraries", "[perception] extractors"})
+                          "[mapper] default_plugins", "[mapper] plugin_libraries", "[perception] extractors"})
     if (difference.rfind(std::string(key) + " ", 0) == 0) return true;
   return false;
 }

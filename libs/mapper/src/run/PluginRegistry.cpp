@@ -90,6 +90,13 @@ std::string withArticle(PluginKind kind) {
   return (name.front() == 'o' || name.front() == 'e' ? "an " : "a ") + name;
 }
 
+bool isDefault(const std::string& name, const base::Config& config) {
+  const auto defaults = config.section("mapper").read<EngineOptions>().default_plugins;
+  std::string class_name;
+  return std::count(defaults.begin(), defaults.end(), name) > 0 &&
+         (!config.has(name) || !config.section(name).find("class", class_name));
+}
+
 // A name without a section is probably misspelt in the list of sections.
 [[noreturn]] void failWithoutSection(const std::string& name, PluginKind kind, const base::Config& config) {
   std::string key = toString(kind) + "s";
@@ -126,8 +133,27 @@ void makeAll(const std::vector<std::string>& names, PluginKind kind, const base:
 
 }  // namespace
 
+std::vector<std::string> measurementSections(const base::Config& config) {
+  const auto options = config.section("mapper").read<EngineOptions>();
+  std::set<std::string> listed, known;  // classes
+  for (const auto& section : options.measurement_plugins) {
+    std::string class_name = section;
+    if (config.has(section)) config.section(section).find("class", class_name);
+    listed.insert(class_name);
+  }
+  for (const auto& factory : registeredFactories()) known.insert(factory->name());
+  std::vector<std::string> sections;
+  for (const auto& class_name : options.default_plugins)
+    if (listed.count(class_name) == 0 && known.count(class_name) > 0) sections.push_back(class_name);
+  sections.insert(sections.end(), options.measurement_plugins.begin(), options.measurement_plugins.end());
+  return sections;
+}
+
 std::shared_ptr<const PluginFactory> factoryOfSection(PluginKind kind, const std::string& name,
                                                       const base::Config& config) {
+  if (kind == PluginKind::measurement && isDefault(name, config)) {
+    return findFactory(kind, name, config.placeOf("mapper", "default_plugins"));
+  }
   if (!config.has(name)) failWithoutSection(name, kind, config);
   const std::string place = config.placeOf(name, "class") + ": [" + name + "]";
   std::string class_name;

@@ -23,6 +23,7 @@ struct CloudOptions {
 struct EngineOptions {
   Motion motion = Motion::planar;
   std::vector<std::string> pose_plugins, measurement_plugins, output_plugins;
+  std::vector<std::string> default_plugins{"LevelPlugin"};  ///< classes of measurement plugins
   std::vector<std::string> sensors;
   std::vector<std::string> plugin_libraries;
   std::string reference_sensor;  ///< label; empty: the first sensor that gets a key frame

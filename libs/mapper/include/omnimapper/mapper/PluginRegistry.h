@@ -19,7 +19,12 @@ Kinds registeredKinds();
 /// the class is not available. `place`: where the INI names the class, for the message.
 std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::string& name, const std::string& place);
 
-/// The factory of the class that the section `name` names. Throws as makePlugins().
+/// The sections of the measurement plugins of an INI: those of [mapper] default_plugins, unless no loaded library has
+/// the class or a listed plugin is of it, and after them the listed ones. A default plugin's section is named by its
+/// class.
+std::vector<std::string> measurementSections(const base::Config& config);
+
+/// The factory of the class that the section `name` names; a default plugin needs no section. Throws as makePlugins().
 std::shared_ptr<const PluginFactory> factoryOfSection(PluginKind kind, const std::string& name,
                                                       const base::Config& config);
 

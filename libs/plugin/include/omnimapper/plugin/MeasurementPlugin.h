@@ -72,6 +72,10 @@ class MeasurementPlugin {
   /// Called after atEnd(): the evidence of this plugin for or against the finished map.
   virtual std::vector<Evidence> evidence(const View& /*view*/) const { return {}; }
 
+  /// Called after atEnd(), and when the plugin is removed from a run that goes on: sentences about what a user should
+  /// know, such as that the base is not level.
+  virtual std::vector<std::string> warnings() const { return {}; }
+
   /// What a map must keep of the plugin, for this plugin alone, so that a later session can continue; the engine names
   /// the layer. None if frames, landmarks and graph suffice. What other plugins, outputs or queries read is a layer of
   /// its own (Batch::setLayer()).

@@ -50,4 +50,14 @@ class WatchesObservations {
   virtual WatchResult watch(const Watched& watched, const View& view) = 0;
 };
 
+/// A measurement plugin that implements this interface, too, hears of every observation on arrival, whether any plugin
+/// wants it or not. What it hears does not wait in the queue and makes no key frame.
+class HearsObservations {
+ public:
+  virtual ~HearsObservations() = default;
+  /// Called from the thread of the engine, in the order of arrival, with the sensor poses that [mapper] sensors gives
+  /// applied. It must not take long.
+  virtual void heard(const mrpt::obs::CObservation& observation) = 0;
+};
+
 }  // namespace omnimapper::mapper

@@ -52,8 +52,8 @@ inline std::unique_ptr<mapper::Engine> makeEngine(const std::string& ini, const 
   context.motion = options.motion;
   context.map_is_held = map_is_held;
   context.config_text = config.text();
-  auto plugins = mapper::makePlugins({options.pose_plugins, perception.extractors, options.measurement_plugins, {}},
-                                     config, context);
+  auto plugins = mapper::makePlugins(
+      {options.pose_plugins, perception.extractors, mapper::measurementSections(config), {}}, config, context);
   return std::make_unique<mapper::Engine>(options_of_engine, "test", mapper::SensorPoses(options.sensors, config),
                                           std::move(plugins), threads);
 }

@@ -1,4 +1,4 @@
-#include "back_end/estimateLevel.h"
+#include "estimateLevel.h"
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <omnimapper/geometry/Angle.h>
@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <optional>
 
-namespace omnimapper::mapper {
+namespace omnimapper::plugins {
 
 namespace {
 
@@ -22,7 +22,6 @@ using Eigen::Vector3d;
 using map::Level;
 
 constexpr double kDegree = geometry::kPi / 180;
-constexpr double kBaseSigma = 1 * kDegree;  // [rad] standard deviation of the tilt of floors and of robots' chassis
 
 std::string degrees(double angle) {
   char text[32];
@@ -110,12 +109,12 @@ std::vector<surfaces::Viewpoint> viewpointsOf(const map::Map& map) {
 }
 
 // The landmarks with surfaces, without those that were measured only once, which may be noise.
-std::vector<surfaces::FlatArea> areasOf(const State& state) {
+std::vector<surfaces::FlatArea> areasOf(const mapper::State& state) {
   constexpr std::uint32_t kFewest = 2;  // measurements
   std::vector<surfaces::FlatArea> areas;
   for (const auto& [id, landmark] : state.map.landmarks) {
     if (landmark.state != map::Landmark::State::active || landmark.evidence < kFewest) continue;
-    const auto shape = shapeOf(landmark, state);
+    const auto shape = mapper::shapeOf(landmark, state);
     if (!shape.normal || shape.surfaces.empty()) continue;
     surfaces::FlatArea area{*shape.normal, Vector3d::Zero(), 0, static_cast<int>(landmark.evidence)};
     for (const auto& outline : shape.surfaces) {
@@ -131,7 +130,7 @@ std::vector<surfaces::FlatArea> areasOf(const State& state) {
   return areas;
 }
 
-Level bySurfaces(const State& state, double& margin) {
+Level bySurfaces(const mapper::State& state, double& margin) {
   Level level;
   const auto areas = areasOf(state);
   const auto estimate = surfaces::levelOfSurfaces(areas, viewpointsOf(state.map));
@@ -141,9 +140,9 @@ Level bySurfaces(const State& state, double& margin) {
   return level;
 }
 
-Level byBase(const map::Map& map, const LevelEvidence& evidence, Motion motion) {
+Level byBase(const map::Map& map, const LevelEvidence& evidence, mapper::Motion motion, double sigma) {
   Level level;
-  const bool is_planar = motion == Motion::planar;
+  const bool is_planar = motion == mapper::Motion::planar;
   if ((evidence.levelBase().empty() && !is_planar) || map.key_frames.empty()) {
     level.reason = "neither wheel odometry nor a level 2D laser shows that the base is level";
     return level;
@@ -152,7 +151,7 @@ Level byBase(const map::Map& map, const LevelEvidence& evidence, Motion motion) 
   for (const auto& frame : map.key_frames) sum += geometry::fromMrpt(frame.map_from_base).rotation * Vector3d::UnitZ();
   level.source = Level::Source::base;
   level.up = is_planar ? Vector3d::UnitZ() : Vector3d(sum.normalized());
-  level.covariance = kBaseSigma * kBaseSigma * (Eigen::Matrix3d::Identity() - level.up * level.up.transpose());
+  level.covariance = sigma * sigma * (Eigen::Matrix3d::Identity() - level.up * level.up.transpose());
   level.reason = evidence.levelBase().empty() ? "[mapper] motion = planar: the base is level"
                                               : evidence.levelBase() + ": a robot on wheels, whose base is level";
   return level;
@@ -192,7 +191,7 @@ Level fused(const Level& imu, const Level& planes) {
 
 // The base is taken as level unless the measurements clearly show a tilt. A tilt of 30 deg or more is not believed:
 // floors and walls are then probably mistaken for each other.
-JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured) {
+JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured, double base_sigma) {
   constexpr double kMostTilt = 30 * kDegree;
   JudgedLevel judged{base, {}};
   for (const Level* other : measured) {
@@ -203,8 +202,8 @@ JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured
       judged.level.reason += ", and " + otherwise(base, *other);
       judged.warnings.clear();
       const double variance =
-          std::min(std::pow(kBaseSigma, 2), angle * angle + std::pow(other->standardDeviation(), 2));
-      judged.level.covariance *= variance / (kBaseSigma * kBaseSigma);
+          std::min(std::pow(base_sigma, 2), angle * angle + std::pow(other->standardDeviation(), 2));
+      judged.level.covariance *= variance / (base_sigma * base_sigma);
       return judged;
     }
     const std::string sentence = "the base is not level: by " + toString(other->source) + " it is tilted by " +
@@ -223,14 +222,23 @@ JudgedLevel judgedWithBase(Level base, const std::vector<const Level*>& measured
 
 }  // namespace
 
-JudgedLevel estimateLevel(const State& state, const LevelEvidence& evidence, Motion motion) {
+const base::OptionTable<LevelOptions>& LevelOptions::table() {
+  static const auto table = base::OptionTable<LevelOptions>().number(
+      "base_sigma_deg", &LevelOptions::base_sigma, base::Range{0.01, 45},
+      "Standard deviation of the tilt of floors and of the chassis of robots on wheels.");
+  return table;
+}
+
+JudgedLevel estimateLevel(const mapper::State& state, const LevelEvidence& evidence, mapper::Motion motion,
+                          const LevelOptions& options) {
   Level imu = byGravity(state.map, evidence);
   const auto* saved = state.map.layers.find<Level>();
   if (!imu.isKnown() && saved && saved->source == Level::Source::imu) imu = *saved;
   double margin = 0;
   const Level planes = bySurfaces(state, margin);
-  const Level base = byBase(state.map, evidence, motion);
-  if (base.isKnown() && motion == Motion::planar) return judgedWithBase(base, {&imu, &planes});
+  const Level base = byBase(state.map, evidence, motion, options.base_sigma);
+  if (base.isKnown() && motion == mapper::Motion::planar)
+    return judgedWithBase(base, {&imu, &planes}, options.base_sigma);
   JudgedLevel judged;
   if (imu.isKnown()) {
     judged.level = imu;
@@ -258,4 +266,4 @@ JudgedLevel estimateLevel(const State& state, const LevelEvidence& evidence, Mot
   return judged;
 }
 
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::plugins

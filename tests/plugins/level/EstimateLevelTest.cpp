@@ -5,9 +5,9 @@
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
-#include "back_end/estimateLevel.h"
+#include "level/estimateLevel.h"
 
-namespace omnimapper::mapper::estimate_level_test {
+namespace omnimapper::plugins::estimate_level_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -35,7 +35,7 @@ class EstimateLevel : public ::testing::Test {
  protected:
   // A level base in a place that is turned by `map_from_place`; it looks around.
   void stand(const Quaterniond& map_from_place, double turn_deg = 45) {
-    run_.motion = Motion::spatial;
+    run_.motion = mapper::Motion::spatial;
     map_from_place_ = map_from_place;
     for (int i = 0; i < 8; ++i) {
       const Quaterniond turned = map_from_place * AngleAxisd(turn_deg * i * kDegree, Vector3d::UnitZ());
@@ -88,7 +88,7 @@ class EstimateLevel : public ::testing::Test {
 };
 
 TEST_F(EstimateLevel, OfAnEmptyMapIsNotKnown) {
-  run_.motion = Motion::spatial;
+  run_.motion = mapper::Motion::spatial;
   const auto judged = estimate();
   EXPECT_FALSE(judged.level.isKnown());
   EXPECT_FALSE(judged.level.reason.empty());
@@ -135,7 +135,7 @@ TEST_F(EstimateLevel, ByWheelsWhereNothingElseMeasuresIt) {
 // The map of a robot does not change in any bit if surfaces differ by about a degree.
 TEST_F(EstimateLevel, OfAPlanarMapIsZUnlessSurfacesClearlySayOtherwise) {
   stand(Quaterniond(AngleAxisd(0.8 * kDegree, Vector3d::UnitX())));
-  run_.motion = Motion::planar;
+  run_.motion = mapper::Motion::planar;
   addRoom();
   addWheels();
   auto judged = estimate();
@@ -176,4 +176,4 @@ TEST(LevelEvidence, ALaserThatScansALevelPlaneIsARobots) {
 }
 
 }  // namespace
-}  // namespace omnimapper::mapper::estimate_level_test
+}  // namespace omnimapper::plugins::estimate_level_test

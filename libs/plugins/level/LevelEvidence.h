@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace omnimapper::mapper {
+namespace omnimapper::plugins {
 
 /// Collects from all observations, not only those of key frames, the evidence for which way is up.
 class LevelEvidence {
@@ -24,4 +24,4 @@ class LevelEvidence {
   std::string level_base_;
 };
 
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::plugins

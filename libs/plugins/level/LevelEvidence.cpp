@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace omnimapper::mapper {
+namespace omnimapper::plugins {
 
 void LevelEvidence::add(const mrpt::obs::CObservation& observation) {
   constexpr std::size_t kMost = 16;  // more than any robot has; a damaged log may have any number of labels
@@ -27,4 +27,4 @@ void LevelEvidence::add(const mrpt::obs::CObservation& observation) {
   }
 }
 
-}  // namespace omnimapper::mapper
+}  // namespace omnimapper::plugins
