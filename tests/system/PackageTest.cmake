@@ -262,6 +262,38 @@ if(NOT unpacked STREQUAL plain)
   message(FATAL_ERROR "landmarks.obj.gz is not landmarks.obj")
 endif()
 
+# A format of logs from outside: the log of a robot as its text gives the same trajectory.
+build("${EXAMPLES}/csv_log" "${SCRATCH}/csv_log")
+set(box "${prefix}/share/omnimapper/rawlogs/box/box.rawlog")
+run("${SCRATCH}/csv_log/to-csv" "${box}" "${SCRATCH}/box.csv")
+file(READ "${EXAMPLES}/csv_log/csv_log.ini" text)
+string(REPLACE "build/libcsv_log.so" "${SCRATCH}/csv_log/libcsv_log.so" text "${text}")
+file(WRITE "${SCRATCH}/csv_log.ini" "${text}")
+foreach(log "${box}" "${SCRATCH}/box.csv")
+  get_filename_component(folder "${log}" EXT)
+  run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/csv_log.ini" -i laser2d.ini -r "${log}"
+    -o "${SCRATCH}/as${folder}" --set mapper.output_plugins=trajectory)
+endforeach()
+file(READ "${SCRATCH}/as.rawlog/trajectory.tum" of_rawlog)
+file(READ "${SCRATCH}/as.csv/trajectory.tum" of_text)
+if(NOT of_text STREQUAL of_rawlog)
+  message(FATAL_ERROR "the trajectory of box.csv is not that of box.rawlog")
+endif()
+# A line that cannot be read is named, and the rest is mapped.
+file(APPEND "${SCRATCH}/box.csv" "odom,not,a,number,here\n")
+execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/csv_log.ini" -i laser2d.ini
+  -r "${SCRATCH}/box.csv" -o "${SCRATCH}/as.csv" --set mapper.output_plugins=trajectory
+  RESULT_VARIABLE result ERROR_VARIABLE error)
+if(NOT result EQUAL 9 OR NOT error MATCHES "box.csv:[0-9]+: cannot be read, with 0 further lines")
+  message(FATAL_ERROR "with a line that cannot be read, box.csv ended with ${result}:\n${error}")
+endif()
+# Without the library nothing recognizes it, and the message lists what is known.
+execute_process(COMMAND "${prefix}/bin/omnimapper-graphslam" -q -i laser2d.ini -r "${SCRATCH}/box.csv" -o "${SCRATCH}/none"
+  RESULT_VARIABLE result ERROR_VARIABLE error)
+if(NOT result EQUAL 8 OR NOT error MATCHES "text file of unknown kind.*rawlog, carmen_log")
+  message(FATAL_ERROR "without its library box.csv ended with ${result}:\n${error}")
+endif()
+
 # A live page from outside, here for the time of a log; the rooms that it takes are those of the next example.
 build("${EXAMPLES}/live_page" "${SCRATCH}/live_page")
 file(READ "${EXAMPLES}/live_page/live_page.ini" text)
