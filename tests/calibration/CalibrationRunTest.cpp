@@ -281,6 +281,7 @@ TEST_F(CalibrationRunTest, TheProgramSaysWhatIsMissing) {
 TEST_F(CalibrationRunTest, OfARealKinectItFindsTheLens) {
   const auto folder = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);
+  OMNIMAPPER_NEEDS_FORMAT("rgbd_folder");
   request_.views = 60;
   const auto ini = base::Config::fromText("[source_rgbd_folder]\nintrinsics = openni\n", "");
   const auto images = source::openLogs({*folder}, source::readSourceOptions(ini));

@@ -337,6 +337,7 @@ void importDepths(const std::string& folder, int every, const std::string& outpu
 TEST_F(DepthRunTest, OfARealXtionPlanesGetAQuarterFlatter) {
   const auto folder = testing::sharedData("rgbd/tum_fr3_cabinet58");
   OMNIMAPPER_NEEDS(folder);
+  OMNIMAPPER_NEEDS_FORMAT("rgbd_folder");
   importDepths(*folder, 1, request_.logs.front());
   const auto result = run();
   const auto json = nlohmann::json::parse(read("summary.json"));
@@ -348,6 +349,7 @@ TEST_F(DepthRunTest, OfARealXtionPlanesGetAQuarterFlatter) {
 TEST_F(DepthRunTest, OfARealKinectPlanesGetFlatter) {
   const auto folder = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(folder);
+  OMNIMAPPER_NEEDS_FORMAT("rgbd_folder");
   importDepths(*folder, 5, request_.logs.front());
   const auto result = run();
   const auto json = nlohmann::json::parse(read("summary.json"));

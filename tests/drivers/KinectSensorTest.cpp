@@ -160,6 +160,7 @@ TEST_F(KinectSensorTest, whatIsPlayedArrivesToTheQuantization) {
 TEST_F(KinectSensorTest, aRealLogArrivesToTheQuantization) {
   const auto real = testing::sharedData("rgbd/tum_fr1_rpy");
   OMNIMAPPER_NEEDS(real);
+  OMNIMAPPER_NEEDS_FORMAT("rgbd_folder");
   // The first nine lines are a fifth of a second; three of them are comments.
   std::filesystem::create_directories(folder / "log");
   for (const char* name : {"depth", "rgb"}) std::filesystem::create_symlink(*real + "/" + name, folder / "log/" + name);

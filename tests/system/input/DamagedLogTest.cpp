@@ -158,9 +158,13 @@ TEST_F(DamagedLog, WhatIsNoRawlogIsRefusedAndNothingIsWritten) {
   refused(writeFile(file("picture.png"), "\x89PNG\r\n\x1a\n" + std::string(500, '\3')), "image");
   refused(writeFile(file("empty.rawlog"), ""), "empty");
   refused(writeFile(file("noise.rawlog"), std::string(5000, '\x5a')), "");
-  refused(writeFile(file("log.clf"), "ODOM 0 0 0 0 0 0 1.0 nohost 0\n"), "omnimapper-import carmen");
   refused(file("nowhere.rawlog"), "No such file");
   refused(scratch_.path(), "folder");
+}
+
+TEST_F(DamagedLog, ALogOfAnotherFormatIsReadToItsDamage) {
+  const auto path = writeFile(file("log.clf"), "ODOM 0 0 0 0 0 0 1.0 nohost 0\nODOM 0 0 0 0\n");
+  EXPECT_TRUE(endedWith(ExitCode::damaged_input, map({path}, folder_), {path, "line 2"}));
 }
 
 }  // namespace

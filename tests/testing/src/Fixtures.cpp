@@ -1,3 +1,4 @@
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/testing/Fixtures.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -54,6 +55,11 @@ std::optional<std::string> sharedData(const std::string& relative) {
 
 std::optional<std::string> mrptDataset(const std::string& relative) {
   return ifPresent(fs::path("/usr/share/mrpt/datasets") / relative);
+}
+
+bool hasFormat(const std::string& format) {
+  base::loadFeaturesOf(base::Registered::format);
+  return base::whyUnavailable(format).empty();
 }
 
 }  // namespace omnimapper::testing

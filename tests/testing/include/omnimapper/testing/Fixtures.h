@@ -58,8 +58,15 @@ std::optional<std::string> sharedData(const std::string& relative);
 /// Path of a data set in the Debian package mrpt-common, if it exists.
 std::optional<std::string> mrptDataset(const std::string& relative);
 
+/// Whether this build has the feature that reads logs of this format.
+bool hasFormat(const std::string& format);
+
 }  // namespace omnimapper::testing
 
 /// Skips a test whose recording is not on this machine. scripts/test counts and prints skipped tests.
 #define OMNIMAPPER_NEEDS(optional_path) \
   if (!(optional_path)) GTEST_SKIP() << "recording not on this machine; the simulated twin of this test has run"
+
+/// Skips a test of a recording whose format this build leaves out.
+#define OMNIMAPPER_NEEDS_FORMAT(format) \
+  if (!omnimapper::testing::hasFormat(format)) GTEST_SKIP() << "this build does not read the format " << (format)
