@@ -50,7 +50,8 @@ TEST(FittingInis, OfALaserAreThoseOfLasers) {
 
 TEST(FittingInis, OfARangeCameraDependOnWhatMeasuresItsMotion) {
   const auto log = with<mrpt::obs::CObservation3DRangeScan>();
-  EXPECT_EQ(namesFor(log), (Names{"ini/home_planes.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}));
+  EXPECT_EQ(namesFor(log),
+            (Names{"ini/home_planes.ini", "ini/objects_map.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}));
   EXPECT_EQ(namesFor(without(log, "laser")), (Names{"ini/rgbd_robot.ini", "ini/home_planes.ini"}));
   auto alone = without(without(log, "laser"), "odometry");
   EXPECT_EQ(namesFor(alone), Names{"ini/rgbd_handheld.ini"});

@@ -138,7 +138,8 @@ TEST_F(Check, ALogWithoutAnythingToMapHasItsCode) {
 
 TEST_F(Check, EveryIniThatItNamesMapsTheLog) {
   const std::vector<std::pair<std::string, Texts>> logs{
-      {"rawlogs/home_30s/home_30s.rawlog", {"ini/home_planes.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}},
+      {"rawlogs/home_30s/home_30s.rawlog",
+       {"ini/home_planes.ini", "ini/objects_map.ini", "ini/laser2d.ini", "ini/laser_walls.ini"}},
       {"rawlogs/box/box.rawlog", {"ini/laser2d.ini", "ini/laser_walls.ini", "ini/landmarks.ini"}}};
   for (const auto& [name, inis] : logs) {
     const auto log = omnimapper::testing::sourceFile(name);

@@ -40,7 +40,12 @@ class LandmarkMerging {
            view_.areAligned(kept.session, gone.session);
   }
   void merge(base::LandmarkId kept, base::LandmarkId gone, const Sameness& sameness) {
-    payloads_[kept] = payloadOf(kept).with(payloadOf(gone));
+    merge(kept, gone, sameness, payloadOf(kept).with(payloadOf(gone)));
+  }
+  /// The same for a payload without such a function; `both`: the payload with the measurements of both.
+  void merge(base::LandmarkId kept, base::LandmarkId gone, const Sameness& sameness,
+             std::shared_ptr<const Payload> both) {
+    payloads_[kept] = std::move(both);
     merges_.emplace_back(kept, gone);
     parts_[kept].push_back(gone);
     gone_.insert(gone);
