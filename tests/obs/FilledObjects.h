@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/obs/CObservationCommand.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationObjects.h>
@@ -167,12 +168,28 @@ inline std::shared_ptr<CObservationDoorSigns> filledSigns() {
   return signs;
 }
 
+inline std::shared_ptr<CObservationCommand> filledCommand() {
+  auto command = CObservationCommand::Create();
+  command->timestamp = base::parseUnix("1137834225.9737601");
+  command->sensorLabel = "page";
+  command->kind = CommandKind::label;
+  command->subject = CommandSubject::object;
+  command->text =
+      "K\xC3\xBC"
+      "chen tisch";
+  command->origin = "anna";
+  command->expiry = 30;
+  command->motion = {0.5, -1.0 / 3.0, 0.1};
+  return command;
+}
+
 inline std::map<std::string, std::function<mrpt::serialization::CSerializable::Ptr()>> filledObjects() {
   return {{"omnimapper::obs::CObservationRelativeMotion", filledMotion},
           {"omnimapper::obs::CObservationPlanes", filledPlanes},
           {"omnimapper::obs::CObservationLaserLines", filledLines},
           {"omnimapper::obs::CObservationObjects", filledDetections},
-          {"omnimapper::obs::CObservationDoorSigns", filledSigns}};
+          {"omnimapper::obs::CObservationDoorSigns", filledSigns},
+          {"omnimapper::obs::CObservationCommand", filledCommand}};
 }
 
 }  // namespace omnimapper::obs

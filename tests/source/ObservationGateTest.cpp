@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/obs/CObservationCommand.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/source/ObservationGate.h>
 
@@ -118,6 +119,13 @@ TEST(ObservationGate, MeasurementsAreFinite) {
   good.validCovariances = true;
   good.sensedData[0].covariance.setIdentity();
   EXPECT_NE(reasonOf<Ranges>(good, [](Ranges& s) { s.sensedData[0].covariance(1, 1) = -1; }), "");
+}
+
+TEST(ObservationGate, CommandsHaveAFiniteMotionAndExpiry) {
+  using Command = obs::CObservationCommand;
+  EXPECT_EQ(reasonOf<Command>({}, [](Command& c) { c.expiry = kNan; }), "the command's expiry is not a time");
+  EXPECT_EQ(reasonOf<Command>({}, [](Command& c) { c.expiry = -1; }), "the command's expiry is not a time");
+  EXPECT_EQ(reasonOf<Command>({}, [](Command& c) { c.motion.z() = kInf; }), "the command's motion is not finite");
 }
 
 TEST(ObservationGate, ImagesHaveAFiniteCalibration) {

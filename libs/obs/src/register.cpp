@@ -1,4 +1,5 @@
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/obs/CObservationCommand.h>
 #include <omnimapper/obs/CObservationDoorSigns.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationObjects.h>
@@ -11,7 +12,7 @@ namespace omnimapper::obs {
 const std::vector<const mrpt::rtti::TRuntimeClassId*>& allClasses() {
   static const std::vector<const mrpt::rtti::TRuntimeClassId*> classes = {
       CLASS_ID(CObservationRelativeMotion), CLASS_ID(CObservationPlanes),    CLASS_ID(CObservationLaserLines),
-      CLASS_ID(CObservationObjects),        CLASS_ID(CObservationDoorSigns),
+      CLASS_ID(CObservationObjects),        CLASS_ID(CObservationDoorSigns), CLASS_ID(CObservationCommand),
   };
   return classes;
 }

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/obs/CObservationCommand.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
@@ -134,6 +135,12 @@ Reason whyNot(const obs::CObservationLaserLines& found) {
   return std::nullopt;
 }
 
+Reason whyNot(const obs::CObservationCommand& command) {
+  if (!std::isfinite(command.expiry) || command.expiry < 0) return "the command's expiry is not a time";
+  if (!command.motion.allFinite()) return "the command's motion is not finite";
+  return std::nullopt;
+}
+
 // whyNot() of the observation as a `Class`; none if it is of another class.
 template <class Class>
 Reason whyNotAs(const CObservation& observation) {
@@ -153,7 +160,8 @@ std::optional<std::string> whyUnusable(const CObservation& observation) {
        {whyNotAs<CObservation2DRangeScan>(observation), whyNotAs<CObservation3DRangeScan>(observation),
         whyNotAs<CObservationBearingRange>(observation), whyNotAs<CObservationOdometry>(observation),
         whyNotAs<CObservationRobotPose>(observation), whyNotAs<obs::CObservationRelativeMotion>(observation),
-        whyNotAs<obs::CObservationPlanes>(observation), whyNotAs<obs::CObservationLaserLines>(observation)}) {
+        whyNotAs<obs::CObservationPlanes>(observation), whyNotAs<obs::CObservationLaserLines>(observation),
+        whyNotAs<obs::CObservationCommand>(observation)}) {
     if (reason) return reason;
   }
   if (const auto* image = dynamic_cast<const CObservationImage*>(&observation)) return whyNot(image->cameraParams);
