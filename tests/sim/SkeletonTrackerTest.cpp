@@ -2,8 +2,8 @@
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/interaction/PointingError.h>
 #include <omnimapper/sim_world/People.h>
-#include <omnimapper/sim_world/PointingError.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -91,8 +91,8 @@ TEST(SkeletonTracker, raysMissTheirTargetsAsInTheThesisTables) {
         const Vector3d hand = place(right ? skeleton->right_hand : skeleton->left_hand),
                        elbow = place(right ? skeleton->right_elbow : skeleton->left_elbow),
                        head = place(skeleton->head);
-        const auto of_elbow = sim::pointingErrorOf(hand, hand - elbow, target),
-                   of_head = sim::pointingErrorOf(hand, hand - head, target);
+        const auto of_elbow = interaction::pointingErrorOf(hand, hand - elbow, target),
+                   of_head = interaction::pointingErrorOf(hand, hand - head, target);
         const double side = right ? 1 : -1;
         found[0].add(side * of_elbow.theta / kDegree), found[1].add(of_elbow.psi / kDegree);
         found[2].add(side * of_head.theta / kDegree), found[3].add(of_head.psi / kDegree);
@@ -116,7 +116,7 @@ TEST(SkeletonTracker, withinAnActRaysAreClustered) {
     const auto skeleton = run.measure<CObservationSkeleton>(k);
     const auto place = [&](const auto& joint) { return inMap(*skeleton, joint, at(0, 0, 1.2)); };
     const Vector3d hand = place(skeleton->right_hand);
-    theta.add(sim::pointingErrorOf(hand, hand - place(skeleton->right_elbow), target).theta / kDegree);
+    theta.add(interaction::pointingErrorOf(hand, hand - place(skeleton->right_elbow), target).theta / kDegree);
   }
   EXPECT_NEAR(theta.sigma(), 7.6 * std::sqrt(0.1), 0.4);
 }

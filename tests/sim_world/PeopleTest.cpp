@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/interaction/PointingError.h>
 #include <omnimapper/sim_world/People.h>
-#include <omnimapper/sim_world/PointingError.h>
 #include <omnimapper/sim_world/Scene.h>
 
 #include <cmath>
@@ -197,9 +197,9 @@ TEST(People, headAndHandAimAtTheTargetTheElbowAboveAndInwards) {
       for (const double time : {3.0, 4.0, 5.0}) {
         const Vector3d hand = joint(made, side + "hand", time), elbow = joint(made, side + "elbow", time),
                        head = joint(made, "head", time), shoulder = joint(made, side + "shoulder", time);
-        const auto of_head = sim::pointingErrorOf(hand, hand - head, target);
+        const auto of_head = interaction::pointingErrorOf(hand, hand - head, target);
         EXPECT_LT(std::hypot(of_head.theta, of_head.psi), 1e-6) << direction;
-        const auto of_elbow = sim::pointingErrorOf(hand, hand - elbow, target);
+        const auto of_elbow = interaction::pointingErrorOf(hand, hand - elbow, target);
         const double inwards = right ? -of_elbow.theta : of_elbow.theta;
         EXPECT_GT(of_elbow.psi, 5 * kDegree) << direction;
         EXPECT_LT(of_elbow.psi, 35 * kDegree) << direction;

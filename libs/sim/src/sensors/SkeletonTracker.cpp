@@ -3,9 +3,9 @@
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/interaction/PointingError.h>
 #include <omnimapper/sim/Pinhole.h>
 #include <omnimapper/sim_world/People.h>
-#include <omnimapper/sim_world/PointingError.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +59,10 @@ const base::OptionTable<SkeletonTrackerOptions>& SkeletonTrackerOptions::table()
   using O = SkeletonTrackerOptions;
   static const auto table =
       base::OptionTable<O>()
-          .choice("software", &O::software,
-                  {{"openni", SkeletonSoftware::openni}, {"ms_sdk", SkeletonSoftware::ms_sdk}},
-                  "Skeleton software whose pointing errors, as the thesis measured them, are simulated.")
+          .choice(
+              "software", &O::software,
+              {{"openni", interaction::SkeletonSoftware::openni}, {"ms_sdk", interaction::SkeletonSoftware::ms_sdk}},
+              "Skeleton software whose pointing errors, as the thesis measured them, are simulated.")
           .integer("table_target", &O::table_target, {0, 7},
                    "Target of the thesis's Tables 12 and 13 whose pointing errors are simulated. 0 takes those of all "
                    "targets.")
@@ -141,7 +142,8 @@ void SkeletonTracker::blur(const View& view, int k, int person, Skeleton& in_map
 
 void SkeletonTracker::missTarget(const View& view, int k, int person, Skeleton& in_map) const {
   const auto& acts = context().world->people[person].pointing;
-  const PointingRow& row = pointingRow(options_of_tracker_.software, options_of_tracker_.table_target);
+  const interaction::PointingRow row =
+      interaction::thesisRow(options_of_tracker_.software, options_of_tracker_.table_target);
   const double frame_part = std::sqrt(options_of_tracker_.frame_share),
                act_part = std::sqrt(1 - options_of_tracker_.frame_share);
   Random of_frame = randomOf(k, kActFrameStream);
@@ -151,16 +153,16 @@ void SkeletonTracker::missTarget(const View& view, int k, int person, Skeleton& 
     if (share <= 0) continue;
     constexpr int kMostActs = 1 << 12;  // largest number of one person, for numbers that are unique among all people
     Random of_act = randomOf(person * kMostActs + static_cast<int>(i), kActStream);
-    const auto draw = [&](double mean, double sigma) {
+    const auto draw = [&](const interaction::AngleError& error) {
       const double of_this_act = of_act.gaussian(), of_this_frame = of_frame.gaussian();
-      return base::option_text::kRadiansPerDegree *
-             (mean + sigma * (act_part * of_this_act + frame_part * of_this_frame));
+      return error.mean + error.sigma * (act_part * of_this_act + frame_part * of_this_frame);
     };
     const Vector3d hand = in_map[jointOf(act.right_arm, Limb::hand)];
-    const auto move = [&](Vector3d& joint, const PointingStatistics& statistics) {
-      const double side = act.right_arm ? 1 : -1, theta = draw(statistics.theta_mean, statistics.theta_sigma);
-      const PointingError error{side * theta, draw(statistics.psi_mean, statistics.psi_sigma)};
-      const Vector3d there = hand - (hand - joint).norm() * directionWithError(hand, act.target_in_map, error);
+    const auto move = [&](Vector3d& joint, const interaction::RayErrors& errors) {
+      const double side = act.right_arm ? 1 : -1, theta = draw(errors.theta);
+      const interaction::PointingError error{side * theta, draw(errors.psi)};
+      const Vector3d there =
+          hand - (hand - joint).norm() * interaction::directionWithError(hand, act.target_in_map, error);
       joint += share * (there - joint);
     };
     move(in_map[jointOf(act.right_arm, Limb::elbow)], row.elbow_hand);

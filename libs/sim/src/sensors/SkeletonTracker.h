@@ -1,17 +1,16 @@
 #pragma once
 
+#include <omnimapper/interaction/PointingTables.h>
 #include <omnimapper/sim/Sensor.h>
 #include <omnimapper/sim_world/Skeleton.h>
 
 #include <vector>
 
-#include "PointingTables.h"
-
 namespace omnimapper::sim {
 
 /// Options of SkeletonTracker.
 struct SkeletonTrackerOptions {
-  SkeletonSoftware software = SkeletonSoftware::openni;
+  interaction::SkeletonSoftware software = interaction::SkeletonSoftware::openni;
   int table_target = 0;  ///< target whose pointing errors are simulated: 1 to 7, or 0 for those of all
   double width = 0.99483767, height = 0.75049158;  ///< field of view [rad]: 57 and 43 deg, as of the Kinect
   double nearest = 0.8, farthest = 4.0;            ///< range of the torso's distance [m]

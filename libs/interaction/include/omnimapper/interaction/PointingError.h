@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace omnimapper::sim {
+namespace omnimapper::interaction {
 
 /// Angles by which a pointing ray misses its target, as in section 6.1 of the thesis: they give the direction of the
 /// target from the hand, in a frame with z along the ray. For rays that point far away from the axes of the sensor, the
@@ -23,4 +23,4 @@ PointingError pointingErrorOf(const Eigen::Vector3d& hand, const Eigen::Vector3d
 Eigen::Vector3d directionWithError(const Eigen::Vector3d& hand, const Eigen::Vector3d& target,
                                    const PointingError& error);
 
-}  // namespace omnimapper::sim
+}  // namespace omnimapper::interaction

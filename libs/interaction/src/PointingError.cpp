@@ -1,10 +1,10 @@
-#include <omnimapper/sim_world/PointingError.h>
+#include <omnimapper/interaction/PointingError.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-namespace omnimapper::sim {
+namespace omnimapper::interaction {
 
 PointingError pointingErrorOf(const Eigen::Vector3d& hand, const Eigen::Vector3d& direction,
                               const Eigen::Vector3d& target) {
@@ -31,4 +31,4 @@ Eigen::Vector3d directionWithError(const Eigen::Vector3d& hand, const Eigen::Vec
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
-}  // namespace omnimapper::sim
+}  // namespace omnimapper::interaction
