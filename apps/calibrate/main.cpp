@@ -1,4 +1,4 @@
-// omnimapper-calibrate: measures from a log how a camera is calibrated and how sensors are mounted.
+// omnimapper-calibrate: measures from a log how a camera is calibrated, how sensors are mounted, and how people point.
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/calibration/DepthRun.h>
 #include <unistd.h>
@@ -7,16 +7,12 @@
 #include <optional>
 
 #include "MountingTask.h"
+#include "PointingTask.h"
 #include "program/Program.h"
 
 namespace {
 
 using namespace omnimapper;
-struct Arguments {
-  calibration::CalibrationRequest rgbd;
-  calibration::DepthRequest depth;
-  bool quiet = false;
-};
 
 // Options of both tasks.
 template <class Request>
@@ -59,19 +55,21 @@ int runTask(calibration::CalibrationResult (*task)(const Request&, base::Progres
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Measures from a log how a camera is calibrated and how the sensors of a robot are mounted.\n"
+      "Measures from a log how a camera is calibrated, how the sensors of a robot are mounted, and how people point.\n"
       "Example: omnimapper-calibrate rgbd -r camera.rawlog -o out/calibration\n"
       "         omnimapper-graphslam -i rgbd_handheld.ini -i out/calibration/calibration.ini -r camera.rawlog -o map\n"
       "         omnimapper-calibrate depth -r camera.rawlog -o out/depth\n"
-      "         omnimapper-calibrate mounting drive.rawlog -o out/mounting",
+      "         omnimapper-calibrate mounting drive.rawlog -o out/mounting\n"
+      "         omnimapper-calibrate pointing -r people.rawlog -g people.csv -o out/pointing",
       "omnimapper-calibrate");
   app.require_subcommand(1);
   app.footer(
       "Record about 30 s in which the camera turns and moves slowly: for rgbd in front of objects with corners,\n"
       "near and far, for depth in front of walls, floors and tables that fill the image.\n"
       "Exit codes: doc/exit_codes.md (0 also if rgbd finds that the log's calibration is right).");
-  Arguments arguments;
-  auto& [rgbd, depth, quiet] = arguments;
+  calibration::CalibrationRequest rgbd;
+  calibration::DepthRequest depth;
+  bool quiet = false;
   const std::string residuals = "residuals.svg", distortion = "distortion.svg";
   addTask(app, "rgbd",
           "RGB-D camera: intrinsics, lens distortion, pose of the colour camera and depth scale, from image corners",
@@ -90,10 +88,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   MountingArguments mounting;
   auto* of_mounting = addMountingTask(app, mounting);
-  return program::run(app, argc, argv, [&, of_depth, of_mounting] {
+  PointingArguments pointing;
+  auto* of_pointing = addPointingTask(app, pointing);
+  return program::run(app, argc, argv, [&, of_depth, of_mounting, of_pointing] {
+    if (of_pointing->parsed()) return runPointingTask(pointing);
     if (of_mounting->parsed()) return runMountingTask(mounting);
-    if (of_depth->parsed())
-      return runTask(calibration::runDepthCalibration, arguments.depth, distortion, arguments.quiet);
-    return runTask(calibration::runCalibration, arguments.rgbd, residuals, arguments.quiet);
+    if (of_depth->parsed()) return runTask(calibration::runDepthCalibration, depth, distortion, quiet);
+    return runTask(calibration::runCalibration, rgbd, residuals, quiet);
   });
 }
