@@ -35,8 +35,9 @@ TEST(ChildProgram, MayWaitForACoreForLongerThanItsLimit) {
 }
 
 TEST(ChildProgram, IsIdleOnceItAndWhatItStartedWait) {
-  Program program(
-      {"sh", "-c", "i=0; while [ $i -lt 300000 ]; do i=$((i + 1)); done; echo counted; sleep 1000; echo woken"});
+  Program program({"sh", "-c",
+                   "trap 'kill $!; exit' TERM; i=0; while [ $i -lt 300000 ]; do i=$((i + 1)); done; echo counted; "
+                   "sleep 1000 & wait; echo woken"});
   EXPECT_TRUE(program.waitUntilIdle());
   program.send(SIGTERM);
   EXPECT_EQ(program.wait().out, "counted\n");
