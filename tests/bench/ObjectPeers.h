@@ -17,6 +17,7 @@ using Objects = std::vector<std::vector<int>>;
 struct LabelledCloud {
   source::PcdCloud points;
   camera::Pinhole camera;
+  std::string name;
 };
 
 /// A method that finds objects in an organized cloud. The whole call of `run` is timed.

@@ -4,6 +4,7 @@
 //
 // Example: bench-objects --clouds objects/mosd
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/base/Memory.h>
 #include <omnimapper/perception/ObjectFinder.h>
 #include <omnimapper/source/RawlogSource.h>
@@ -19,6 +20,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "ObjectPeers.h"
+#include "ObjectScores.h"
 #include "Timing.h"
 #include "pcd_folder/PcdFolder.h"
 
@@ -27,17 +29,21 @@ namespace {
 using namespace omnimapper;
 using namespace omnimapper::bench;
 
-constexpr std::uint32_t kFirstObject = 20;  // labels from here on are those of objects
-constexpr std::uint32_t kNeither = 10;  // label of furniture, which stands on the floor like objects but is not counted
-constexpr double kFewest = 300;         // least number of points of an object that counts
-constexpr double kRight = 0.5;          // least intersection over union of a right detection
+// The options of [objects] with those of `settings`, each of the form key=value.
+perception::ObjectOptions optionsWith(perception::ObjectOptions options, const std::vector<std::string>& settings) {
+  const auto& table = perception::ObjectOptions::table();
+  for (const std::string& setting : settings) {
+    const std::string key = setting.substr(0, setting.find('='));
+    std::size_t i = 0;
+    while (i < table.specs().size() && table.specs()[i].key != key) ++i;
+    if (i == table.specs().size() || table.set(options, i, setting.substr(std::min(key.size() + 1, setting.size()))))
+      throw base::Error(base::ExitCode::command_line, "--set " + setting + ": is no option of ObjectExtractor");
+  }
+  return options;
+}
 
-ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, const std::string& name) {
+ObjectPeer ours(const perception::ObjectOptions& options, const std::string& name) {
   perception::PlaneOptions sensor;
-  perception::ObjectOptions options;
-  options.comparator = comparator;
-  options.min_points = 100;
-  options.max_tilt = tilt;
   const perception::PlaneSegmenter segmenter(sensor);
   const perception::ObjectFinder finder(options, sensor);
   return {name, [=](const LabelledCloud& cloud) {
@@ -50,87 +56,6 @@ ObjectPeer ours(double tilt, perception::ObjectOptions::Comparator comparator, c
           }};
 }
 
-/// One detection, in any of the clouds.
-struct Detection {
-  std::size_t pixels;
-  bool right;  // its intersection over union with an object is at least kRight
-};
-
-struct Result {
-  std::vector<Detection> detections;
-  int objects = 0, merged = 0;  // merged: objects that are mostly covered by one detection together with another object
-  double overlap = 0;           // sum over objects of the best intersection over union
-  std::vector<double> milliseconds;
-};
-
-void compare(const source::PcdCloud& cloud, const Objects& found, Result& result) {
-  std::map<std::uint32_t, double> sizes;
-  for (const auto label : cloud.labels) {
-    if (label >= kFirstObject) ++sizes[label];
-  }
-  for (auto size = sizes.begin(); size != sizes.end();) size = size->second < kFewest ? sizes.erase(size) : ++size;
-  std::map<std::uint32_t, double> best;
-  std::map<std::uint32_t, std::size_t> covers;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    std::map<std::uint32_t, double> shared;
-    for (const int pixel : found[i]) ++shared[cloud.labels[static_cast<std::size_t>(pixel)]];
-    if (shared[kNeither] > 0.5 * static_cast<double>(found[i].size())) continue;
-    double most = 0;
-    for (const auto& [label, count] : shared) {
-      if (sizes.count(label) == 0) continue;
-      const double overlap = count / (sizes[label] + static_cast<double>(found[i].size()) - count);
-      most = std::max(most, overlap);
-      best[label] = std::max(best[label], overlap);
-      if (count > 0.5 * sizes[label]) covers[label] = i + 1;
-    }
-    result.detections.push_back({found[i].size(), most >= kRight});
-  }
-  std::map<std::size_t, int> objects_of;
-  for (const auto& [label, i] : covers) ++objects_of[i];
-  for (const auto& [label, i] : covers) result.merged += objects_of[i] > 1;
-  for (const auto& [label, size] : sizes) {
-    ++result.objects;
-    result.overlap += best[label];
-  }
-}
-
-/// Recall and precision if detections with fewer than `fewest` pixels are left out.
-struct Point {
-  std::size_t fewest = 0;
-  double recall = 0, precision = 0;
-};
-
-std::vector<Point> curveOf(const Result& result) {
-  auto detections = result.detections;
-  std::sort(detections.begin(), detections.end(),
-            [](const Detection& a, const Detection& b) { return a.pixels > b.pixels; });
-  std::vector<Point> curve;
-  double right = 0;
-  for (std::size_t i = 0; i < detections.size(); ++i) {
-    right += detections[i].right;
-    curve.push_back({detections[i].pixels, right / result.objects, right / static_cast<double>(i + 1)});
-  }
-  return curve;
-}
-
-// The point with the highest recall among those with at least this precision.
-Point bestAt(const std::vector<Point>& curve, double precision) {
-  Point best;
-  for (const Point& point : curve) {
-    if (point.precision >= precision && point.recall > best.recall) best = point;
-  }
-  return best;
-}
-
-// Recall and precision if clusters of fewer than `fewest` points do not count.
-Point at(const std::vector<Point>& curve, std::size_t fewest) {
-  Point last;
-  for (const Point& point : curve) {
-    if (point.fewest >= fewest) last = point;
-  }
-  return last;
-}
-
 // Reads clouds from PCD files. The calibration of the camera is estimated from the clouds, since the files do not have
 // it.
 std::vector<LabelledCloud> readClouds(const std::string& folder) {
@@ -139,7 +64,7 @@ std::vector<LabelledCloud> readClouds(const std::string& folder) {
   std::sort(files.begin(), files.end());
   std::vector<LabelledCloud> clouds;
   for (const auto& file : files) {
-    LabelledCloud cloud{source::readPcd(file), {}};
+    LabelledCloud cloud{source::readPcd(file), {}, std::filesystem::path(file).stem()};
     const auto camera = source::depthImageOf(cloud.points, file)->cameraParams;
     cloud.camera = {camera.fx(), camera.fy(), camera.cx(), camera.cy()};
     clouds.push_back(std::move(cloud));
@@ -205,6 +130,56 @@ std::vector<LabelledCloud> readSimulated(const std::string& folder) {
   return clouds;
 }
 
+Result resultOf(const ObjectPeer& method, const std::vector<LabelledCloud>& clouds, std::size_t fold, std::size_t folds,
+                bool is_in_fold) {
+  Result result;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    if ((i % folds == fold) == is_in_fold) compare(clouds[i].points, method.run(clouds[i]), result);
+  }
+  return result;
+}
+
+// Chooses the concave angle by all folds but one, the one with the most objects found and among these the most precise,
+// and prints what it gives on that one.
+void printFolds(const perception::ObjectOptions& options, const std::vector<LabelledCloud>& clouds, std::size_t folds,
+                std::size_t fewest) {
+  std::printf(
+      "\n| fold | concave_angle_deg, chosen on the others | objects | recall | precision |\n|---|---|---|---|---|\n");
+  double objects = 0, found = 0, detected = 0;
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    double chosen = 0;
+    Point best;
+    for (const double degrees : {10, 15, 20, 25, 30, 35, 40, 50, 60}) {
+      const auto method = ours(optionsWith(options, {"concave_angle_deg=" + std::to_string(degrees)}), "");
+      const Point point = at(curveOf(resultOf(method, clouds, fold, folds, false)), fewest);
+      if (std::make_pair(point.recall, point.precision) <= std::make_pair(best.recall, best.precision)) continue;
+      best = point;
+      chosen = degrees;
+    }
+    const auto method = ours(optionsWith(options, {"concave_angle_deg=" + std::to_string(chosen)}), "");
+    const Result result = resultOf(method, clouds, fold, folds, true);
+    const Point point = at(curveOf(result), fewest);
+    std::printf("| %zu | %.0f | %d | %.3f | %.3f |\n", fold + 1, chosen, result.objects, point.recall, point.precision);
+    objects += result.objects;
+    found += point.recall * result.objects;
+    detected += point.recall * result.objects / point.precision;
+  }
+  std::printf("| all | | %.0f | %.3f | %.3f |\n", objects, found / objects, found / detected);
+}
+
+void printEach(const ObjectPeer& method, const std::vector<LabelledCloud>& clouds, std::size_t fewest) {
+  std::printf("\n| cloud | objects | right | wrong |\n|---|---|---|---|\n");
+  for (const auto& cloud : clouds) {
+    Result result;
+    compare(cloud.points, method.run(cloud), result);
+    int right = 0, wrong = 0;
+    for (const auto& [pixels, is_right] : result.detections) {
+      if (pixels >= fewest) ++(is_right ? right : wrong);
+    }
+    std::printf("| %s | %d | %d | %d |\n", cloud.name.c_str(), result.objects, right, wrong);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -221,14 +196,25 @@ int main(int argc, char** argv) {
                  "largest tilt of tables from the level of the camera [deg], whose pose is not used");
   app.add_option("--fewest", fewest,
                  "least number of points of a cluster that counts in the columns recall and precision");
+  std::vector<std::string> settings;
+  std::size_t folds = 0;
+  bool each = false;
+  app.add_option("--set", settings, "KEY=VALUE of [objects]; each adds a row with this option");
+  app.add_option("--folds", folds, "number of folds of a cross-validation of concave_angle_deg over the clouds");
+  app.add_flag("--each", each, "prints what ours finds in each cloud");
   app.add_option("--rounds", rounds, "number of runs on each cloud");
   CLI11_PARSE(app, argc, argv);
   base::keepFreedMemory();  // as our programs do
   const auto clouds = folder.empty() ? readSimulated(simulated) : readClouds(folder);
 
   using Comparator = perception::ObjectOptions::Comparator;
-  std::vector<ObjectPeer> methods{ours(tilt_deg * M_PI / 180, Comparator::euclidean, "ours, euclidean"),
-                                  ours(tilt_deg * M_PI / 180, Comparator::locally_convex, "ours, locally_convex")};
+  perception::ObjectOptions convex, euclidean;
+  convex.min_points = static_cast<int>(std::min<std::size_t>(fewest, 300));
+  convex.max_tilt = tilt_deg * M_PI / 180;
+  euclidean = convex;
+  euclidean.comparator = Comparator::euclidean;
+  std::vector<ObjectPeer> methods{ours(euclidean, "ours, euclidean"), ours(convex, "ours, locally_convex")};
+  for (const auto& setting : settings) methods.push_back(ours(optionsWith(convex, {setting}), "ours, " + setting));
   for (const auto& peers : {pclObjects(), lccpObjects()}) methods.insert(methods.end(), peers.begin(), peers.end());
   std::vector<Result> results(methods.size());
   for (int round = 0; round < rounds; ++round) {
@@ -254,4 +240,6 @@ int main(int argc, char** argv) {
                 bestAt(curve, 1).recall, results[m].merged, results[m].overlap / results[m].objects,
                 quantile(results[m].milliseconds, 0.5), quantile(results[m].milliseconds, 0.95));
   }
+  if (each) printEach(methods[1], clouds, fewest);
+  if (folds > 0) printFolds(convex, clouds, folds, fewest);
 }

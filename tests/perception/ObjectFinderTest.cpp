@@ -149,6 +149,21 @@ TEST(ObjectFinder, FiltersLeaveOutWhatIsTooSmallTooLargeOrHangs) {
   EXPECT_GE(hanging, 1U);
 }
 
+TEST(ObjectFinder, LegsAndRestsOfWallsAreNoObjects) {
+  TableScene table;
+  table.addBlock({1, -0.3, 0.9}, {0.04, 0.04, 0.4});
+  EXPECT_TRUE(find(table).objects.empty());
+  ObjectOptions options;
+  options.max_elongation = 20;
+  EXPECT_EQ(find(table, options).objects.size(), 1U);
+  TableScene behind;
+  behind.addBlock({1.3, 0.35, 0.95}, {0.02, 0.5, 0.5});  // a large board upright on the table
+  behind.addBlock({1.3, -0.2, 0.85}, {0.02, 0.2, 0.3});  // a small one in the same plane, as the rest of a wall
+  EXPECT_TRUE(find(behind).objects.empty());
+  behind.addBlock({1.1, -0.2, 0.75}, {0.1, 0.1, 0.1});
+  EXPECT_EQ(find(behind).objects.size(), 1U);
+}
+
 TEST(ObjectFinder, WallsAreNoTables) {
   TableScene table = withThreeObjects();
   table.up = -table.up;
@@ -246,6 +261,12 @@ TEST(ObjectFinder, OptionsThatMakeNoSenseAreRefused) {
   options = {};
   options.max_volume = std::nan("");
   refused(options, {}, "max_volume_m3");
+  options = {};
+  options.max_elongation = 0.5;
+  refused(options, {}, "max_elongation");
+  options = {};
+  options.concave_angle = 0;
+  refused(options, {}, "concave_angle_deg");
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // connectComponents() for the comparators of this library, compiled once.
 #include <omnimapper/perception/ClusterComparator.h>
 #include <omnimapper/perception/ColouredPlaneComparator.h>
-#include <omnimapper/perception/ConvexClusterComparator.h>
 #include <omnimapper/perception/RoadComparator.h>
 #include <omnimapper/perception/SmoothComparator.h>
 
@@ -9,7 +8,6 @@ namespace omnimapper::perception {
 
 template Components connectComponents(int, int, const ColouredPlaneComparator&);
 template Components connectComponents(int, int, const ClusterComparator&);
-template Components connectComponents(int, int, const ConvexClusterComparator&);
 template Components connectComponents(int, int, const RoadComparator&);
 template Components connectComponents(int, int, const SmoothComparator&);
 

@@ -1,6 +1,4 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/perception/ConvexClusterComparator.h>
-#include <omnimapper/perception/GrowLabels.h>
 #include <omnimapper/perception/ObjectFinder.h>
 #include <omnimapper/perception/SameLabel.h>
 
@@ -11,6 +9,8 @@
 #include <utility>
 
 #include "DepthSensor.h"
+#include "objects/ConvexParts.h"
+#include "objects/Fragments.h"
 #include "objects/NonPlanarPoints.h"
 #include "objects/OrientedBox.h"
 #include "objects/Surfaces.h"
@@ -26,7 +26,11 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
               "comparator", &Options::comparator,
               {{"euclidean", Options::Comparator::euclidean}, {"locally_convex", Options::Comparator::locally_convex}},
               "Neighbouring surface patches belong to one object if they are near each other. With "
-              "locally_convex, the boundary between them must also not be concave.")
+              "locally_convex, objects also end where their border with what is beside them is concave all in all.")
+          .number(
+              "concave_angle_deg", &Options::concave_angle, {1, 180},
+              "Angle between two faces that meet at a concave edge. With locally_convex, sharper concave edges speak "
+              "for two objects and others for one.")
           .number("min_surface_area_m2", &Options::min_surface_area, Range::positive(),
                   "Planes at least this large belong to the environment, smaller ones to the objects in it.")
           .number("max_tilt_deg", &Options::max_tilt, {0, 180},
@@ -51,6 +55,9 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
                   "Clusters of points are dropped if the longest side of their bounding box is shorter than this.")
           .number("max_volume_m3", &Options::max_volume, Range::positive(),
                   "Clusters of points are dropped if the volume of their bounding box is larger than this.")
+          .number("max_elongation", &Options::max_elongation, {1, std::numeric_limits<double>::infinity()},
+                  "Clusters of points longer than 0.35 m are dropped if their bounding box is more than this times as "
+                  "long as its second longest side, as legs of tables, rails and plinths are.")
           .flag("on_surfaces_only", &Options::on_surfaces_only,
                 "Drops clusters of points that do not stand on a level surface.");
   return table;
@@ -94,9 +101,7 @@ Clusters clustersOf(const camera::DepthImage& image, const ClusterComparator& ne
   if (options.comparator == ObjectOptions::Comparator::euclidean)
     return pixelsOf(connectComponents(width, height, near).labels(options.min_points));
   const NormalImage normals = NormalEstimator(normalsBy(sensor)).estimate(image);
-  auto labels = connectComponents(width, height, ConvexClusterComparator{near, normals}).labels(options.min_points);
-  growLabels(width, height, near, std::numeric_limits<int>::max(), labels);
-  return pixelsOf(labels);
+  return pixelsOf(objects::convexParts(near, normals, options.concave_angle, options.min_points));
 }
 
 // At most kSample points, taken evenly from the pixels.
@@ -215,6 +220,8 @@ ObjectFinder::ObjectFinder(const ObjectOptions& options, const PlaneOptions& sen
   for (const auto& [key, value] : lengths) {
     if (!(value >= 0 && std::isfinite(value))) refuse(key, value, ">= 0");
   }
+  if (!(options.concave_angle > 0)) refuse("concave_angle_deg", options.concave_angle, "> 0");
+  if (!(options.max_elongation >= 1)) refuse("max_elongation", options.max_elongation, ">= 1");
   const std::pair<const char*, double> sizes[] = {{"min_surface_area_m2", options.min_surface_area},
                                                   {"max_volume_m3", options.max_volume}};
   for (const auto& [key, value] : sizes) {
@@ -234,17 +241,21 @@ std::vector<ObjectRegion> ObjectFinder::find(const camera::DepthImage& image, co
     throw base::Error(base::ExitCode::unreadable_input, "objects: the planes are not those of this depth image");
   const OrganizedPoints points = backProject(image, sensor_.min_depth, sensor_.max_depth);
   const auto surfaces = objects::findSurfaces(planes, options_, sensor_.distortion_at_1m, up);
-  const auto of_place = objects::labelsOfThePlace(planes, options_, surfaces);
+  const auto of_place = objects::labelsOfThePlace(planes, options_, sensor_.distortion_at_1m, surfaces);
   const auto noise = static_cast<float>(kNoiseSigmas * sensor_.noise_at_1m);
   const auto labels = objects::assignToSurfaces(planes, points, surfaces, of_place,
                                                 {static_cast<float>(options_.min_height), noise, kHullMargin});
   const ClusterComparator near{points, labels, of_place, static_cast<float>(options_.max_gap), noise};
+  const auto upright = objects::uprightPlanesOfThePlace(planes, of_place, surfaces);
+  const objects::FragmentBounds on_plane{options_.coplanar_distance,
+                                         kNoiseSigmas * sensor_.noise_at_1m + sensor_.distortion_at_1m};
 
   for (auto& pixels : clustersOf(image, near, options_, sensor_)) {
     const auto sample = sampleOf(pixels, points);
     const Eigen::Vector3d middle = meanOf(sample);
     const auto [surface, gap] = surfaceUnder(sample, middle, planes, surfaces, options_.max_standing_gap);
     if (surface == nullptr && options_.on_surfaces_only) continue;
+    if (objects::isRestOfPlane(sample, upright, on_plane)) continue;
     const auto* const under =
         surface == nullptr ? nullptr : &planes.planes[static_cast<std::size_t>(surface->plane)].plane_in_sensor;
     const Eigen::Vector3d axis = under == nullptr ? leastAxisOf(sample, middle) : under->normal;
@@ -264,6 +275,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const camera::DepthImage& image, co
     }
     box = objects::extended(box, cluster);
     if (box.size.maxCoeff() < options_.min_size || box.size.prod() > options_.max_volume) continue;
+    if (objects::isRod(box.size, options_.max_elongation)) continue;
     region.sensor_from_box = box.frame_from_box;
     region.box_size = box.size;
     region.pixels = std::move(pixels);

@@ -60,14 +60,33 @@ std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectO
 }
 
 std::vector<std::uint8_t> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
-                                           const std::vector<Surface>& surfaces) {
+                                           double distortion_at_1m, const std::vector<Surface>& surfaces) {
   std::vector<std::uint8_t> of_place(planes.planes.size() + 1, 0);
-  for (std::size_t i = 0; i < planes.planes.size(); ++i)
-    of_place[i + 1] = areaOf(planes.planes[i]) >= options.min_surface_area ? 1 : 0;
+  for (const PlaneRegion& large : planes.planes) {
+    if (areaOf(large) < options.min_surface_area) continue;
+    for (std::size_t i = 0; i < planes.planes.size(); ++i) {
+      const PlaneRegion& piece = planes.planes[i];
+      if (&piece == &large || areCoplanar(large, piece, options, distortion_at_1m)) of_place[i + 1] = 1;
+    }
+  }
   for (const Surface& surface : surfaces) {
     for (const int piece : surface.pieces) of_place[static_cast<std::size_t>(piece) + 1] = 1;
   }
   return of_place;
+}
+
+std::vector<geometry::Plane3> uprightPlanesOfThePlace(const PlaneSegmentation& planes,
+                                                      const std::vector<std::uint8_t>& of_place,
+                                                      const std::vector<Surface>& surfaces) {
+  std::vector<std::uint8_t> is_upright = of_place;
+  for (const Surface& surface : surfaces) {
+    for (const int piece : surface.pieces) is_upright[static_cast<std::size_t>(piece) + 1] = 0;
+  }
+  std::vector<geometry::Plane3> upright;
+  for (std::size_t i = 0; i < planes.planes.size(); ++i) {
+    if (is_upright[i + 1] != 0) upright.push_back(planes.planes[i].plane_in_sensor);
+  }
+  return upright;
 }
 
 }  // namespace omnimapper::perception::objects

@@ -21,8 +21,14 @@ struct Surface {
 std::vector<Surface> findSurfaces(const PlaneSegmentation& planes, const ObjectOptions& options,
                                   double distortion_at_1m, const Eigen::Vector3d& up);
 
-/// For each label, 0 included: whether its pixels belong to a surface or another large plane, and so to no object.
+/// For each label, 0 included: whether its pixels belong to a surface, another large plane or a piece of one, and so to
+/// no object. A small plane is a piece of a large one if it lies in it, as a wall that is seen between objects does.
 std::vector<std::uint8_t> labelsOfThePlace(const PlaneSegmentation& planes, const ObjectOptions& options,
-                                           const std::vector<Surface>& surfaces);
+                                           double distortion_at_1m, const std::vector<Surface>& surfaces);
+
+/// The planes of the place that are no surfaces: walls, fronts of furniture.
+std::vector<geometry::Plane3> uprightPlanesOfThePlace(const PlaneSegmentation& planes,
+                                                      const std::vector<std::uint8_t>& of_place,
+                                                      const std::vector<Surface>& surfaces);
 
 }  // namespace omnimapper::perception::objects

@@ -12,6 +12,8 @@ namespace omnimapper::perception {
 struct ObjectOptions {
   enum class Comparator { euclidean, locally_convex };
   Comparator comparator = Comparator::locally_convex;  ///< which neighbours belong to one object
+  /// [rad] Concave edges sharper than this speak for two objects.
+  double concave_angle = 30 * base::option_text::kRadiansPerDegree;
   double min_surface_area = 0.1;  ///< [m^2] larger planes belong to the environment, smaller ones to objects
   double max_tilt = 50 * base::option_text::kRadiansPerDegree;  ///< [rad] largest tilt of a supporting surface
   /// [rad] Largest angle between the normals of pieces of one surface.
@@ -23,9 +25,10 @@ struct ObjectOptions {
   /// [m] Largest distance from a surface to the lowest visible point of an object that stands on it. It is not 0
   /// because nearer objects may hide the object's foot.
   double max_standing_gap = 0.3;
-  int min_points = 300;    ///< least number of points of an object
-  double min_size = 0.03;  ///< [m] smallest length of the longest side of an object's box
-  double max_volume = 1;   ///< [m^3] largest volume of an object's box
+  int min_points = 300;       ///< least number of points of an object
+  double min_size = 0.03;     ///< [m] smallest length of the longest side of an object's box
+  double max_volume = 1;      ///< [m^3] largest volume of an object's box
+  double max_elongation = 4;  ///< longest ratio of an object's two longest sides, if it is longer than 0.35 m
   bool on_surfaces_only = true;
 
   static const base::OptionTable<ObjectOptions>& table();
@@ -48,11 +51,11 @@ struct ObjectRegion {
 /// Finds the objects on tables, shelves and floors (thesis 3.4.6 and 3.5.1.2). The points of a depth image that lie on
 /// none of its large planes form clusters. Clusters of the right size that stand on a level surface are objects.
 /// Because a Kinect's systematic distortion breaks a table into several planes, pieces that lie in one plane count as
-/// one surface.
+/// one surface. Clusters that are rests of walls, or long and thin as legs and plinths are, are no objects.
 class ObjectFinder {
  public:
-  /// Throws Error(out_of_range) unless 0 < min_depth < max_depth, and for `min_points` below 1 and areas, volumes or
-  /// lengths that are negative or not finite.
+  /// Throws Error(out_of_range) unless 0 < min_depth < max_depth, for `min_points` or `max_elongation` below 1, and for
+  /// areas, volumes or lengths that are negative or not finite.
   ObjectFinder(const ObjectOptions& options, const PlaneOptions& sensor);
 
   /// Returns the objects, sorted by number of pixels with the largest first; an image without pixels has no objects.
