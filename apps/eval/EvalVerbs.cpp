@@ -27,6 +27,7 @@ int run(const std::string& verb, const Arguments& arguments) {
   if (verb == "map") return judgeMap(arguments);
   if (verb == "views") return judgeByViews(arguments);
   if (verb == "seen") return countSeen(arguments);
+  if (verb == "objects") return judgeObjects(arguments);
   const auto estimate = eval::readTrajectory(arguments.estimate);
   const auto tolerance = base::durationFromSeconds(arguments.tolerance);
   if (verb == "relations") {

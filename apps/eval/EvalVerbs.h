@@ -1,5 +1,7 @@
 #pragma once
 
+#include <omnimapper/eval/ObjectTruth.h>
+
 #include <string>
 #include <vector>
 
@@ -12,14 +14,17 @@ struct Arguments {
   double tolerance = 0.01, interpolate = 0;          // [s]
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
   std::string alignment = "none", unit = "frames";
+  std::string map_alignment = "se3";  // in the verbs "map", "views" and "objects"
   double delta = 1;
   std::string log;                // log that the verb "views" reads
   std::size_t views = 200;        // largest number of depth images that the verb "views" uses
-  int pixels = 300, images = 20;  // of an object, in the verb "seen"
-  double distance = 0;            // of an object, in the verb "seen"; 0: any [m]
+  int pixels = 300, images = 20;  // of an object, in the verbs "seen" and "objects"
+  double distance = 0;            // of an object, in the verbs "seen" and "objects"; 0: any [m]
+  std::string curve_file;         // that the verb "objects" writes
 };
 
-/// Runs the verb (ate, rpe, relations, map, views or seen), prints and writes its result, and returns the exit code.
+/// Runs the verb (ate, rpe, relations, map, views, seen or objects), prints and writes its result, and returns the exit
+/// code.
 int run(const std::string& verb, const Arguments& arguments);
 
 /// The verb map: compares the surfaces of a map with the true ones.
@@ -29,5 +34,11 @@ int judgeByViews(const Arguments& arguments);
 /// The verb seen: counts the images of a simulated log that show each object.
 void addSeen(CLI::App& app, Arguments& arguments);
 int countSeen(const Arguments& arguments);
+/// The verb objects: compares the objects of a map with the true ones.
+void addObjects(CLI::App& app, Arguments& arguments);
+int judgeObjects(const Arguments& arguments);
+/// What an object must show to count as seen: the options, and what they are set to.
+void addSeenLimits(CLI::App* verb, Arguments& arguments);
+eval::SeenLimits seenLimits(const Arguments& arguments);
 
 }  // namespace omnimapper::evaluation

@@ -1,5 +1,4 @@
 #include <omnimapper/base/AtomicFile.h>
-#include <omnimapper/eval/ObjectTruth.h>
 
 #include <iostream>
 
@@ -8,10 +7,7 @@
 
 namespace omnimapper::evaluation {
 
-void addSeen(CLI::App& app, Arguments& arguments) {
-  CLI::App* verb = app.add_subcommand("seen", "count how often the camera images of a simulated log show each object");
-  verb->add_option("world", arguments.reference, "folder of the simulated log")->required();
-  verb->add_option("--json", arguments.json_file, "file for the numbers as JSON");
+void addSeenLimits(CLI::App* verb, Arguments& arguments) {
   verb->add_option("--pixels", arguments.pixels,
                    "smallest number of pixels that show an object in an image that counts")
       ->capture_default_str()
@@ -23,13 +19,25 @@ void addSeen(CLI::App& app, Arguments& arguments) {
       ->check(program::positive());
 }
 
-int countSeen(const Arguments& arguments) {
-  const auto objects = eval::readTrueObjects(arguments.reference);
+eval::SeenLimits seenLimits(const Arguments& arguments) {
   eval::SeenLimits limits;
   limits.pixels = arguments.pixels;
   limits.images = arguments.images;
   if (arguments.distance > 0) limits.distance = arguments.distance;
-  const auto seen = eval::countSightings(objects, eval::readObjectSightings(arguments.reference), limits);
+  return limits;
+}
+
+void addSeen(CLI::App& app, Arguments& arguments) {
+  CLI::App* verb = app.add_subcommand("seen", "count how often the camera images of a simulated log show each object");
+  verb->add_option("world", arguments.reference, "folder of the simulated log")->required();
+  verb->add_option("--json", arguments.json_file, "file for the numbers as JSON");
+  addSeenLimits(verb, arguments);
+}
+
+int countSeen(const Arguments& arguments) {
+  const auto objects = eval::readTrueObjects(arguments.reference);
+  const auto seen =
+      eval::countSightings(objects, eval::readObjectSightings(arguments.reference), seenLimits(arguments));
   std::cout << eval::table(seen, objects);
   if (!arguments.json_file.empty())
     base::writeFile(arguments.json_file, [&](std::ostream& out) { out << eval::json(seen, objects); });

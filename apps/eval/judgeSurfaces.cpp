@@ -1,7 +1,5 @@
 #include <omnimapper/base/AtomicFile.h>
-#include <omnimapper/base/Error.h>
 #include <omnimapper/eval/MapQuality.h>
-#include <omnimapper/eval/Pairing.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/eval/ViewAgreement.h>
 #include <unistd.h>
@@ -11,6 +9,7 @@
 
 #include "EvalVerbs.h"
 #include "program/Program.h"
+#include "trueFromMap.h"
 
 namespace omnimapper::evaluation {
 
@@ -28,23 +27,8 @@ std::string besideSurfaces(const std::string& path, const std::string& name) {
 
 // The surfaces of the map in the true frame, aligned by the trajectory beside them and the true one.
 surfaces::SurfaceSet inTrueFrame(const Arguments& arguments, const std::string& truth) {
-  auto map = surfaces::readSurfaces(surfacesFile(arguments.estimate));
-  const auto alignment = eval::alignmentNamed(arguments.alignment);
-  if (alignment == eval::Alignment::none) return map;
-  if (alignment == eval::Alignment::sim3)
-    throw base::Error(base::ExitCode::command_line, "--align sim3: a map has its scale");
-  const std::string estimate = besideSurfaces(arguments.estimate, "trajectory.tum");
-  for (const auto& file : {estimate, truth}) {
-    if (std::filesystem::exists(file)) continue;
-    throw base::Error(base::ExitCode::unreadable_input,
-                      file +
-                          ": is missing, but the frame of the map can only be aligned to the true one by trajectories; "
-                          "if both frames are the same, use --align none");
-  }
-  const auto paired = eval::pairTrajectories(
-      eval::readTrajectory(estimate), eval::readTrajectory(truth),
-      {base::durationFromSeconds(arguments.tolerance), base::durationFromSeconds(arguments.interpolate), alignment});
-  return surfaces::moved(map, paired.reference_from_estimate.motion);
+  return surfaces::moved(surfaces::readSurfaces(surfacesFile(arguments.estimate)),
+                         trueFromMap(arguments, besideSurfaces(arguments.estimate, "trajectory.tum"), truth));
 }
 
 template <class Result, class... Sets>

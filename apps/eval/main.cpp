@@ -36,7 +36,6 @@ void addPairing(CLI::App* verb, Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  std::string map_alignment = "se3";
   CLI::App app("Measures the errors of a trajectory or a map against the truth.", "omnimapper-eval");
   addPairing(addVerb(app, "ate", "absolute trajectory error", kPoses, arguments), arguments);
   CLI::App* rpe = addVerb(app, "rpe", "relative pose error", kPoses, arguments);
@@ -51,7 +50,7 @@ int main(int argc, char** argv) {
   map->add_option("map", arguments.estimate, "folder of a map, or its surfaces.json")->required();
   map->add_option("world", arguments.reference, "folder of the simulated log, or its surfaces.json")->required();
   addOutputs(map, arguments);
-  map->add_option("--align", map_alignment,
+  map->add_option("--align", arguments.map_alignment,
                   "alignment by trajectory.tum and truth.tum in the folders: none, first, yaw or se3")
       ->capture_default_str();
   CLI::App* views =
@@ -61,7 +60,8 @@ int main(int argc, char** argv) {
   views->add_option("trajectory", arguments.reference, "poses of the base in that log: TUM")->required();
   addOutputs(views, arguments);
   views
-      ->add_option("--align", map_alignment, "alignment by trajectory.tum in the map's folder: none, first, yaw or se3")
+      ->add_option("--align", arguments.map_alignment,
+                   "alignment by trajectory.tum in the map's folder: none, first, yaw or se3")
       ->capture_default_str();
   views
       ->add_option("--tolerance", arguments.tolerance,
@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
       "  omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum -o out/views\n"
       "With the map's own poses: omnimapper-eval views out/map LOG out/map/trajectory.tum");
   evaluation::addSeen(app, arguments);
+  evaluation::addObjects(app, arguments);
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -90,9 +91,8 @@ int main(int argc, char** argv) {
       "  omnimapper-eval map out/map out/home -o out/quality\n"
       "  omnimapper-eval views out/cabinet cabinet.rawlog cabinet.truth.tum -o out/views\n"
       "  omnimapper-eval seen out/home\n"
+      "  omnimapper-eval objects out/map out/home\n"
       "Options of one verb: omnimapper-eval ate --help. Exit codes: doc/exit_codes.md.");
-  return program::run(app, argc, argv, [&] {
-    if (map->parsed() || views->parsed()) arguments.alignment = map_alignment;
-    return evaluation::run(app.get_subcommands().front()->get_name(), arguments);
-  });
+  return program::run(app, argc, argv,
+                      [&] { return evaluation::run(app.get_subcommands().front()->get_name(), arguments); });
 }
