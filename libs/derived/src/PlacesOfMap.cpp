@@ -7,6 +7,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "LabelledPlaces.h"
+
 namespace omnimapper::derived {
 
 namespace {
@@ -151,6 +153,7 @@ map::Places placesOf(const mapper::State& state) {
   for (const auto& shaped : shapesOf(state))
     if (shaped.isSomewhere() && isAligned(shaped.landmark->id.session, state.map))
       places.places.push_back(placeOf(shaped, state, frames));
+  addLabels(state.map, places.places);
   places.last_pose = lastPoseOf(state.map);
   return places;
 }

@@ -1,0 +1,107 @@
+#include "LabelEdits.h"
+
+#include <omnimapper/base/Names.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace omnimapper::plugins {
+
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::string quoted(const std::string& text) {
+  constexpr std::size_t kMost = 200;
+  return "'" + base::printable(text.substr(0, kMost)) + "'";
+}
+
+}  // namespace
+
+std::optional<std::string> whyNoLabel(const std::string& text) {
+  constexpr std::size_t kLongest = 200;
+  if (text.size() > kLongest) return "has " + std::to_string(text.size()) + " bytes; at most 200 are kept";
+  if (trimmed(text).empty()) return "is empty";
+  if (base::printable(text) != text) return "has control characters or is not UTF-8";
+  return std::nullopt;
+}
+
+void LabelEdits::begin(const map::Labels& labels) {
+  labels_ = labels;
+}
+
+void LabelEdits::add(map::Label label) {
+  keep();
+  label.text = trimmed(label.text);
+  labels_.question.reset();
+  labels_.labels.push_back(std::move(label));
+}
+
+void LabelEdits::ask(map::LabelQuestion question) {
+  question.text = trimmed(question.text);
+  labels_.question = std::move(question);
+}
+
+void LabelEdits::forgetQuestion() {
+  labels_.question.reset();
+}
+
+LabelEdits::Outcome LabelEdits::edit(const std::string& command) {
+  const std::string text = trimmed(command);
+  const auto blank = text.find(' ');
+  const std::string verb = text.substr(0, blank), rest = blank == std::string::npos ? "" : trimmed(text.substr(blank));
+  if (verb == "rename") return rename(rest);
+  if (verb == "delete") return remove(rest);
+  if (verb == "choose") return choose(rest);
+  if (verb == "undo" && rest.empty()) return undo();
+  return {false, "no edit of labels: " + quoted(text)};
+}
+
+LabelEdits::Outcome LabelEdits::rename(const std::string& names) {
+  const auto equals = names.find(" = ");
+  if (equals == std::string::npos) return {false, "rename needs OLD = NEW"};
+  const std::string from = trimmed(names.substr(0, equals)), to = trimmed(names.substr(equals + 3));
+  if (const auto why = whyNoLabel(to)) return {false, "the new label " + *why};
+  const auto isIt = [&](const map::Label& label) { return label.text == from; };
+  if (std::none_of(labels_.labels.begin(), labels_.labels.end(), isIt))
+    return {false, "there is no label " + quoted(from)};
+  keep();
+  for (map::Label& label : labels_.labels)
+    if (isIt(label)) label.text = to;
+  return {true, quoted(from) + " is " + quoted(to) + " now"};
+}
+
+LabelEdits::Outcome LabelEdits::remove(const std::string& name) {
+  const auto isIt = [&](const map::Label& label) { return label.text == name; };
+  if (std::none_of(labels_.labels.begin(), labels_.labels.end(), isIt))
+    return {false, "there is no label " + quoted(name)};
+  keep();
+  auto& labels = labels_.labels;
+  labels.erase(std::remove_if(labels.begin(), labels.end(), isIt), labels.end());
+  return {true, quoted(name) + " is deleted"};
+}
+
+LabelEdits::Outcome LabelEdits::choose(const std::string& number) {
+  if (!labels_.question) return {false, "there is no question"};
+  const map::LabelQuestion question = *labels_.question;
+  std::size_t chosen = 0;
+  const auto end = number.data() + number.size();
+  const auto read = std::from_chars(number.data(), end, chosen);
+  if (read.ec != std::errc() || read.ptr != end || chosen < 1 || chosen > question.choices.size())
+    return {false, "choose needs a number from 1 to " + std::to_string(question.choices.size())};
+  const auto& choice = question.choices[chosen - 1];
+  add({question.text, choice.landmark, question.frame, choice.in_frame, question.who, question.when, 1});
+  return {true, quoted(question.text) + " is chosen"};
+}
+
+LabelEdits::Outcome LabelEdits::undo() {
+  if (before_.empty()) return {false, "there is nothing to undo in this run"};
+  labels_ = before_.back();
+  before_.pop_back();
+  return {true, "the last change is undone"};
+}
+
+}  // namespace omnimapper::plugins
