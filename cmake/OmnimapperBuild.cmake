@@ -149,26 +149,28 @@ function(omnimapper_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "${absent}^$" EXCLUDE)
 endfunction()
 
-# omnimapper_feature(NAME [PLUGINS <classes...>] [FORMATS <names...>] [NEEDS <target> <text>] LINKS <targets...>)
+# omnimapper_feature(NAME [PLUGINS <classes...>] [FORMATS <names...>] [FUNCTIONS <names...>] [NEEDS (<target> <text>)...]
+#   LINKS <targets...>)
 # A feature: the shared library omnimapper-NAME from the folder's sources, in the folder omnimapper/ beside the other
-# libraries, where programs find it when they start. PLUGINS are the classes that it registers, as an INI writes them,
-# and FORMATS the formats of logs. If the target that it NEEDS is missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the
-# feature is left out, and whoever names one of its plugins or formats gets an error with the reason.
+# libraries, where programs find it. PLUGINS are the classes that it registers, as an INI writes them, FORMATS the
+# formats of logs, and FUNCTIONS the functions that it exports; a feature of functions alone is loaded when one is
+# called. If a target that it NEEDS is missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the feature is left out, and
+# whoever names something of it gets an error with the reason.
 function(omnimapper_feature name)
-  cmake_parse_arguments(ARG "" "" "PLUGINS;FORMATS;NEEDS;LINKS" ${ARGN})
-  option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}" ON)
+  cmake_parse_arguments(ARG "" "" "PLUGINS;FORMATS;FUNCTIONS;NEEDS;LINKS" ${ARGN})
+  option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}${ARG_FUNCTIONS}" ON)
   set_property(GLOBAL APPEND PROPERTY omnimapper_declared_features ${name})
   set(left_out "")
   if(NOT OMNIMAPPER_FEATURE_${name})
     set(left_out "it was configured with -DOMNIMAPPER_FEATURE_${name}=OFF; configure it with ON")
-  elseif(ARG_NEEDS)
-    list(GET ARG_NEEDS 0 needed)
-    list(GET ARG_NEEDS 1 text)
+  endif()
+  while(ARG_NEEDS AND NOT left_out)
+    list(POP_FRONT ARG_NEEDS needed text)
     if(NOT TARGET ${needed})
       set(left_out "it had no ${text}; install that, and configure and build again")
     endif()
-  endif()
-  foreach(kind PLUGIN FORMAT)
+  endwhile()
+  foreach(kind PLUGIN FORMAT FUNCTION)
     string(TOLOWER ${kind} registered)
     foreach(each ${ARG_${kind}S})
       set_property(GLOBAL APPEND_STRING PROPERTY omnimapper_feature_index

@@ -8,7 +8,7 @@ readonly system_tests=(system system-mapping system-mapping-2 system-input syste
 # sanitizers, and its bundle adjustments would take minutes there. signs_simulated renders pictures.
 readonly trusted_tests=(sim_world sim calibration signs_simulated)
 # The unit tests of all other libraries, under the address and undefined-behaviour sanitizers.
-readonly unit_tests=(drivers live net perception signs tesseract building plugins derived graph plugin mapper mapper-2 source matching geometry base obs interaction map query check eval fuzz)
+readonly unit_tests=(drivers live net perception signs building plugins derived graph plugin mapper mapper-2 source matching geometry base obs interaction map query check eval fuzz)
 # Left out: stock tools, which cannot load a library with a sanitizer; walks over every place (one seed remains), which
 # take minutes; and false closures in Manhattan, which take half a minute (those of Intel and of a simulated town
 # remain), an empty hall that is searched from four sides, and shuffled logs with loop closures (those without remain).

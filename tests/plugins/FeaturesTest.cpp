@@ -1,5 +1,6 @@
 // What the build knows of features and their plugins is what their libraries register.
 #include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/PluginRegistry.h>
@@ -30,6 +31,21 @@ TEST(Features, WhatIsThereRegistersAllThatTheBuildKnowsOfIt) {
   for (const auto& plugin : base::namesOfFeatures(base::Registered::plugin)) {
     EXPECT_TRUE(registered.count(plugin) > 0 || !base::whyUnavailable(plugin).empty()) << plugin;
   }
+}
+
+TEST(Features, AFunctionIsLoadedWhenItIsAskedForOrTheErrorSaysHowToGetIt) {
+  const auto functions = base::namesOfFeatures(base::Registered::function);
+  EXPECT_FALSE(functions.empty());
+  for (const auto& function : functions) {
+    try {
+      EXPECT_NE(base::functionOfFeature(function, "it cannot be called", "leave it out"), nullptr);
+      EXPECT_EQ(base::whyUnavailable(function), "");
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::plugin_library);
+      EXPECT_NE(std::string(error.what()).find("it belongs to the feature"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW(base::functionOfFeature("omnimapperNothing", "it cannot be called", "leave it out"), base::Error);
 }
 
 TEST(Features, OfTheProjectKnowNoOtherClass) {

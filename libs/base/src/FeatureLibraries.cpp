@@ -1,9 +1,11 @@
 #include <dlfcn.h>
+#include <omnimapper/base/Error.h>
 #include <omnimapper/base/FeatureLibraries.h>
 
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -30,6 +32,19 @@ Found& found() {
   return all;
 }
 
+// Loads the library of an entry, unless it is left out or missing or was loaded. Returns its handle, if it is loaded
+// now.
+void* load(const OfFeature& entry) {
+  const std::string library = libraryOf(entry.feature);
+  const fs::path path = fs::path(featureFolder()) / library;
+  std::error_code error;  // a path that cannot be examined counts as missing
+  if (!entry.left_out.empty() || !fs::exists(path, error)) return nullptr;
+  const std::lock_guard lock(found().mutex);
+  void* const handle = ::dlopen(path.c_str(), RTLD_LAZY);  // counts only, if it was loaded before
+  found().problem_of[library] = handle ? "" : ::dlerror();
+  return handle;
+}
+
 }  // namespace
 
 std::string featureFolder() {
@@ -39,16 +54,25 @@ std::string featureFolder() {
 }
 
 void loadFeaturesOf(Registered kind) {
-  const std::lock_guard lock(found().mutex);
-  auto& problem_of = found().problem_of;
+  static std::mutex mutex;
+  static std::set<Registered> loaded;
+  const std::lock_guard lock(mutex);
+  if (!loaded.insert(kind).second) return;
+  std::set<std::string_view> features;
   for (const auto& entry : kFeatureIndex) {
-    const std::string library = libraryOf(entry.feature);
-    const fs::path path = fs::path(featureFolder()) / library;
-    std::error_code error;  // a path that cannot be examined counts as missing
-    if (entry.kind != kind || !entry.left_out.empty() || problem_of.count(library) > 0 || !fs::exists(path, error))
-      continue;
-    problem_of[library] = ::dlopen(path.c_str(), RTLD_LAZY) ? "" : ::dlerror();
+    if (entry.kind == kind && features.insert(entry.feature).second) load(entry);
   }
+}
+
+void* functionOfFeature(const std::string& function, const std::string& what, const std::string& instead) {
+  for (const auto& entry : kFeatureIndex) {
+    if (entry.kind != Registered::function || entry.name != function) continue;
+    void* const handle = load(entry);
+    if (void* const address = handle ? ::dlsym(handle, function.c_str()) : nullptr) return address;
+  }
+  const auto why = whyUnavailable(function);
+  throw Error(ExitCode::plugin_library,
+              what + ": " + (why.empty() ? "no feature exports " + function : why) + "; or " + instead + ".");
 }
 
 std::string_view featureOf(std::string_view name) {

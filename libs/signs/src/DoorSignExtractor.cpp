@@ -1,5 +1,5 @@
 #include <omnimapper/base/Error.h>
-#include <omnimapper/base/LibraryBeside.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/camera/LensModel.h>
 #include <omnimapper/camera/PictureView.h>
@@ -198,9 +198,7 @@ class DoorSignExtractor::Finder {
     // limit when its library is loaded.
     setenv("OMP_THREAD_LIMIT", "1", 0);
     const auto make = reinterpret_cast<TextReader* (*)(const Alphabet&)>(
-        base::functionOfLibrary("libomnimapper-tesseract.so", "omnimapperTesseractReader", "Tesseract cannot read",
-                                "Install libtesseract-dev and tesseract-ocr-eng, and configure and build again, or "
-                                "leave reader = tesseract out."));
+        base::functionOfFeature("omnimapperTesseractReader", "Tesseract cannot read", "leave reader = tesseract out"));
     return std::unique_ptr<const TextReader>(make(alphabet));
   }
 

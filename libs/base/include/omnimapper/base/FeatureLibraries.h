@@ -6,10 +6,11 @@
 
 namespace omnimapper::base {
 
-/// What a feature registers.
+/// What a feature registers, so that its library must be loaded.
 enum class Registered {
-  plugin,  ///< a class that an INI names
-  format,  ///< a format of logs
+  plugin,    ///< a class that an INI names
+  format,    ///< a format of logs
+  function,  ///< nothing: it exports the function
 };
 
 /// The folder of the features' libraries: `omnimapper` beside this library. The path does not depend on the current
@@ -20,6 +21,12 @@ std::string featureFolder();
 /// library registers its classes as it is loaded. A library that cannot be loaded is skipped, and whyUnavailable()
 /// reports it. Further calls do nothing.
 void loadFeaturesOf(Registered kind);
+
+/// Loads the feature that exports a function, and returns the function. This is for features that few runs need,
+/// because loading is slow; a library that was loaded is never unloaded. Throws Error(plugin_library) if the feature is
+/// not available. For the message, `what` says what is not possible then ("Tesseract cannot read"), and `instead` what
+/// can be done without it ("leave reader = tesseract out").
+void* functionOfFeature(const std::string& function, const std::string& what, const std::string& instead);
 
 /// The feature of the project that a plugin class or a format belongs to, whether it is available or not; empty if it
 /// belongs to none.

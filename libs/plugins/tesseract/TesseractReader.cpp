@@ -1,5 +1,6 @@
+#include "TesseractReader.h"
+
 #include <omnimapper/base/Error.h>
-#include <omnimapper/tesseract/TesseractReader.h>
 #include <tesseract/baseapi.h>
 #include <tesseract/resultiterator.h>
 

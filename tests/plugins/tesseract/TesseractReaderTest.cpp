@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
-#include <omnimapper/tesseract/TesseractReader.h>
 #include <tesseract/baseapi.h>
 
 #include <opencv2/imgproc.hpp>
 #include <thread>
+
+#include "tesseract/TesseractReader.h"
 
 namespace omnimapper::tesseract_reader {
 namespace {
