@@ -111,8 +111,10 @@ std::shared_ptr<const map::LandmarkPayload> ObjectAssociator::learned(const Obje
   auto payload = before.with(*firstPayload(measurement), view().map.key_frames, options_.limits());
   const auto& there = known_.at(known.landmark).geometry(view().map.key_frames);
   const ObjectPoints points = inMap(measurement);
-  if (shareNear(there.grid, points) < options_.min_overlap || isBlob(points, known.landmark))
+  if (shareNear(there.grid, points) < options_.min_overlap || isBlob(points, known.landmark)) {
     payload->model = before.model;  // only the evidence is taken
+    payload->picture = before.picture;
+  }
   for (const auto& [sight, stamp] : known_.at(known.landmark).looks) payload->evidence.add(sight, stamp);
   payload->is_confirmed =
       payload->is_confirmed || payload->measured_in >= static_cast<std::uint32_t>(options_.confirm_after);

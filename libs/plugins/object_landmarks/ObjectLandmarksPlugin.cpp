@@ -145,12 +145,12 @@ Sight ObjectLandmarksPlugin::lookAt(const KnownObject& object, const LookingCame
   if (middle.z() < 0 || middle.norm() > 2 * camera.max_depth + kLargest) return Sight::unknown;
   const auto& geometry = object.geometry(view.map.key_frames);
   if (!isInView(geometry, camera)) return Sight::unknown;
-  const Sight sight = lookFor(geometry, camera, 0).sight();
+  const Sight sight = lookFor(geometry, camera).sight();
   if (sight != Sight::absent) return sight;
+  constexpr double kSigmas = 3, kMostReach = 0.4;  // [-], [m] a pose that is less certain says nothing
   const auto sigma = sigmaOfPlace(geometry, pose, view);
-  if (!sigma) return Sight::unknown;
-  return lookFor(geometry, camera, options_.look_inflation * *sigma).sight() == Sight::absent ? Sight::absent
-                                                                                              : Sight::unknown;
+  const double reach = sigma ? kSigmas * options_.look_inflation * *sigma : 2 * kMostReach;
+  return reach > kMostReach || mayBeBeside(geometry, camera, reach) ? Sight::unknown : Sight::absent;
 }
 
 void ObjectLandmarksPlugin::retireIfGone(KnownObject& object, base::Stamp stamp, const mapper::WatchedPose& pose,

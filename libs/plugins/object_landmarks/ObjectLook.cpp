@@ -11,16 +11,14 @@ namespace omnimapper::plugins {
 
 namespace {
 
-constexpr double kSigmas = 3;
-constexpr double kSlack = 0.01;  // [m] of the model itself
-constexpr int kLeastReach = 2;   // [px]
-constexpr int kMostReach = 20;   // [px] beyond it a pose is too uncertain to look for anything
+constexpr int kReach = 2;  // [px]
 constexpr std::size_t kTried = 300;
 
 // [m] Largest difference between a depth and that of a point of the model that errors explain.
-double toleranceAt(double depth, double sigma) {
+double toleranceAt(double depth) {
+  constexpr double kSigmas = 3, kSlack = 0.01;  // [-], [m] of the model itself
   const camera::DepthNoise noise;
-  return kSigmas * (depth * depth * std::sqrt(noise.pixelVariance() + noise.distortionVariance()) + sigma) + kSlack;
+  return kSigmas * depth * depth * std::sqrt(noise.pixelVariance() + noise.distortionVariance()) + kSlack;
 }
 
 struct Projected {
@@ -128,7 +126,7 @@ bool isInView(const ObjectGeometry& object, const LookingCamera& camera) {
   return x >= 0 && x < camera.image.width() && y >= 0 && y < camera.image.height();
 }
 
-LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera, double sigma) {
+LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera) {
   const FrontOfObject front(object, camera);
   const auto points = front.points();
   const Eigen::Vector3d camera_in_map = geometry::inverse(camera.optical_from_map).translation;
@@ -138,21 +136,15 @@ LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera, do
   const std::size_t tried = std::min(points.size(), kTried);
   for (std::size_t i = 0; i < tried; ++i) {
     const Projected& point = points[i * points.size() / tried];
-    const double depth = point.in_optical.z(), tolerance = toleranceAt(depth, sigma);
-    const int reach =
-        std::max(kLeastReach, static_cast<int>(std::ceil(std::min(1e4, kSigmas * sigma * image.camera().fx / depth))));
-    const bool is_inside = point.x >= kLeastReach && point.x < image.width() - kLeastReach && point.y >= kLeastReach &&
-                           point.y < image.height() - kLeastReach;
+    const double depth = point.in_optical.z(), tolerance = toleranceAt(depth);
+    const bool is_inside =
+        point.x >= kReach && point.x < image.width() - kReach && point.y >= kReach && point.y < image.height() - kReach;
     if (!is_inside || depth < camera.min_depth || depth > camera.max_depth) {
       ++counts.outside;
       continue;
     }
-    if (reach > kMostReach) {
-      ++counts.undecided;
-      continue;
-    }
     const DepthsAround around(image, static_cast<int>(std::lround(point.x)), static_cast<int>(std::lround(point.y)),
-                              reach, depth, tolerance);
+                              kReach, depth, tolerance);
     const bool shows_absence = depthBehind(point, object, camera_in_map) > 2 * tolerance;
     if (2 * around.measured < around.all) {
       ++counts.unmeasured;
@@ -165,6 +157,40 @@ LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera, do
     }
   }
   return counts;
+}
+
+bool mayBeBeside(const ObjectGeometry& object, const LookingCamera& camera, double reach) {
+  constexpr double kFinest = 0.02;  // [m]
+  constexpr int kMostSteps = 6;     // to each side
+  constexpr std::size_t kCompared = 100;
+  const double step = std::max(kFinest, reach / kMostSteps);
+  const int steps = static_cast<int>(std::ceil(reach / step));
+  const auto front = FrontOfObject(object, camera).points();
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < std::min(front.size(), kCompared); ++i)
+    points.push_back(front[i * front.size() / std::min(front.size(), kCompared)].in_optical);
+  const camera::DepthImage& image = camera.image;
+  const camera::Pinhole& pinhole = image.camera();
+  const auto agrees = [&](const Eigen::Vector3d& point) {
+    if (!(point.z() > camera.min_depth)) return false;
+    const double x = pinhole.fx * point.x() / point.z() + pinhole.cx;
+    const double y = pinhole.fy * point.y() / point.z() + pinhole.cy;
+    if (!(x >= 0 && x < image.width() - 1 && y >= 0 && y < image.height() - 1)) return false;
+    const double there = image.at(static_cast<std::size_t>(std::lround(y)) * image.width() + std::lround(x));
+    return there > 0 && std::abs(there - point.z()) <= toleranceAt(point.z()) + 0.5 * step;
+  };
+  for (int x = -steps; x <= steps; ++x) {
+    for (int y = -steps; y <= steps; ++y) {
+      for (int z = -steps; z <= steps; ++z) {
+        const Eigen::Vector3d shift = step * Eigen::Vector3d(x, y, z);
+        if (shift.norm() > reach + step) continue;
+        const auto agreeing =
+            std::count_if(points.begin(), points.end(), [&](const auto& point) { return agrees(point + shift); });
+        if (2 * static_cast<std::size_t>(agreeing) >= points.size()) return true;
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace omnimapper::plugins

@@ -31,10 +31,14 @@ struct LookCounts {
 /// Whether the middle of the object's box is in the view and the range of the camera.
 bool isInView(const ObjectGeometry& object, const LookingCamera& camera);
 
-/// Looks for an object in a depth image. `sigma` [m]: standard deviation of the object's place relative to the camera.
-/// A point counts as seen through only if all depths within three sigma of it, and within two pixels, are greater than
-/// its own by more than three standard deviations of the depth (camera::DepthNoise) and of the place. The surface on
-/// which the object stands tells what depth the image would have without the object.
-LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera, double sigma);
+/// Looks for an object in a depth image. A point counts as seen through only if all depths within two pixels of it are
+/// greater than its own by more than three standard deviations of the depth (camera::DepthNoise) and a centimetre. The
+/// surface on which the object stands tells what depth the image would have without the object.
+LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera);
+
+/// Whether an object that seems to be absent may be in the image after all, because its place relative to the camera is
+/// not known well: moved by at most `reach` [m] in some direction, at least half of its points that face the camera
+/// agree with the depths.
+bool mayBeBeside(const ObjectGeometry& object, const LookingCamera& camera, double reach);
 
 }  // namespace omnimapper::plugins

@@ -30,8 +30,8 @@ class ObjectLook : public ::testing::Test {
     object_ = std::make_unique<ObjectGeometry>(ObjectModel({view}), run_.map.key_frames);
   }
   // What an image of a world shows of the box, from a base that is at `map_from_base` and believed to be at `believed`.
-  LookCounts counts(const std::vector<Thing>& things, const mrpt::poses::CPose3D& map_from_base = {}, double sigma = 0,
-                    const std::optional<mrpt::poses::CPose3D>& believed = {}) const {
+  LookCounts counts(const std::vector<Thing>& things, const mrpt::poses::CPose3D& map_from_base = {},
+                    const std::optional<mrpt::poses::CPose3D>& believed = {}, double reach = 0) const {
     TableWorld world;
     world.things = things;
     const auto scan = world.seen(map_from_base, 0).first;
@@ -39,7 +39,8 @@ class ObjectLook : public ::testing::Test {
     const auto map_from_optical = geometry::fromMrpt(believed.value_or(map_from_base)) *
                                   geometry::fromMrpt(world.base_from_camera) * geometry::sensorFromOptical();
     const LookingCamera camera{depth.image(), geometry::inverse(map_from_optical)};
-    return isInView(*object_, camera) ? lookFor(*object_, camera, sigma) : LookCounts();
+    may_be_beside_ = reach > 0 && mayBeBeside(*object_, camera, reach);
+    return isInView(*object_, camera) ? lookFor(*object_, camera) : LookCounts();
   }
   Sight sight(const std::vector<Thing>& things, const mrpt::poses::CPose3D& map_from_base = {}) const {
     return counts(things, map_from_base).sight();
@@ -47,6 +48,7 @@ class ObjectLook : public ::testing::Test {
 
   testing::HandMadeRun run_;
   std::unique_ptr<ObjectGeometry> object_;
+  mutable bool may_be_beside_ = false;  // by the last counts()
 };
 
 TEST_F(ObjectLook, WhatStandsThereIsSeen) {
@@ -83,7 +85,7 @@ TEST_F(ObjectLook, WithoutDepthsNothingIsKnown) {
   const std::vector<float> none(160 * 120, 0);
   const camera::DepthImage image(none.data(), 160, 120, TableWorld().pinhole);
   const auto map_from_optical = geometry::fromMrpt(TableWorld().base_from_camera) * geometry::sensorFromOptical();
-  const auto all = lookFor(*object_, {image, geometry::inverse(map_from_optical)}, 0);
+  const auto all = lookFor(*object_, {image, geometry::inverse(map_from_optical)});
   EXPECT_EQ(all.sight(), Sight::unknown);
   EXPECT_GT(all.unmeasured, 0);
 }
@@ -91,9 +93,12 @@ TEST_F(ObjectLook, WithoutDepthsNothingIsKnown) {
 TEST_F(ObjectLook, WhatThePoseExplainsIsNotAbsent) {
   // The robot believes that it is 30 cm beside its place, so that the box seems to be elsewhere.
   const mrpt::poses::CPose3D truth, believed(0.3, 0, 0, 0, 0, 0);
-  EXPECT_EQ(counts({kBox}, truth, 0, believed).sight(), Sight::absent);
-  EXPECT_NE(counts({kBox}, truth, 0.15, believed).sight(), Sight::absent);
-  EXPECT_EQ(counts({}, truth, 0.005, truth).sight(), Sight::absent) << "a pose that is known well explains nothing";
+  EXPECT_EQ(counts({kBox}, truth, believed, 0.35).sight(), Sight::absent);
+  EXPECT_TRUE(may_be_beside_);
+  EXPECT_EQ(counts({kBox}, truth, believed, 0.15).sight(), Sight::absent);
+  EXPECT_FALSE(may_be_beside_) << "it is farther away than the pose is uncertain";
+  EXPECT_EQ(counts({}, truth, truth, 0.35).sight(), Sight::absent);
+  EXPECT_FALSE(may_be_beside_) << "nothing in the image has its shape";
 }
 
 TEST_F(ObjectLook, WhatIsFlatOnItsSurfaceCannotBeMissed) {
