@@ -15,8 +15,8 @@ struct ObjectLandmarksOptions : mapper::AssociationOptions {
   int max_candidates = 300;            ///< objects that are not confirmed
   double look_every = 0.2;             ///< [s] between two images in which the objects of the map are looked for
   double look_range = 3.5;             ///< [m] beyond which an object is not looked for
-  double look_inflation = 2;           ///< [-] of the pose's standard deviations before an object is called absent
-  int gone_after = 5;                  ///< images from which an object is absent before it is gone
+  double look_inflation = 1;           ///< [-] of the pose's standard deviations before an object is called absent
+  int gone_after = 3;                  ///< images from which an object is absent before it is gone
   double gone_after_time = 1;          ///< [s] that these images span at least
   double voxel = ModelLimits().voxel;  ///< [m] ModelLimits::voxel
   int max_points = ModelLimits().max_points;  ///< ModelLimits::max_points
