@@ -5,8 +5,8 @@
 #include <set>
 
 #include "TableScene.h"
+#include "objects/ClusterPatches.h"
 #include "objects/ConvexParts.h"
-#include "objects/Patches.h"
 #include "objects/SignedContraction.h"
 
 namespace omnimapper::perception::objects {
@@ -100,11 +100,11 @@ TEST(ConvexParts, PartsThatAreTooSmallFallToTheirNeighbours) {
   EXPECT_EQ(partsOf(above, 1000000), 0U);
 }
 
-TEST(Patches, CoverTheClustersAndLinkNeighbours) {
+TEST(ClusterPatches, CoverTheClustersAndLinkNeighbours) {
   rooms::TableScene table;
   table.addBlock({1, 0, 0.75}, {0.2, 0.2, 0.1});
   const Above above(table);
-  const Patches cut = cutToPatches(above.near, above.normals, 300);
+  const ClusterPatches cut = cutToPatches(above.near, above.normals, 300);
   std::vector<int> pixels(cut.patches.size(), 0);
   for (std::size_t i = 0; i < cut.labels.size(); ++i) {
     ASSERT_EQ(cut.labels[i] != 0, above.labels[i] != 0) << i;

@@ -154,7 +154,7 @@ TEST(ObjectFinder, LegsAndRestsOfWallsAreNoObjects) {
   table.addBlock({1, -0.3, 0.9}, {0.04, 0.04, 0.4});
   EXPECT_TRUE(find(table).objects.empty());
   ObjectOptions options;
-  options.max_elongation = 20;
+  options.max_aspect_ratio = 20;
   EXPECT_EQ(find(table, options).objects.size(), 1U);
   TableScene behind;
   behind.addBlock({1.3, 0.35, 0.95}, {0.02, 0.5, 0.5});  // a large board upright on the table
@@ -262,8 +262,8 @@ TEST(ObjectFinder, OptionsThatMakeNoSenseAreRefused) {
   options.max_volume = std::nan("");
   refused(options, {}, "max_volume_m3");
   options = {};
-  options.max_elongation = 0.5;
-  refused(options, {}, "max_elongation");
+  options.max_aspect_ratio = 0.5;
+  refused(options, {}, "max_aspect_ratio");
   options = {};
   options.concave_angle = 0;
   refused(options, {}, "concave_angle_deg");

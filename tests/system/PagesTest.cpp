@@ -132,11 +132,12 @@ TEST(Names, noTwoFilesOfTheLibrariesHaveOneName) {
 TEST(Names, numbersEndInTheirUnit) {
   const std::regex unit(R"((_m|_m2|_m3|_deg|_s|_hz|_px|_px2|_mb|_rad|_pixels)$|_per_)");
   const std::regex dimensionless(
-      R"((confidence|inflation|ratio|share|factor|scale|score|overlap|sigmas|tolerance|growth|weight|likelihood|hdop)|^relative_|^alike$|_[kp]\d$)");
-  const std::set<std::string> others{"origin_latitude",   "origin_longitude",  // degrees, as every GPS gives them
-                                     "correlated_points",                      // a number of points
-                                     "brightness_noise",  "least_change",     "max_colour_distance",
-                                     "rgb_high",          "rgb_low"};  // levels of grey
+      R"((confidence|probability|inflation|ratio|share|factor|scale|score|overlap|sigmas|tolerance|growth|weight|likelihood|hdop)|^relative_|^alike$|_[kp]\d$)");
+  const std::set<std::string> others{"origin_latitude",    "origin_longitude",  // degrees, as every GPS gives them
+                                     "degrees_of_freedom",                      // of a distribution
+                                     "correlated_points",                       // a number of points
+                                     "brightness_noise",   "least_change",     "max_colour_distance",
+                                     "rgb_high",           "rgb_low"};  // levels of grey
   const std::regex row(R"(^\| `(\w+)` \| number \|)");
   std::size_t checked = 0;
   for (const auto& line : lines(read(omnimapper::testing::sourceFile("ini/README.md")))) {

@@ -31,7 +31,7 @@ TrackedBody bodyOf(const CObservationSkeleton& s, const SkeletonFormat& format) 
   const bool has_confidence = std::any_of(joints.begin(), joints.end(), [](const auto* j) { return j->conf > 0; });
   const auto read = [&](const TrackedJoint& joint) -> std::optional<BodyJoint> {
     if (!isKnown(joint, has_confidence)) return std::nullopt;
-    return BodyJoint{{joint.x, joint.y, joint.z}, has_confidence && joint.conf < format.guessed_below};
+    return BodyJoint{{joint.x, joint.y, joint.z}, has_confidence && joint.conf < format.guessed_confidence};
   };
   TrackedBody body;
   body.head = read(s.head);
@@ -118,7 +118,7 @@ const base::OptionTable<SkeletonFormat>& SkeletonFormat::table() {
                   "forward_y_up and forward_optical: x right, z ahead and y upwards or downwards, where the sensor "
                   "pose has x ahead and z upwards.")
           .flag("mirrored", &F::is_mirrored, "The tracker calls the right side of a person left.")
-          .number("guessed_below", &F::guessed_below, {0, 1},
+          .number("guessed_confidence", &F::guessed_confidence, {0, 1},
                   "Confidence below which a joint counts as guessed; one with confidence 0 is unknown.");
   return table;
 }

@@ -55,7 +55,7 @@ const base::OptionTable<ObjectOptions>& ObjectOptions::table() {
                   "Clusters of points are dropped if the longest side of their bounding box is shorter than this.")
           .number("max_volume_m3", &Options::max_volume, Range::positive(),
                   "Clusters of points are dropped if the volume of their bounding box is larger than this.")
-          .number("max_elongation", &Options::max_elongation, {1, std::numeric_limits<double>::infinity()},
+          .number("max_aspect_ratio", &Options::max_aspect_ratio, {1, std::numeric_limits<double>::infinity()},
                   "Clusters of points longer than 0.35 m are dropped if their bounding box is more than this times as "
                   "long as its second longest side, as legs of tables, rails and plinths are.")
           .flag("on_surfaces_only", &Options::on_surfaces_only,
@@ -221,7 +221,7 @@ ObjectFinder::ObjectFinder(const ObjectOptions& options, const PlaneOptions& sen
     if (!(value >= 0 && std::isfinite(value))) refuse(key, value, ">= 0");
   }
   if (!(options.concave_angle > 0)) refuse("concave_angle_deg", options.concave_angle, "> 0");
-  if (!(options.max_elongation >= 1)) refuse("max_elongation", options.max_elongation, ">= 1");
+  if (!(options.max_aspect_ratio >= 1)) refuse("max_aspect_ratio", options.max_aspect_ratio, ">= 1");
   const std::pair<const char*, double> sizes[] = {{"min_surface_area_m2", options.min_surface_area},
                                                   {"max_volume_m3", options.max_volume}};
   for (const auto& [key, value] : sizes) {
@@ -275,7 +275,7 @@ std::vector<ObjectRegion> ObjectFinder::find(const camera::DepthImage& image, co
     }
     box = objects::extended(box, cluster);
     if (box.size.maxCoeff() < options_.min_size || box.size.prod() > options_.max_volume) continue;
-    if (objects::isRod(box.size, options_.max_elongation)) continue;
+    if (objects::isRod(box.size, options_.max_aspect_ratio)) continue;
     region.sensor_from_box = box.frame_from_box;
     region.box_size = box.size;
     region.pixels = std::move(pixels);

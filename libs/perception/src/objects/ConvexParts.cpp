@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "Patches.h"
+#include "ClusterPatches.h"
 #include "SignedContraction.h"
 
 namespace omnimapper::perception::objects {
@@ -45,7 +45,7 @@ float evidence(const Patch& a, const Patch& b, float concave_angle) {
 
 std::vector<std::int32_t> convexParts(const ClusterComparator& near, const NormalImage& normals, double concave_angle,
                                       int fewest) {
-  Patches cut = cutToPatches(near, normals, fewest);
+  ClusterPatches cut = cutToPatches(near, normals, fewest);
   std::vector<SignedLink> links;
   links.reserve(cut.contacts.size());
   for (const auto& [a, b, pixels] : cut.contacts) {

@@ -18,10 +18,10 @@ bool isRestOfPlane(const std::vector<Eigen::Vector3d>& cluster, const std::vecto
   });
 }
 
-bool isRod(const Eigen::Vector3d& size, double max_elongation) {
+bool isRod(const Eigen::Vector3d& size, double max_aspect_ratio) {
   Eigen::Vector3d sides = size;
   std::sort(sides.data(), sides.data() + 3);
-  return sides[2] > kLongRod && sides[2] > max_elongation * sides[1];
+  return sides[2] > kLongRod && sides[2] > max_aspect_ratio * sides[1];
 }
 
 }  // namespace omnimapper::perception::objects

@@ -18,9 +18,9 @@ struct FragmentBounds {
 bool isRestOfPlane(const std::vector<Eigen::Vector3d>& cluster, const std::vector<geometry::Plane3>& planes,
                    const FragmentBounds& bounds);
 
-/// Whether a box of these sides [m] is long and thin: longer than kLongRod and more than `max_elongation` times as long
-/// as its second longest side. So are the legs of tables and chairs, rails, plinths and the edges of boards.
-bool isRod(const Eigen::Vector3d& size, double max_elongation);
+/// Whether a box of these sides [m] is long and thin: longer than kLongRod and more than `max_aspect_ratio` times as
+/// long as its second longest side. So are the legs of tables and chairs, rails, plinths and the edges of boards.
+bool isRod(const Eigen::Vector3d& size, double max_aspect_ratio);
 
 /// [m] Shorter things are no rods, however thin: pens, knives, bottles, which lie or stand on tables.
 constexpr double kLongRod = 0.35;

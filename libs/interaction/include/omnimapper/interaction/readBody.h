@@ -26,7 +26,7 @@ struct SkeletonFormat {
   SkeletonAxes axes = SkeletonAxes::recognised;
   bool is_mirrored = false;  ///< whether the tracker calls the person's right its left
   /// [0, 1] below which a joint counts as guessed. A joint with confidence 0 is absent, unless all have 0.
-  double guessed_below = 0.75;
+  double guessed_confidence = 0.75;
 
   static const base::OptionTable<SkeletonFormat>& table();
 };

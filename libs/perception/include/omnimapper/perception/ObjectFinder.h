@@ -25,10 +25,10 @@ struct ObjectOptions {
   /// [m] Largest distance from a surface to the lowest visible point of an object that stands on it. It is not 0
   /// because nearer objects may hide the object's foot.
   double max_standing_gap = 0.3;
-  int min_points = 300;       ///< least number of points of an object
-  double min_size = 0.03;     ///< [m] smallest length of the longest side of an object's box
-  double max_volume = 1;      ///< [m^3] largest volume of an object's box
-  double max_elongation = 4;  ///< longest ratio of an object's two longest sides, if it is longer than 0.35 m
+  int min_points = 300;         ///< least number of points of an object
+  double min_size = 0.03;       ///< [m] smallest length of the longest side of an object's box
+  double max_volume = 1;        ///< [m^3] largest volume of an object's box
+  double max_aspect_ratio = 4;  ///< largest ratio of an object's two longest sides, if it is longer than 0.35 m
   bool on_surfaces_only = true;
 
   static const base::OptionTable<ObjectOptions>& table();
@@ -54,8 +54,8 @@ struct ObjectRegion {
 /// one surface. Clusters that are rests of walls, or long and thin as legs and plinths are, are no objects.
 class ObjectFinder {
  public:
-  /// Throws Error(out_of_range) unless 0 < min_depth < max_depth, for `min_points` or `max_elongation` below 1, and for
-  /// areas, volumes or lengths that are negative or not finite.
+  /// Throws Error(out_of_range) unless 0 < min_depth < max_depth, for `min_points` or `max_aspect_ratio` below 1, and
+  /// for areas, volumes or lengths that are negative or not finite.
   ObjectFinder(const ObjectOptions& options, const PlaneOptions& sensor);
 
   /// Returns the objects, sorted by number of pixels with the largest first; an image without pixels has no objects.

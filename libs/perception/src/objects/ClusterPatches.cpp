@@ -1,4 +1,4 @@
-#include "Patches.h"
+#include "ClusterPatches.h"
 
 #include <omnimapper/perception/ConnectedComponents.h>
 
@@ -20,7 +20,7 @@ class Cutter {
     result_.labels.resize(near.points.z.size(), 0);
   }
 
-  Patches cut(int fewest) {
+  ClusterPatches cut(int fewest) {
     collectPixels(fewest);
     joinWithinPatches();
     numberPatches();
@@ -179,12 +179,12 @@ class Cutter {
   int width_;
   std::vector<Pixel> pixels_;  // row by row
   detail::UnionFind sets_;
-  Patches result_;
+  ClusterPatches result_;
 };
 
 }  // namespace
 
-Patches cutToPatches(const ClusterComparator& near, const NormalImage& normals, int fewest) {
+ClusterPatches cutToPatches(const ClusterComparator& near, const NormalImage& normals, int fewest) {
   return Cutter(near, normals).cut(fewest);
 }
 

@@ -24,7 +24,7 @@ struct PatchContact {
   int pixels = 0;  ///< number of pairs of neighbouring pixels that are near each other
 };
 
-struct Patches {
+struct ClusterPatches {
   std::vector<std::int32_t> labels;  ///< for each pixel, row by row: i + 1 if it is of patches[i], 0 if of none
   std::vector<Patch> patches;
   std::vector<PatchContact> contacts;  ///< by ascending a, then b
@@ -34,6 +34,6 @@ struct Patches {
 /// holds only neighbours whose normals differ by at most 30 deg. Pixels without a normal, and those so near an edge
 /// that their normal is of both of its sides, belong to the patch of a neighbour; those without such a neighbour belong
 /// to none.
-Patches cutToPatches(const ClusterComparator& near, const NormalImage& normals, int fewest);
+ClusterPatches cutToPatches(const ClusterComparator& near, const NormalImage& normals, int fewest);
 
 }  // namespace omnimapper::perception::objects
