@@ -32,9 +32,27 @@ class RoomsFile : public ::testing::Test {
 
 TEST_F(RoomsFile, whatWasWrittenIsReadBack) {
   Building building{{segmentRooms(corridorWithRooms(0.05, 0.3).grid()).storey}};
-  building.storeys[0].rooms[1].split_from = 1;
+  auto& room = building.storeys[0].rooms[1];
+  room.split_from = 1;
+  room.name = "Café \"Nord\"";
+  room.name_confidence = 0.9;
+  room.kind = "kitchen";
+  room.kind_confidence = 0.75;
+  room.why = {{NameEvidence::Source::sign, "sign \"213\"", 0.9}, {NameEvidence::Source::contents, "stove", 0.75}};
+  room.anchor = Anchor{{2, 17}, {1.5, -2.25, 0.125}};
+  UnseenRoom unseen;
+  unseen.name = "118";
+  unseen.door = {3, 4};
+  unseen.seen_from = 1;
+  building.storeys[0].unseen = {unseen};
   const std::string text = encodeRooms(building, {7, 9});
   EXPECT_EQ(encodeRooms(readRooms(put(text)), {7, 9}), text);
+  const auto document = decodeRooms(text, "test");
+  EXPECT_EQ(document.gone, std::vector<int>({7, 9}));
+  const Room& read = document.building.storeys[0].rooms[1];
+  EXPECT_EQ(read.name, room.name);
+  EXPECT_EQ(read.anchor->frame, (base::KeyFrameId{2, 17}));
+  EXPECT_EQ(read.anchor->map_from_frame.yaw, 0.125);
 }
 
 TEST_F(RoomsFile, documentHasTheSchemaItsVersionAndPositionsOfDoors) {
@@ -60,6 +78,11 @@ TEST_F(RoomsFile, eachDefectIsNamed) {
   EXPECT_NE(refusal(changed("\"outline\"", "\"inline\"")).find("is damaged"), std::string::npos);
   EXPECT_NE(refusal(changed("\"next_room\": 3", "\"next_room\": 1")).find("impossible"), std::string::npos);
   EXPECT_NE(refusal(changed("\"next_room\": 3", "\"next_room\": 2000000000")).find("impossible"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"evidence\": []", "\"evidence\": [{\"source\": \"oracle\"}]")).find("unknown source"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("\"centre\"", "\"anchor\": {\"key_frame\": \"7\", \"pose\": [0, 0, 0]}, \"centre\""))
+                .find("'7' is no key frame"),
+            std::string::npos);
   EXPECT_NE(refusal(good.substr(0, good.size() / 2)).find("rooms.json"), std::string::npos);
 }
 

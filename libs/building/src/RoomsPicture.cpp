@@ -1,3 +1,4 @@
+#include <omnimapper/base/Names.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/building/RoomsPicture.h>
 #include <omnimapper/draw/Drawing.h>
@@ -71,7 +72,7 @@ void paintCells(const grid::GridMap& grid, const Segmentation& rooms, const View
 void labelRooms(const grid::GridMap& grid, const Segmentation& rooms, const View& view, draw::Image& picture) {
   constexpr int kLetterWidth = 6, kLetterHeight = 13;  // [px]
   for (const Room& room : rooms.storey.rooms) {
-    const std::string text = std::to_string(room.id) + ": " + base::fixed(room.area, 1) + " m2";
+    const std::string text = base::printable(labelOf(room)) + ": " + base::fixed(room.area, 1) + " m2";
     const auto at = view.pixel(grid, room.centre);
     drawLabel(picture, static_cast<int>(at.x) - kLetterWidth * static_cast<int>(text.size()) / 2,
               static_cast<int>(at.y) - kLetterHeight / 2, text);

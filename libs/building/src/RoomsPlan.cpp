@@ -63,7 +63,7 @@ std::string encodePlan(const Storey& storey) {
     }
     for (const Room& room : storey.rooms) {
       const Eigen::Vector2d at = sheet.at(room.centre), line(0, 16);
-      svg.text(at, std::to_string(room.id), draw::Svg::Anchor::middle, 16);
+      svg.text(at, labelOf(room), draw::Svg::Anchor::middle, 16);
       svg.text(at + line, base::fixed(room.area, 1) + " m2" + (room.isOpen() ? ", open" : ""),
                draw::Svg::Anchor::middle);
     }

@@ -1,8 +1,8 @@
 #include <omnimapper/building/Continuation.h>
+#include <omnimapper/building/RoomsOfCells.h>
 
 #include <algorithm>
 #include <map>
-#include <opencv2/imgproc.hpp>
 #include <set>
 #include <tuple>
 
@@ -15,32 +15,11 @@ struct Overlap {
   int cells = 0, earlier = 0, now = 0;
 };
 
-/// The id of the earlier room at each cell of the grid; 0 for none.
-cv::Mat earlierRooms(const Storey& earlier, const grid::GridMap& grid) {
-  cv::Mat rooms = cv::Mat::zeros(grid.rows, grid.columns, CV_32S);
-  // Drawing takes as long as an outline is high, so corners far outside are drawn closer.
-  const Eigen::Vector2i size(grid.columns, grid.rows);
-  for (const Room& room : earlier.rooms) {
-    std::vector<std::vector<cv::Point>> loops;
-    const auto add = [&](const std::vector<Eigen::Vector2d>& corners) {
-      auto& loop = loops.emplace_back();
-      for (const Eigen::Vector2d& corner : corners) {
-        const Eigen::Vector2i cell = grid.cellOf(corner).cwiseMax(-size).cwiseMin(2 * size);
-        loop.emplace_back(cell.x(), cell.y());
-      }
-    };
-    add(room.outline);
-    for (const auto& hole : room.holes) add(hole);
-    cv::fillPoly(rooms, loops, room.id);
-  }
-  return rooms;
-}
-
 /// All overlaps, the largest first.
-std::vector<Overlap> overlapsOf(const cv::Mat& earlier, const std::vector<std::int32_t>& now) {
+std::vector<Overlap> overlapsOf(const std::vector<std::int32_t>& earlier, const std::vector<std::int32_t>& now) {
   std::map<std::pair<int, int>, int> counts;
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (const int id = earlier.ptr<int>()[i]; id != 0 && now[i] != 0) ++counts[{id, now[i]}];
+    if (const int id = earlier[i]; id != 0 && now[i] != 0) ++counts[{id, now[i]}];
   std::vector<Overlap> overlaps;
   for (const auto& [ids, cells] : counts) overlaps.push_back({cells, ids.first, ids.second});
   std::stable_sort(overlaps.begin(), overlaps.end(),
@@ -103,15 +82,29 @@ void renumberDoors(const Storey& earlier, Storey& now) {
   std::sort(now.doors.begin(), now.doors.end(), [](const Door& a, const Door& b) { return a.id < b.id; });
 }
 
+// A room that keeps its id keeps what was known of it, too.
+void keepNames(const Storey& earlier, Storey& now) {
+  for (Room& room : now.rooms) {
+    const Room* before = roomOf(earlier, room.id);
+    if (before == nullptr) continue;
+    room.name = before->name;
+    room.name_confidence = before->name_confidence;
+    room.kind = before->kind;
+    room.kind_confidence = before->kind_confidence;
+    room.why = before->why;
+  }
+}
+
 }  // namespace
 
 Continuation continueRooms(const Storey& earlier, const grid::GridMap& grid, Segmentation now) {
-  const auto overlaps = overlapsOf(earlierRooms(earlier, grid), now.room_of_cell);
+  const auto overlaps = overlapsOf(roomsOfCells(earlier, grid), now.room_of_cell);
   const auto ids = newIds(overlaps, now.storey, earlier.next_room);
   noteSplits(overlaps, ids, grid.resolution, now.storey);
   renumber(ids, now);
   renumberDoors(earlier, now.storey);
   now.storey.id = earlier.id;
+  keepNames(earlier, now.storey);
   Continuation result{std::move(now), {}};
   const auto& rooms = result.now.storey.rooms;
   for (const Room& room : earlier.rooms)
