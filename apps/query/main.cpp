@@ -14,7 +14,7 @@ namespace {
 using namespace omnimapper;
 
 struct Arguments {
-  bool json = false;
+  bool json = false, brief = false;
   std::string map;
   std::vector<std::string> words;                  // the words if no verb was given
   std::map<std::string, query::Request> requests;  // by verb
@@ -35,7 +35,7 @@ CLI::Validator validatorOf(query::NumberOption::Range range) {
   return range == Range::any ? finite() : range == Range::positive ? program::positive() : program::notNegative();
 }
 
-void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bool& json) {
+void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, Arguments& arguments) {
   CLI::App* added = app.add_subcommand(verb.name, verb.help);
   if (!verb.words.empty())
     added->add_option(verb.words, request.words, verb.words_help)->type_name("")->expected(0, verb.most_words);
@@ -43,7 +43,8 @@ void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, bo
     added->add_option("--" + option.name, request.numbers[option.name], option.help)
         ->expected(option.count)
         ->check(validatorOf(option.range));
-  added->add_flag("--json", json, "print one JSON document");
+  added->add_flag("--json", arguments.json, "print one JSON document");
+  added->add_flag("--brief", arguments.brief, "with --json: only names and positions of landmarks");
 }
 
 void addOptions(CLI::App& app, Arguments& arguments) {
@@ -51,14 +52,14 @@ void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("MAP", arguments.map, "folder of a map, or its map.omnimap")->type_name("")->required();
   app.add_option("TEXT", arguments.words, "name to find, if no verb is given")->type_name("")->expected(1, -1);
   app.add_flag("--json", arguments.json, "print one JSON document");
+  app.add_flag("--brief", arguments.brief, "with --json: only names and positions of landmarks");
   app.require_subcommand(0, 1);
-  for (const auto& verb : query::verbs()) addVerb(app, verb, arguments.requests[verb.name], arguments.json);
+  for (const auto& verb : query::verbs()) addVerb(app, verb, arguments.requests[verb.name], arguments);
   app.footer(
       "Examples:\n"
       "  omnimapper-query out/map 213                        where the sign 213 is\n"
-      "  omnimapper-query out/map near 3.5 -2 --within 4     what is at most 4 m from that point\n"
       "  omnimapper-query out/map goal kitchen --from 0 0    a free pose in front of it, facing it\n"
-      "  omnimapper-query out/map list sign --json           all signs, for programs\n"
+      "  omnimapper-query out/map path here to 213           the way there, with its rooms and doors\n"
       "Options of one verb: omnimapper-query out/map goal --help. A text that is a verb: omnimapper-query out/map find "
       "list.\n"
       "Exit codes: doc/exit_codes.md (20: the map has no answer). More: doc/query.md.");
@@ -71,6 +72,7 @@ int answer(const CLI::App& app, const Arguments& arguments) {
     if (!parsed.empty() && verb.name == parsed.front()->get_name()) asked = &verb;
   query::Request request = arguments.requests.at(asked->name);
   if (parsed.empty()) request.words = arguments.words;
+  request.brief = arguments.brief;
   if (!parsed.empty() && !arguments.words.empty())
     throw base::Error(base::ExitCode::command_line, "'" + base::printable(arguments.words.front().substr(0, 40)) +
                                                         "' is given before the verb " + asked->name +

@@ -8,8 +8,10 @@
 
 #include "Answers.h"
 #include "FoundText.h"
+#include "GoalOfRoom.h"
 #include "PlaceJson.h"
 #include "PlaceText.h"
+#include "Target.h"
 
 namespace omnimapper::query {
 
@@ -19,10 +21,6 @@ using base::fixed;
 using Eigen::Vector2d;
 
 constexpr double kFarthest = 20;  // [m] largest radius and distance
-
-std::string pointText(const Vector2d& point) {
-  return fixed(point.x(), 2) + " " + fixed(point.y(), 2);
-}
 
 double lengthOf(const Request& request, const std::string& option, double otherwise) {
   const double length = numbersOf(request, option, {otherwise}).front();
@@ -103,11 +101,21 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   document["start_m"] = {start.x(), start.y()};
   document["goal"] = nullptr;
   document["target"] = nullptr;
-  document["matches"] = matchesJson(found);
+  document["matches"] = matchesJson(found, map, request.brief);
   document["closest"] = found.closest;
   const auto nothing = [&](const std::string& said) {
     return Answer{said, textOf(document), base::ExitCode::nothing_found};
   };
+  document["room"] = nullptr;
+  if (const auto of_room = goalRoom(map, text)) {
+    const GridMap grid = readGrid(map.folder);
+    const RoomToMove room(grid, options.radius, start);
+    if (auto answer = answerGoalOfRoom(*of_room->room, room, grid, *map.rooms, options.radius, document))
+      return *answer;
+    if (found.places.empty())
+      return nothing("a robot of " + base::brief(options.radius) + " m radius fits nowhere in " + titleOf(*of_room) +
+                     "\n");
+  }
   if (found.places.empty()) return nothing(nothingCalled(text, found));
   const auto targets = targetsOf(found, start);
   if (targets.empty()) return nothing("'" + shownName(text) + "' has moved away: its present place is not known\n");
@@ -116,7 +124,7 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const auto goal = goalBefore(*targets[i].place, start, room, grid, options);
     if (!goal) continue;
-    document["target"] = jsonOf(*targets[i].place);
+    document["target"] = jsonOf(*targets[i].place, request.brief);
     document["goal"] = goalJson(*goal, options, room);
     const std::string said = (found.isOnlyNear() ? foundLine(text, found) : "") + whichText(targets, i, start) +
                              goalText(*goal, options, room) + alignedTable({placeHeads(), cellsOf(*targets[i].place)});

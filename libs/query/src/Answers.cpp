@@ -13,6 +13,7 @@
 #include "FoundText.h"
 #include "PlaceJson.h"
 #include "PlaceText.h"
+#include "Target.h"
 
 namespace omnimapper::query {
 
@@ -22,16 +23,43 @@ constexpr std::size_t kMostLines = 40;  // largest number of places in the text 
 
 using Lines = std::vector<std::vector<std::string>>;
 
-std::vector<std::string> withFirst(const std::string& first, std::vector<std::string> cells) {
-  cells.insert(cells.begin(), first);
+/// The cells of a line with that of the room at the end.
+std::vector<std::string> withRoom(const std::string& room, std::vector<std::string> cells) {
+  cells.push_back(room);
   return cells;
 }
 
-std::string tableOf(Lines lines) {
-  const std::size_t count = lines.size() - 1;
-  if (count > kMostLines) lines.resize(kMostLines + 1);
-  return alignedTable(lines) +
-         (count > kMostLines ? "  and " + std::to_string(count - kMostLines) + " more: --json has them all\n" : "");
+/// What the room that a landmark is in is called; empty if it is in none.
+std::string roomName(const MapToAsk& map, const map::Place& place) {
+  const auto* room = map.rooms ? roomOf(*map.rooms, place) : nullptr;
+  return room ? shownName(building::nameOf(*room)) : "";
+}
+
+Json roomMatchesJson(const std::vector<FoundRoom>& rooms, const MapToAsk& map) {
+  Json matches = Json::array();
+  for (const auto& each : rooms) {
+    Json match{{"match", toString(each.match.grade)}, {"is_seen", each.room != nullptr}};
+    match.update(each.room ? jsonOf(*each.room, *map.rooms) : jsonOf(*each.unseen));
+    matches.push_back(std::move(match));
+  }
+  return matches;
+}
+
+std::string roomMatchesText(const std::string& text, const std::vector<FoundRoom>& rooms) {
+  std::string said;
+  for (const auto& each : rooms) {
+    if (each.match.grade == MatchGrade::near)
+      said += "nothing is called '" + shownName(text) + "'; nearest: '" + shownName(each.match.name) + "'\n";
+    const Eigen::Vector2d at = each.room ? each.room->centre : each.unseen->door;
+    said += titleOf(each) + (each.room ? ": its centre is at " : ": its door is at ") + base::fixed(at.x(), 2) + " " +
+            base::fixed(at.y(), 2) + (each.room ? ", " + base::fixed(each.room->area, 1) + " m2\n" : "\n");
+  }
+  return said;
+}
+
+std::vector<std::string> withFirst(const std::string& first, std::vector<std::string> cells) {
+  cells.insert(cells.begin(), first);
+  return cells;
 }
 
 double coordinateOf(const std::string& word) {
@@ -79,6 +107,17 @@ Answer listKinds(const MapToAsk& map) {
 
 }  // namespace
 
+std::string tableOf(Lines lines) {
+  const std::size_t count = lines.size() - 1;
+  if (count > kMostLines) lines.resize(kMostLines + 1);
+  return alignedTable(lines) +
+         (count > kMostLines ? "  and " + std::to_string(count - kMostLines) + " more: --json has them all\n" : "");
+}
+
+Eigen::Vector2d pointOf(const Request& request) {
+  return {coordinateOf(request.words.at(0)), coordinateOf(request.words.at(1))};
+}
+
 std::string textOf(const Request& request) {
   std::string text;
   for (const auto& word : request.words) text += (text.empty() ? "" : " ") + word;
@@ -107,18 +146,30 @@ Answer answerFind(const MapToAsk& map, const Request& request) {
   const Found found = find(map.places.places, text);
   Json document = answerTo("find", map);
   document["text"] = text;
-  document["matches"] = matchesJson(found);
+  document["matches"] = matchesJson(found, map, request.brief);
   document["closest"] = found.closest;
-  if (found.places.empty()) return {nothingCalled(text, found), textOf(document), base::ExitCode::nothing_found};
-  Lines lines{withFirst("match", placeHeads())};
-  for (const auto& each : found.places) lines.push_back(withFirst(toString(each.match.grade), cellsOf(*each.place)));
-  return {foundLine(text, found) + tableOf(lines), textOf(document), base::ExitCode::ok};
+  // A room whose name is only similar counts only if no landmark has the name.
+  auto rooms = findRooms(map, text);
+  const bool are_near = !rooms.empty() && rooms.front().match.grade == MatchGrade::near;
+  if (are_near && !found.places.empty()) rooms.clear();
+  document["rooms"] = roomMatchesJson(rooms, map);
+  if (found.places.empty() && rooms.empty())
+    return {nothingCalled(text, found), textOf(document), base::ExitCode::nothing_found};
+  std::string said = roomMatchesText(text, rooms);
+  if (!found.places.empty()) {
+    Lines lines{withRoom("room", withFirst("match", placeHeads()))};
+    for (const auto& each : found.places)
+      lines.push_back(
+          withRoom(roomName(map, *each.place), withFirst(toString(each.match.grade), cellsOf(*each.place))));
+    said += foundLine(text, found) + tableOf(lines);
+  }
+  return {said, textOf(document), base::ExitCode::ok};
 }
 
 Answer answerNear(const MapToAsk& map, const Request& request) {
   constexpr std::size_t kFew = 5;
   constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d point(coordinateOf(request.words.at(0)), coordinateOf(request.words.at(1)));
+  const Eigen::Vector2d point = pointOf(request);
   const auto within = numbersOf(request, "within", {});
   const auto near = within.empty() ? nearestPlaces(map.places.places, point, kAnywhere, kFew)
                                    : nearestPlaces(map.places.places, point, within[0], map.places.places.size());
@@ -129,7 +180,7 @@ Answer answerNear(const MapToAsk& map, const Request& request) {
   Lines lines{withFirst("distance [m]", placeHeads())};
   for (const auto& each : near) {
     lines.push_back(withFirst(base::fixed(each.distance, 2), cellsOf(*each.place)));
-    Json place = jsonOf(*each.place);
+    Json place = jsonOf(*each.place, request.brief);
     place["distance_m"] = each.distance;
     document["places"].push_back(std::move(place));
   }
@@ -162,7 +213,7 @@ Answer answerList(const MapToAsk& map, const Request& request) {
   Lines lines{placeHeads()};
   for (const auto* place : ofKind(map, found.places.front().place->kind)) {
     lines.push_back(cellsOf(*place));
-    document["places"].push_back(jsonOf(*place));
+    document["places"].push_back(jsonOf(*place, request.brief));
   }
   const std::string said = found.isOnlyNear() ? "no kind is called '" + shownName(asked) +
                                                     "'; nearest: " + shownName(found.places.front().place->kind) + "\n"

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "Letters.h"
+#include "OtherWords.h"
 
 namespace omnimapper::query {
 
@@ -45,13 +46,13 @@ std::vector<std::string> partsOf(const std::string& list) {
   return parts;
 }
 
-TextMatch bestOf(const AskedText& asked, const std::vector<std::string>& names) {
-  TextMatch best{MatchGrade::near, 2, ""};
-  for (const auto& name : names) {
-    const TextMatch match = asked.compare(name);
-    if (std::tie(match.grade, match.cost) < std::tie(best.grade, best.cost)) best = match;
+// A name that is the same as one of the other words for a text.
+std::optional<TextMatch> asOtherWord(const std::vector<AskedText>& others, const std::vector<std::string>& names) {
+  for (const auto& other : others) {
+    const TextMatch match = bestOf(other, names);
+    if (match.grade <= MatchGrade::same_letters) return TextMatch{MatchGrade::other_word, 0, match.name};
   }
-  return best;
+  return std::nullopt;
 }
 
 bool isBefore(const FoundPlace& a, const FoundPlace& b) {
@@ -109,10 +110,19 @@ std::vector<std::string> namesOf(const map::Place& place) {
 
 Found find(const std::vector<map::Place>& places, const std::string& text) {
   expectText(text);
-  const AskedText asked(text);
   std::vector<FoundPlace> all;
   for (const auto& place : places)
-    if (const TextMatch match = bestOf(asked, namesOf(place)); !match.name.empty()) all.push_back({&place, match});
+    if (toString(place.id) == text) return {{{&place, {MatchGrade::exact, 0, text}}}, {}};
+  const AskedText asked(text);
+  std::vector<AskedText> others;
+  for (const auto& word : otherWordsFor(text)) others.emplace_back(word);
+  for (const auto& place : places) {
+    const auto names = namesOf(place);
+    TextMatch match = bestOf(asked, names);
+    if (match.grade == MatchGrade::near)
+      if (const auto other = asOtherWord(others, names)) match = *other;
+    if (!match.name.empty()) all.push_back({&place, match});
+  }
   std::sort(all.begin(), all.end(), isBefore);
   Found found;
   if (all.empty()) return found;

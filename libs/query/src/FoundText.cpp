@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "PlaceText.h"
+#include "Target.h"
 
 namespace omnimapper::query {
 
@@ -41,11 +42,12 @@ std::string foundLine(const std::string& text, const Found& found) {
          (found.places.size() > 1 ? ", all listed\n" : "\n");
 }
 
-Json matchesJson(const Found& found) {
+Json matchesJson(const Found& found, const MapToAsk& map, bool brief) {
   Json matches = Json::array();
   for (const auto& each : found.places) {
     Json match = {{"match", toString(each.match.grade)}, {"name", each.match.name}, {"cost", each.match.cost}};
-    match.update(jsonOf(*each.place));
+    match.update(jsonOf(*each.place, brief));
+    if (map.rooms) match["room"] = briefJson(roomOf(*map.rooms, *each.place));
     matches.push_back(std::move(match));
   }
   return matches;

@@ -1,8 +1,11 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/building/RoomsFile.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Places.h>
 #include <omnimapper/query/MapToAsk.h>
 
+#include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 
@@ -31,6 +34,28 @@ std::string mapFileAt(const std::string& path) {
   return map;
 }
 
+// The FNV-1a hash of some bytes, begun with `hash`.
+std::uint64_t hashed(const std::string& bytes, std::uint64_t hash) {
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
+  return hash;
+}
+
+std::string hexadecimal(std::uint64_t number) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
+// None if the layer is of another program, or of a later version of this one.
+std::optional<building::Storey> roomsIn(const map::MapSection& section) {
+  if (section.version != building::kRoomsLayerVersion) return std::nullopt;
+  try {
+    return building::decodeRooms(section.bytes, section.name).building.storeys.front();
+  } catch (const base::Error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 MapToAsk openMap(const std::string& path) {
@@ -38,7 +63,7 @@ MapToAsk openMap(const std::string& path) {
   opened.file = mapFileAt(path);
   opened.folder = fs::path(opened.file).parent_path();
   if (opened.folder.empty()) opened.folder = ".";
-  const auto file = map::MapFile::readOnly(opened.file, {map::Places::kLayer});
+  const auto file = map::MapFile::readOnly(opened.file, {map::Places::kLayer, building::kRoomsLayer});
   const auto* section = file.find(map::Places::kLayer);
   if (!section)
     refuseMap(opened.file, "has no section \"" + std::string(map::Places::kLayer) +
@@ -49,6 +74,12 @@ MapToAsk openMap(const std::string& path) {
   } catch (const base::Error& error) {
     throw base::Error(error.code(), opened.file + ": " + error.what());
   }
+  std::uint64_t hash = hashed(section->bytes, 0xcbf29ce484222325ULL);
+  if (const auto* rooms = file.find(building::kRoomsLayer)) {
+    opened.rooms = roomsIn(*rooms);
+    hash = hashed(rooms->bytes, hash);
+  }
+  opened.id = hexadecimal(hash);
   for (auto& entry : map::MapFile::list(opened.file))
     if (map::isLayerName(entry.name)) opened.layers.push_back(std::move(entry));
   return opened;

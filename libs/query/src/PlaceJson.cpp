@@ -53,7 +53,13 @@ struct ValueJson {
 
 }  // namespace
 
-Json jsonOf(const map::Place& place) {
+Json jsonOf(const map::Place& place, bool brief) {
+  if (brief)
+    return {{"id", toString(place.id)},
+            {"label", place.label},
+            {"caption", place.caption},
+            {"state", place.moved ? "moved" : "present"},
+            {"position_m", jsonOf(place.position)}};
   Json properties = Json::object(), seen_by = Json::object();
   for (const auto& property : place.properties)
     properties[map::keyOf(property)] = std::visit(ValueJson(), property.value);
@@ -77,7 +83,12 @@ Json jsonOf(const map::Place& place) {
 }
 
 Json answerTo(const std::string& verb, const MapToAsk& map) {
-  return {{"verb", verb}, {"map", map.file}};
+  const auto& last = map.places.last_pose;
+  return {{"verb", verb},
+          {"map", map.file},
+          {"map_id", map.id},
+          {"frame", "map"},
+          {"map_time", last ? timeJson(last->stamp) : Json(nullptr)}};
 }
 
 std::string textOf(const Json& document) {

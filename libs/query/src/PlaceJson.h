@@ -10,10 +10,11 @@ namespace omnimapper::query {
 
 using Json = nlohmann::ordered_json;
 
-/// All data of a place. Lengths [m], angles [rad], times ISO 8601 in UTC; null if not known.
-Json jsonOf(const map::Place& place);
+/// All data of a place. Lengths [m], angles [rad], times ISO 8601 in UTC; null if not known. `brief`: only what it is
+/// called, where it is, and whether it is still there.
+Json jsonOf(const map::Place& place, bool brief = false);
 
-/// A document that begins with the verb and the map, to which the query and the answer are added.
+/// A document that begins with the verb, the map, its frame and its age, to which the query and the answer are added.
 Json answerTo(const std::string& verb, const MapToAsk& map);
 
 /// The document as ASCII text with one line feed at the end.

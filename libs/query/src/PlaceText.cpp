@@ -63,6 +63,10 @@ std::string shownName(const std::string& name) {
   return shown.substr(0, end) + "...";
 }
 
+std::string pointText(const Eigen::Vector2d& point) {
+  return fixed(point.x(), 2) + " " + fixed(point.y(), 2);
+}
+
 std::string titleOf(const map::Place& place) {
   return shownName(place.label) + (place.caption.empty() ? "" : " \"" + shownName(place.caption) + "\"");
 }

@@ -9,6 +9,8 @@ namespace omnimapper::query {
 
 /// A name from a map for a terminal: printable, and shortened if it is long.
 std::string shownName(const std::string& name);
+/// "2.50 -1.00" [m].
+std::string pointText(const Eigen::Vector2d& point);
 /// `sign "213"`, `wall`.
 std::string titleOf(const map::Place& place);
 

@@ -80,7 +80,7 @@ bool RoomToMove::fits(const Vector2i& cell) const {
 }
 
 void RoomToMove::reach(const Vector2i& first) {
-  is_start_known_ = true;
+  start_ = first;
   std::vector<Vector2i> open{first};
   reached_[grid_.indexOf(first)] = true;
   while (!open.empty()) {

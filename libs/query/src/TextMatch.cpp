@@ -1,6 +1,7 @@
 #include <omnimapper/query/TextMatch.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "Letters.h"
 
@@ -119,6 +120,8 @@ std::string toString(MatchGrade grade) {
       return "same letters";
     case MatchGrade::part:
       return "part";
+    case MatchGrade::other_word:
+      return "other word";
     case MatchGrade::near:
       break;
   }
@@ -145,6 +148,15 @@ TextMatch AskedText::compare(const std::string& name) const {
   if (asNumber(joined(words_)) == asNumber(joined(words))) return {MatchGrade::near, std::min(cost, kSameNumber), name};
   const bool is_same = hasNumbersOf(words_, words);  // "room 213" is 213
   return {MatchGrade::near, is_same ? std::min(cost, kNumberAndMore) : std::max(cost, kOtherNumber), name};
+}
+
+TextMatch bestOf(const AskedText& asked, const std::vector<std::string>& names) {
+  TextMatch best{MatchGrade::near, 2, ""};
+  for (const auto& name : names) {
+    const TextMatch match = asked.compare(name);
+    if (std::tie(match.grade, match.cost) < std::tie(best.grade, best.cost)) best = match;
+  }
+  return best;
 }
 
 bool naturallyBefore(const std::string& a, const std::string& b) {

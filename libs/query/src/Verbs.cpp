@@ -2,6 +2,7 @@
 #include <omnimapper/query/Verbs.h>
 
 #include "Answers.h"
+#include "RoomAnswers.h"
 
 namespace omnimapper::query {
 
@@ -25,9 +26,9 @@ const std::vector<Verb>& verbs() {
        {{"within", "largest distance [m]; default: the five nearest", 1, Range::not_negative}},
        answerNear},
       {"goal",
-       "a free pose in front of the landmark of that name, facing it",
+       "a free pose in the room of that name, or in front of the landmark, facing it",
        "TEXT",
-       "name of the landmark to go to, as for find",
+       "name of the room or landmark to go to, as for find",
        1,
        -1,
        {{"from", "X Y of the start [m]; default: the last pose of the base", 2, Range::any},
@@ -42,6 +43,40 @@ const std::vector<Verb>& verbs() {
        -1,
        {},
        answerList},
+      {"rooms", "all rooms, and the rooms behind known doors that were not seen", "", "", 0, 0, {}, answerRooms},
+      {"where",
+       "the room at a point: where am i X Y; without a point that of the last pose. where is TEXT is find TEXT",
+       "am i [X Y]",
+       "the point, in the frame of the map [m]",
+       0,
+       -1,
+       {},
+       answerWhere},
+      {"in", "what is in the room of that name", "ROOM", "name of a room, or room and its number", 1, -1, {}, answerIn},
+      {"which",
+       "the room that the landmark of that name is in: which room is TEXT in",
+       "TEXT",
+       "name of the landmark, as for find",
+       1,
+       -1,
+       {},
+       answerWhich},
+      {"path",
+       "the shortest way for a robot, and the rooms and doors on it: path kitchen to 213",
+       "A to B",
+       "names of rooms or landmarks, points as X,Y, or here",
+       2,
+       -1,
+       {{"radius", "radius of the robot [m]; default 0.25", 1, Range::not_negative}},
+       answerPath},
+      {"between",
+       "doors, rooms on the way and landmarks between two places: between kitchen and 213",
+       "A and B",
+       "names of rooms or landmarks, points as X,Y, or here",
+       2,
+       -1,
+       {{"radius", "radius of the robot [m]; default 0.25", 1, Range::not_negative}},
+       answerBetween},
       {"layers", "what the map holds beside key frames and landmarks", "", "", 0, 0, {}, answerLayers}};
   return all;
 }

@@ -27,7 +27,8 @@ struct Found {
 /// and not measures.
 std::vector<std::string> namesOf(const map::Place& place);
 
-/// The places called `text`: all places with a name that fits, or if there are none, those with a similar name. The
+/// The places called `text`: the one of that id ("0:111"), or all places with a name that fits, or if there are none,
+/// those with a similar name. The
 /// result points into `places`. Throws Error(command_line) for a text that is empty, too long or not UTF-8, or has
 /// control characters.
 Found find(const std::vector<map::Place>& places, const std::string& text);

@@ -32,7 +32,9 @@ class RoomToMove {
 
   /// Whether the robot's disc around the centre of the cell covers only free cells.
   bool fits(const Eigen::Vector2i& cell) const;
-  bool isStartKnown() const { return is_start_known_; }
+  bool isStartKnown() const { return start_.has_value(); }
+  /// The cell at which the robot starts.
+  const std::optional<Eigen::Vector2i>& start() const { return start_; }
   bool isReached(const Eigen::Vector2i& cell) const;
   /// Whether the line between two points crosses no occupied cell, except in the last `tolerance` [m] before `to`.
   bool isSeen(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double tolerance) const;
@@ -44,7 +46,7 @@ class RoomToMove {
   std::vector<std::uint16_t> to_blocked_;  // number of cells to the nearest one in the same row that is not free
   std::vector<int> half_widths_;           // [cells] half widths of the disc in its rows, from the centre up
   std::vector<bool> reached_;
-  bool is_start_known_ = false;
+  std::optional<Eigen::Vector2i> start_;
 };
 
 /// A free pose that faces the target, with a line of sight to the target. The best pose is at `options.distance` from

@@ -1,20 +1,24 @@
 #pragma once
 
+#include <omnimapper/building/Storey.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Places.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace omnimapper::query {
 
-/// The part of a map that is loaded to answer queries: only its places and a list of its layers, however large the map
-/// is.
+/// The part of a map that is loaded to answer queries: only its places, its rooms and a list of its layers, however
+/// large the map is.
 struct MapToAsk {
   std::string file;    ///< the map file
   std::string folder;  ///< the folder of the map file, which also has the occupancy grid
   map::Places places;
-  std::vector<map::MapFile::Entry> layers;  ///< the layers that the file has
+  std::vector<map::MapFile::Entry> layers;     ///< the layers that the file has
+  std::optional<building::Storey> rooms = {};  ///< its layer of rooms; none if it has none that this program can read
+  std::string id = {};                         ///< the same for maps with the same places and rooms
 };
 
 /// Opens a map; `path` is a map file or its folder. Throws Error(unreadable_input), naming the file and the remedy, if

@@ -11,6 +11,7 @@ enum class MatchGrade {
   exact,         ///< the same characters
   same_letters,  ///< the same but for capitals, blanks and punctuation
   part,          ///< each word of the text is a word of the name
+  other_word,    ///< the name is another word for the text, its singular or its class: "couch", "seats" and "seat"
   near,          ///< similar
 };
 std::string toString(MatchGrade grade);
@@ -40,6 +41,9 @@ class AskedText {
   std::u32string folded_;
   std::vector<std::u32string> words_;
 };
+
+/// The name that fits best; an empty one with a cost of 2 if there are no names.
+TextMatch bestOf(const AskedText& asked, const std::vector<std::string>& names);
 
 /// Whether a name comes before another in natural order: numbers in names are compared by value, so "9" is before "10".
 /// Capitals only matter if nothing else differs.

@@ -13,6 +13,7 @@ namespace omnimapper::query {
 struct Request {
   std::vector<std::string> words;                      ///< the words after the verb
   std::map<std::string, std::vector<double>> numbers;  ///< the numbers of each option that was given
+  bool brief = false;                                  ///< the JSON has only names and positions of landmarks
 };
 
 struct Answer {
