@@ -320,7 +320,7 @@ endif()
 run("${prefix}/bin/omnimapper-graphslam" -q -i "${SCRATCH}/live_page.ini" -r "${box}" -r "${SCRATCH}/tags.rawlog"
   -o "${SCRATCH}/paged" --set page.port=0 --set room_names.label=tags)
 execute_process(COMMAND "${prefix}/bin/omnimapper-query" "${SCRATCH}/paged" layers OUTPUT_VARIABLE layers)
-if(NOT layers MATCHES "rooms")
+if(NOT layers MATCHES "room_tags")
   message(FATAL_ERROR "the map that was made with the live page has no layer of rooms:\n${layers}")
 endif()
 run("${SCRATCH}/rooms_layer/tag-log" "${SCRATCH}/more_tags.rawlog" 1700000008 office)

@@ -89,9 +89,10 @@ inline std::map<std::string, std::string> contentsOf(const std::string& folder) 
 
 /// Names of the files that a run with ini/laser2d.ini writes.
 inline const std::set<std::string>& allOutputs() {
-  static const std::set<std::string> names{"trajectory.tum", "graph.g2o",    "grid.pgm",    "grid.yaml",
-                                           "grid.png",       "points.ply",   "map.omnimap", "map.png",
-                                           "scene.3Dscene",  "summary.json", "report.html"};
+  static const std::set<std::string> names{"trajectory.tum", "graph.g2o",    "grid.pgm",        "grid.yaml",
+                                           "grid.png",       "points.ply",   "map.omnimap",     "map.png",
+                                           "scene.3Dscene",  "summary.json", "report.html",     "rooms.json",
+                                           "rooms.png",      "plan.svg",     "scene_graph.json"};
   return names;
 }
 

@@ -22,9 +22,9 @@ struct Room {
   Eigen::Vector3d inMap(const omnimapper::map::Map& map) const;
 };
 
-/// The layer "rooms" of a map.
+/// The layer "room_tags" of a map.
 struct Rooms {
-  static constexpr char kLayer[] = "rooms";
+  static constexpr char kLayer[] = "room_tags";
   static constexpr std::uint32_t kLayerVersion = 1;
 
   std::map<std::string, Room> rooms;  ///< by name

@@ -174,7 +174,7 @@ void Engine::finish() {
   while (back_end_.hasJobs()) tried([&] { back_end_.applyAllJobs(); });
   if (!state_.map.key_frames.empty()) {
     tried([&] { back_end_.solveFinally(); });
-    tried([&] { back_end_.conclude(); });
+    tried([&] { back_end_.conclude(shared_); });
   }
   tried([&] { back_end_.savePlugins(); });
   if (!state_.map_is_held) tried([&] { back_end_.evidence().judge(); });
@@ -225,9 +225,8 @@ std::vector<std::string> Engine::idleSources() const {
 
 std::vector<base::Error> Engine::writeOutputs() {
   std::vector<base::Error> failures;
-  SharedResults shared;
   View finished = view();
-  finished.shared = &shared;
+  finished.shared = &shared_;
   for (auto& [section, plugin] : plugins_.output) {
     if (state_.map_is_held && plugin->isOfMap()) continue;
     const auto timer = state_.times.measure(Stage::output, section);
@@ -241,6 +240,7 @@ std::vector<base::Error> Engine::writeOutputs() {
           "[" + section + "] ran out of memory; give the program more memory, or leave out this output");
     }
   }
+  shared_ = {};
   return failures;
 }
 

@@ -97,6 +97,7 @@ class Engine {
   EngineSettings settings_;
   PluginSet plugins_;
   RunState state_;
+  SharedResults shared_;  // of the finished map
   std::unique_ptr<Schedule> schedule_;
   BackEnd back_end_;
   FrontEnd front_end_;

@@ -219,6 +219,10 @@ bool Batch::empty() const {
          merges_.empty() && decisions_.empty() && layers_.empty() && !session_place_;
 }
 
+bool Batch::changesLandmarks() const {
+  return !(added_landmarks_.empty() && evidence_.empty() && retired_landmarks_.empty() && merges_.empty());
+}
+
 bool Batch::changesGraph() const {
   return !(added_variables_.empty() && added_factors_.empty() && removed_factors_.empty() &&
            removed_variables_.empty() && weights_.empty() && merges_.empty() && !session_place_);

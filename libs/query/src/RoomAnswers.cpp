@@ -36,7 +36,8 @@ std::string neighboursText(const Room& room, const Storey& storey) {
 }
 
 std::string kindText(const Room& room) {
-  return room.kind.empty() ? "" : shownName(room.kind) + " (" + percent(room.kind_confidence) + ")";
+  const bool is_sure = !room.kind.empty() && room.kind_confidence >= building::kSureKind;
+  return is_sure ? shownName(room.kind) + " (" + percent(room.kind_confidence) + ")" : "";
 }
 
 std::string whyText(const std::vector<building::NameEvidence>& why) {

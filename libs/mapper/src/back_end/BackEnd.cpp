@@ -192,16 +192,19 @@ void BackEnd::solve(const graph::SolveOptions& options) {
 }
 
 // Each plugin sees the results of those before it.
-void BackEnd::conclude() {
+void BackEnd::conclude(SharedResults& shared) {
   const base::Stamp now = state_.map.key_frames.back().stamp;
   for (auto& named : plugins_.measurement) {
     const auto concluded = [&] {
       const auto timer = state_.times.measure(Stage::plugin, named.section);
-      return named.plugin->atEnd(state_.view());
+      View finished = state_.view();
+      finished.shared = &shared;
+      return named.plugin->atEnd(finished);
     };
     const Batch batch = concluded();
     if (batch.empty()) continue;
     applier_.apply(batch, {named.section, now}, *named.plugin);
+    if (batch.changesGraph() || batch.changesLandmarks()) shared = {};
     if (batch.changesGraph()) solveFinally();
   }
 }

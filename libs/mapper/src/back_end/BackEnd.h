@@ -53,8 +53,9 @@ class BackEnd {
   void applyAllJobs();
   /// Solves with the final options.
   void solveFinally() { solve(settings_.solver.final()); }
-  /// Applies the edits that plugins make at the end of the log (MeasurementPlugin::atEnd()).
-  void conclude();
+  /// Applies the edits that plugins make at the end of the log (MeasurementPlugin::atEnd()). Afterwards `shared` has
+  /// the results that they share with outputs.
+  void conclude(SharedResults& shared);
   /// The evidence for and against the map, of which judge() makes the verdict.
   MapEvidence& evidence() { return evidence_; }
   /// Lets a plugin restore its saved data, and what it needs of the map.

@@ -96,6 +96,8 @@ class Batch {
   bool empty() const;
   /// Whether it changes the graph: decisions, layers, evidence, new and retired landmarks alone do not.
   bool changesGraph() const;
+  /// Whether it adds, describes, retires or merges landmarks.
+  bool changesLandmarks() const;
   const std::vector<NewVariable>& addedVariables() const { return added_variables_; }
   const std::vector<graph::FactorRecord>& addedFactors() const { return added_factors_; }
   const std::vector<NewLandmark>& addedLandmarks() const { return added_landmarks_; }

@@ -9,7 +9,8 @@
 namespace omnimapper::mapper {
 
 /// What the outputs of a finished map have in common, such as its grid: computed by the first that needs it, then kept
-/// until all have been written. Not thread-safe.
+/// until all have been written. Plugins that conclude the map share it, too, until one of them changes graph or
+/// landmarks. Not thread-safe.
 class SharedResults {
  public:
   /// The T of that key, which `compute()` returns if nobody computed it before. The key must name all that the result

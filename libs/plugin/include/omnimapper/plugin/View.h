@@ -57,7 +57,8 @@ struct View : State {
   const Verdict& verdict;
   /// The metrics of a run on live sensors; none for other runs.
   const std::optional<LiveMetrics>& live;
-  /// Results that outputs share while a finished map is written; null at other times.
+  /// Results that outputs, and plugins at the end of the log (MeasurementPlugin::atEnd()), share of a finished map;
+  /// null at other times. They do not depend on layers.
   SharedResults* shared = nullptr;
 };
 
