@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/map/KeyFrames.h>
 
 #include "sign_landmarks/SignPayload.h"
 #include "sign_landmarks/SignText.h"
