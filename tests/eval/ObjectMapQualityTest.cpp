@@ -100,7 +100,7 @@ TEST(ObjectMapQuality, APerfectMapHasEachObjectOnce) {
     EXPECT_NEAR(judged.extent, 1, 0.05);
     EXPECT_NEAR(judged.distance_90, 0, 1e-9);
   }
-  ASSERT_EQ(quality.curve.size(), 30U);
+  ASSERT_EQ(quality.curve.size(), 2U) << "for 1 image and for 30, the only number at which it changes";
   EXPECT_EQ(quality.curve.back().precision, 1);
   EXPECT_EQ(quality.curve.back().recall, 1);
 }

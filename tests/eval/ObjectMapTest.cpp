@@ -76,6 +76,9 @@ TEST_F(ObjectMaps, DamagedOnesAreRefused) {
   expectRefused(with("[1,2,0.8]", "[1,2]"), "has not 3 numbers");
   expectRefused(with("[1,0,0,0]", "[1,1,0,0]"), "quaternion");
   expectRefused(with("\"seen_in\":7,", ""), "seen_in");
+  expectRefused(with("\"seen_in\":7,", "\"seen_in\":-7,"), "negative");
+  expectRefused(with("objects/0-12.ply", "objects/../../0-12.ply"), "not in the folder");
+  expectRefused(with("objects/0-12.ply", "/0-12.ply"), "not in the folder");
   expectRefused(with("0.8", "1e999"), "overflow");
   expectRefused(with("objects/0-12.ply", "objects/none.ply"), "none.ply");
   write("objects/0-12.ply", "ply");

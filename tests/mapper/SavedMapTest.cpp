@@ -151,6 +151,14 @@ TEST_F(SavedMapFile, PartsThatDoNotFitEachOtherAreRefused) {
   run_.map.landmarks.edit({0, 0})->variables = {{0, 77}};
   EXPECT_NE(refusal(file()).find("landmark 0:0"), std::string::npos);
   run_ = whole;
+  map::Landmark merged;
+  merged.state = map::Landmark::State::merged;
+  merged.merged_into = {0, 2};
+  run_.map.landmarks.add(0, merged);
+  merged.merged_into = {0, 1};
+  run_.map.landmarks.add(0, merged);
+  EXPECT_NE(refusal(file()).find("landmark 0:1 is merged into itself"), std::string::npos);
+  run_ = whole;
   EXPECT_EQ(refusal(file()), "");
 }
 

@@ -83,8 +83,8 @@ class Proposal {
     proposeWithout(unfed, plugins_.extractors, "perception", "extractors",
                    is_blind ? no_laser : "there are no pictures to read signs in");
     if (is_blind)
-      proposeWithout({"loop_closure", "walls", "relations"}, plugins_.measurement, "mapper", "measurement_plugins",
-                     no_laser);
+      proposeWithout({"loop_closure", "walls", "relations", "rooms"}, plugins_.measurement, "mapper",
+                     "measurement_plugins", no_laser);
   }
 
   // The true duration of a step is not known, but only speeds depend on it.

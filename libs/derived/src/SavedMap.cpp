@@ -105,8 +105,12 @@ void expectDetermined(const graph::Graph& graph) {
 void expectWhole(const map::Landmark& landmark, const SavedMap& saved) {
   const std::string what = "landmark " + toString(landmark.id);
   if (landmark.state == map::Landmark::State::merged) {
-    if (!saved.map.landmarks.find(landmark.merged_into))
-      refuse(what + " is merged into one that does not exist: damaged");
+    const map::Landmark* into = &landmark;
+    for (std::size_t steps = 0; into->state == map::Landmark::State::merged; ++steps) {
+      into = saved.map.landmarks.find(into->merged_into);
+      if (into == nullptr) refuse(what + " is merged into one that does not exist: damaged");
+      if (steps > saved.map.landmarks.size()) refuse(what + " is merged into itself by way of others: damaged");
+    }
     return;
   }
   std::vector<std::string_view> kinds;

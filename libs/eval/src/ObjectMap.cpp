@@ -3,6 +3,8 @@
 #include <omnimapper/eval/ObjectMap.h>
 #include <omnimapper/eval/TriangleMesh.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -37,9 +39,13 @@ MappedObject objectFrom(const nlohmann::json& entry, const std::string& folder) 
   object.map_from_box.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
   object.box_size = numbersFrom(box.at("size"), 3);
   object.seen_in = entry.at("seen_in").get<int>();
+  if (object.seen_in < 0) throw std::invalid_argument("seen_in is negative");
   if (const nlohmann::json& looked = entry.at("last_looked"); !looked.is_null())
     object.last_looked = looked.get<double>();
-  object.points = readTriangleMesh(folder + "/" + entry.at("model").get<std::string>()).vertices;
+  const std::filesystem::path model = entry.at("model").get<std::string>();
+  if (model.is_absolute() || std::count(model.begin(), model.end(), "..") > 0)
+    throw std::invalid_argument("the model is not in the folder");
+  object.points = readTriangleMesh((folder / model).string()).vertices;
   return object;
 }
 

@@ -163,9 +163,11 @@ std::vector<SoughtObject> soughtObjects(const ObjectTruth& truth, const SeenLimi
 
 std::vector<ObjectCurvePoint> curveOf(const ObjectMap& map, const ObjectMapQuality& quality) {
   std::vector<ObjectCurvePoint> curve;
-  int most = 0;
-  for (const MappedObject& object : map.objects) most = std::max(most, object.seen_in);
-  for (int images = 1; images <= most; ++images) {
+  std::set<int> steps{1};  // numbers of images at which the curve changes
+  for (const MappedObject& object : map.objects)
+    if (object.seen_in > 0) steps.insert(object.seen_in);
+  if (map.objects.empty()) steps.clear();
+  for (const int images : steps) {
     ObjectCurvePoint point;
     point.images = images;
     std::set<std::size_t> right;

@@ -238,6 +238,8 @@ std::vector<base::Error> Engine::writeOutputs() {
       failures.emplace_back(
           base::ExitCode::out_of_memory,
           "[" + section + "] ran out of memory; give the program more memory, or leave out this output");
+    } catch (const std::exception& error) {  // a defect of one output must not cost the others
+      failures.emplace_back(base::ExitCode::internal, "[" + section + "]: " + error.what());
     }
   }
   shared_ = {};

@@ -29,6 +29,12 @@ std::optional<std::string> whyNoLabel(const std::string& text) {
   return std::nullopt;
 }
 
+void LabelEdits::keep() {
+  constexpr std::size_t kMost = 100;
+  if (before_.size() == kMost) before_.pop_front();
+  before_.push_back(labels_);
+}
+
 void LabelEdits::begin(const map::Labels& labels) {
   labels_ = labels;
 }

@@ -2,6 +2,7 @@
 
 #include <omnimapper/map/Labels.h>
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ class LabelEdits {
     std::string text;  ///< a few words
   };
   /// Edits by a command: "rename OLD = NEW", "delete LABEL", "choose N" (the N-th choice of the question, from 1 on)
-  /// and "undo", which takes back the last change of this run.
+  /// and "undo", which takes back the last change of this run; 100 changes can be taken back.
   Outcome edit(const std::string& command);
 
  private:
@@ -38,10 +39,10 @@ class LabelEdits {
   Outcome remove(const std::string& name);
   Outcome choose(const std::string& number);
   Outcome undo();
-  void keep() { before_.push_back(labels_); }
+  void keep();
 
   map::Labels labels_;
-  std::vector<map::Labels> before_;
+  std::deque<map::Labels> before_;
 };
 
 }  // namespace omnimapper::plugins

@@ -103,8 +103,9 @@ mapper::WatchResult LabelsPlugin::watch(const mapper::Watched& watched, const ma
 
 void LabelsPlugin::take(const CObservationCommand& command, const mapper::Watched& watched, mapper::Batch& batch) {
   if (command.kind == obs::CommandKind::label) return takeLabel(command, watched, batch);
+  const bool was_asked = edits_.now().question.has_value();
   const auto outcome = edits_.edit(command.text);
-  if (outcome.is_done) request_.reset();
+  if (was_asked && !edits_.now().question) request_.reset();  // answered
   log(watched.pose->frame, command.timestamp, outcome.is_done, outcome.text, batch);
 }
 
@@ -182,6 +183,7 @@ void LabelsPlugin::giveUp(base::KeyFrameId frame, base::Stamp stamp, mapper::Bat
   if (edits_.now().question) why = "the question was not answered";
   if (!request_->why_not.empty()) why += " (" + request_->why_not + ")";
   log(frame, stamp, false, "the label " + shown(request_->command.text) + " was not given: " + why, batch);
+  edits_.forgetQuestion();
   request_.reset();
 }
 
@@ -194,6 +196,7 @@ mapper::Batch LabelsPlugin::atEnd(const mapper::View& view) {
   const auto* saved = view.map.layers.find<map::Labels>();
   edits_.begin(saved ? *saved : map::Labels());
   giveUp(last, stamp, batch);
+  batch.setLayer(edits_.now());
   return batch;
 }
 

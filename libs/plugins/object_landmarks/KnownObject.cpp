@@ -1,5 +1,6 @@
 #include "KnownObject.h"
 
+#include <omnimapper/base/Error.h>
 #include <omnimapper/geometry/Conversions.h>
 
 #include <algorithm>
@@ -33,6 +34,11 @@ void KnownObject::refresh(const map::Landmark& landmark, const mapper::View& vie
   KnownLandmark::refresh(landmark, view);
   std::vector<geometry::Se3> poses;
   auto current = std::dynamic_pointer_cast<const ObjectPayload>(landmark.payload);
+  if (!current) {
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "landmark " + toString(landmark.id) + " of [" + landmark.owner +
+                          "] is no object: another plugin had this section; give the plugin of objects another one");
+  }
   for (const auto& each : current->model->views())
     poses.push_back(geometry::fromMrpt(view.map.key_frames.at(each.frame).map_from_base));
   const bool same = payload && payload->model == current->model &&

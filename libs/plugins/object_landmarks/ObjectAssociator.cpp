@@ -139,6 +139,7 @@ void ObjectAssociator::makeRoom() {
   }
   if (oldest == nullptr) return;
   given_up_.insert(oldest->id);
+  batch().describeLandmark(oldest->id, oldest->payload->withoutModel());
   batch().retireLandmark(oldest->id);
   --unconfirmed_;
 }

@@ -164,6 +164,7 @@ void ObjectLandmarksPlugin::retireIfGone(KnownObject& object, base::Stamp stamp,
   auto payload = std::make_shared<ObjectPayload>(*object.payload);
   payload->evidence = evidence;
   object.looks.clear();
+  if (!is_confirmed) payload = std::make_shared<ObjectPayload>(*payload->withoutModel());
   batch.describeLandmark(object.id, std::move(payload));
   batch.retireLandmark(object.id);
   mapper::Decision decision;

@@ -1,5 +1,6 @@
 #include "ObjectMeasurement.h"
 
+#include <omnimapper/base/Names.h>
 #include <omnimapper/geometry/Conversions.h>
 
 #include <Eigen/Cholesky>
@@ -83,8 +84,8 @@ std::vector<ObjectMeasurement> objectMeasurements(const obs::CObservationObjects
     measurement.covariance =
         turn * object.covariance * turn.transpose() +
         covarianceOfPart(base_from_box.rotation.toRotationMatrix(), object.box_size, options.size_share);
-    measurement.class_label = object.class_label;
-    measurement.score = object.score;
+    measurement.class_label = base::printable(object.class_label);
+    measurement.score = std::isfinite(object.score) ? object.score : 0;
     if (i < pictures.size()) measurement.picture = pictures[i];
   }
   return measurements;

@@ -64,8 +64,10 @@ landmarks::LandmarkMerging<ObjectPayload> mergeObjects(const ObjectIndex& known,
       const double sigma = options.size_share * std::max(at.box.size.norm(), other.box.size.norm());
       const auto fit = landmarks::fitOfGap(kept.variable, gone.variable, view, sigma);
       if (!fit || fit->chi2 > limit) continue;
+      ObjectPayload with_looks = merging.payloadOf(gone.id);  // nothing was merged into it
+      for (const auto& [sight, stamp] : gone.looks) with_looks.evidence.add(sight, stamp);
       merging.merge(kept.id, gone.id, {fit->chi2, limit, "their points overlap"},
-                    merging.payloadOf(kept.id).with(merging.payloadOf(gone.id), view.map.key_frames, options.limits()));
+                    merging.payloadOf(kept.id).with(with_looks, view.map.key_frames, options.limits()));
     }
   }
   return merging;

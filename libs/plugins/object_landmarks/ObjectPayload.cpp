@@ -29,6 +29,13 @@ std::shared_ptr<ObjectPayload> ObjectPayload::with(const ObjectPayload& other, c
   return both;
 }
 
+std::shared_ptr<const ObjectPayload> ObjectPayload::withoutModel() const {
+  auto rest = std::make_shared<ObjectPayload>(*this);
+  rest->model = std::make_shared<const ObjectModel>();
+  rest->picture.reset();
+  return rest;
+}
+
 bool ObjectPayload::fits(const std::vector<std::string_view>& kinds) const {
   return kinds.size() == 1 && kinds[0] == graph::point3()->kind();
 }

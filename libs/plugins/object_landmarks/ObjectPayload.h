@@ -45,6 +45,8 @@ struct ObjectPayload : map::LandmarkPayload {
   bool isDrawn() const { return is_confirmed && !part_of; }
   /// The class with the largest sum, or "object" if none is known.
   std::string label() const;
+  /// A copy without points and picture, which a candidate that was given up need not keep.
+  std::shared_ptr<const ObjectPayload> withoutModel() const;
   /// A copy with the measurements of another landmark. The points of both models are fused at the poses of the key
   /// frames.
   std::shared_ptr<ObjectPayload> with(const ObjectPayload& other, const map::KeyFrames& key_frames,

@@ -138,7 +138,9 @@ void ObjectPayload::addTo(map::PayloadRegistry& registry) {
     payload->is_confirmed = graph::readUint(in, 1) != 0;
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       const std::string name = graph::readText(in);
-      payload->classes[name] = graph::readDouble(in);
+      const double score = graph::readDouble(in);
+      if (!std::isfinite(score)) refuse("has a class whose score is not finite");
+      payload->classes[name] = score;
     }
     for (auto left = graph::readUint(in, 4); left > 0; --left) {
       const std::string sensor = graph::readText(in);

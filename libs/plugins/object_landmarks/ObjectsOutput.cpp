@@ -125,7 +125,7 @@ void ObjectsOutput::finish(const mapper::View& view) {
                     {"map", title_},
                     {"merged", merged},
                     {"objects", std::move(objects)}};
-  derived::writeBytes(path_, all.dump(1) + "\n");
+  derived::writeBytes(path_, all.dump(1, ' ', true, json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace omnimapper::plugins

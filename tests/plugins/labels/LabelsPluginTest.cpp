@@ -82,6 +82,28 @@ TEST(LabelsPlugin, aRequestThatNobodyAnswersEndsAndSaysWhy) {
   EXPECT_TRUE(nowhere.labels().labels.empty());
 }
 
+TEST(LabelsPlugin, anEditLeavesARequestThatWaits) {
+  Tour tour;
+  tour.command("charger", obs::CommandSubject::place);
+  tour.command("table");
+  tour.edit("rename charger = dock");
+  tour.point(kTable);
+  ASSERT_EQ(tour.labels().labels.size(), 2u) << tour.lastReason();
+  EXPECT_EQ(tour.labels().labels[1].text, "table");
+}
+
+TEST(LabelsPlugin, aQuestionThatNobodyAnsweredCannotBeAnsweredLater) {
+  Tour tour;
+  tour.command("my cup", obs::CommandSubject::object, 5);
+  tour.point(kCups);
+  ASSERT_TRUE(tour.labels().question);
+  tour.wait(60);
+  tour.edit("choose 1");
+  EXPECT_EQ(tour.lastReason(), "there is no question");
+  EXPECT_TRUE(tour.labels().labels.empty());
+  EXPECT_FALSE(tour.labels().question);
+}
+
 TEST(LabelsPlugin, badLabelsAreRefused) {
   Tour tour;
   for (const std::string& text : {std::string(1 << 20, 'x'), std::string("\x1b[2Jtable"), std::string("  "),

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 #include <omnimapper/derived/LandmarkShapes.h>
 #include <omnimapper/derived/SavedMap.h>
+#include <omnimapper/graph/VariableKinds.h>
+#include <omnimapper/testing/HandMadeRun.h>
 #include <omnimapper/testing/MapperRun.h>
 
 #include <limits>
 
 #include "TableWorld.h"
+#include "object_landmarks/KnownObject.h"
 #include "object_landmarks/ObjectPayload.h"
 
 // Drives past a table with boxes on it, whose objects are known without errors.
@@ -219,6 +222,15 @@ TEST(ObjectLandmarksPlugin, AMapIsContinuedWithItsObjects) {
   }
   EXPECT_EQ(active, before) << "none is there twice";
   EXPECT_GE(found_again, 2U) << "those that were met after the session was aligned";
+}
+
+TEST(ObjectLandmarksPlugin, WhatIsNoObjectUnderTheNameOfItsSectionIsRefused) {
+  testing::HandMadeRun run;
+  map::Landmark landmark;
+  landmark.owner = "objects";
+  landmark.variables = {run.graph.addVariable(graph::point3(), Eigen::Vector3d::Zero())};
+  KnownObject object;
+  EXPECT_THROW(object.refresh(landmark, run.view()), base::Error);
 }
 
 TEST(ObjectLandmarksPlugin, ARunThatLocalizesChangesNoObject) {

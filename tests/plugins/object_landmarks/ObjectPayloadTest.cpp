@@ -2,6 +2,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
+#include <limits>
 #include <sstream>
 
 #include "object_landmarks/ObjectPayload.h"
@@ -74,6 +75,12 @@ TEST(ObjectPayload, DamageIsRefused) {
       }
     }
   }
+}
+
+TEST(ObjectPayload, AClassWhoseScoreIsNoNumberIsRefused) {
+  ObjectPayload payload = full();
+  payload.classes["cup"] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(readAgain(bytesOf(payload)), base::Error);
 }
 
 TEST(ObjectPayload, ShowsABoxAPictureAndTheEvidence) {

@@ -49,12 +49,13 @@ class ObjectsFiles : public ::testing::Test {
   json written() {
     mapper::PluginContext context;
     context.section = "object_files";
-    context.title = "a \"map\"";
+    context.title = title_;
     context.output_folder = folder_ / "";
     ObjectsOutput({}, context).finish(run_.view());
     return json::parse(contentOf(folder_ / "objects.json"));
   }
 
+  std::string title_ = "a \"map\"";
   testing::HandMadeRun run_;
   testing::ScratchFolder folder_;
 };
@@ -93,6 +94,12 @@ TEST_F(ObjectsFiles, HaveEachObjectWithItsEvidence) {
   const std::string ply = contentOf(folder_ / first["model"].get<std::string>());
   EXPECT_NE(ply.find("element vertex 4"), std::string::npos);
   EXPECT_EQ(ply.size(), ply.find("end_header\n") + 11 + 4 * 15);
+}
+
+TEST_F(ObjectsFiles, OfALogWhoseNameIsNoTextAreWritten) {
+  title_ = "caf\xE9";
+  add(State::active, true);
+  EXPECT_EQ(written()["objects"].size(), 1U);
 }
 
 TEST_F(ObjectsFiles, OfAMapWithoutObjectsAreOneFile) {

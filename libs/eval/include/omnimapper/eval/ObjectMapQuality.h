@@ -63,7 +63,7 @@ struct ObjectCurvePoint {
 struct ObjectMapQuality {
   std::vector<JudgedObject> judged;  ///< one for each object of the map
   std::vector<SoughtObject> sought;
-  std::vector<ObjectCurvePoint> curve;  ///< for 1, 2, ... images
+  std::vector<ObjectCurvePoint> curve;  ///< for 1 image and each number of images at which it changes
 
   std::size_t found() const;    ///< number of sought objects that are in the map, once or more often
   std::size_t doubled() const;  ///< number of sought objects that are in it more than once

@@ -153,6 +153,9 @@ void LandmarkAssociator<Measurement>::takeTogether(const std::vector<const Measu
   mapper::AssociationOptions options = options_;
   options.method = method;
   const auto found = mapper::associate(measurements.size(), pairings, view_, options, repeats_);
+  // Known before the first is settled, so that addNew() does not give up what another measurement of the image shows.
+  for (const auto& match : found.matches)
+    if (match.kind == mapper::Match::Kind::matched) met_.insert(pairings[*match.pairing].landmark);
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const auto& match = found.matches[i];
     std::optional<LandmarkIds> nearest;
