@@ -55,6 +55,17 @@ TEST_F(RoomEditsOfPlan, MergeJoinsTwoRoomsThatHaveADoor) {
   EXPECT_NE(apply({Kind::merge, "", {{5, 4}, {5, 5}}}), "") << "one room";
 }
 
+TEST_F(RoomEditsOfPlan, LinesAndDoorsFarAwayAreRefused) {
+  const Storey before = rooms_.storey;
+  EXPECT_NE(apply({Kind::split, "", {{7, -1e5}, {7, 1e5 + 2}}}).find("far outside of all rooms"), std::string::npos);
+  EXPECT_NE(apply({Kind::move_door, "", {{5.4, 2}, {0, 0}, {2e7, 0}}}).find("at most 20 m wide"), std::string::npos);
+  EXPECT_NE(apply({Kind::move_door, "", {{5.4, 2}, {1e200, 0}, {-1e200, 0}}}).find("wide"), std::string::npos);
+  EXPECT_NE(apply({Kind::move_door, "", {{5.4, 2}, {20, 2}, {21, 2}}}).find("moves by at most 5 m"), std::string::npos);
+  ASSERT_EQ(rooms_.storey.doors.size(), before.doors.size());
+  for (std::size_t i = 0; i < before.doors.size(); ++i)
+    EXPECT_EQ(rooms_.storey.doors[i].width, before.doors[i].width) << "nothing was changed";
+}
+
 TEST_F(RoomEditsOfPlan, SplitCutsARoomAtALineAndMakesADoorThere) {
   const int corridor = at(6, 1).id;
   EXPECT_NE(apply({Kind::split, "", {{7, 0.5}, {7, 1}}}), "") << "it does not reach the walls";
@@ -100,6 +111,13 @@ TEST_F(RoomEditsOfPlan, EditsAreReadBackAndDefectsAreNamed) {
   EXPECT_NE(refusal("\"rename\"", "\"paint\"").find("'paint' is no edit"), std::string::npos);
   EXPECT_NE(refusal("\"split\"", "\"rename\"").find("number of points"), std::string::npos);
   EXPECT_NE(refusal("[\n    2.0", "[\n    2e300").find("too far"), std::string::npos) << text;
+}
+
+TEST(MovedEdits, AreInReachOfADocument) {
+  const RoomEdits edits{{{Kind::rename, "Library", {{1e6, 2}}}}, {{{1e6, 1e6}, {0, 0}, {1, 0}}}, {{"213", {-1e6, 0}}}};
+  const std::string text = encodeEdits(moved(edits, {9e5, 3, 0.5}));
+  EXPECT_EQ(encodeEdits(decodeEdits(text, "test")), text);
+  EXPECT_EQ(moved(edits, {1, 2, 0}).outlines[0][1], Eigen::Vector2d(1, 2));
 }
 
 /// Edits of the corridor, taken over by a plan in another frame.

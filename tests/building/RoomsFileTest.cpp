@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/building/RoomsFile.h>
+#include <omnimapper/building/RoomsOfCells.h>
 #include <omnimapper/building/Segmentation.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <fstream>
@@ -83,7 +85,45 @@ TEST_F(RoomsFile, eachDefectIsNamed) {
   EXPECT_NE(refusal(changed("\"centre\"", "\"anchor\": {\"key_frame\": \"7\", \"pose\": [0, 0, 0]}, \"centre\""))
                 .find("'7' is no key frame"),
             std::string::npos);
+  EXPECT_NE(refusal(changed("\"next_door\": 2", "\"next_door\": 0")).find("impossible"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"holes\": []", "\"holes\": [[]]")).find("fewer than 3 corners"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"holes\": []", "\"holes\": [[[0, 0], [1, 1]]]")).find("fewer than 3 corners"),
+            std::string::npos);
+  EXPECT_NE(refusal(changed("\"from\": [", "\"from\": [1e7, 2], \"old\": [")).find("too far"), std::string::npos);
+  EXPECT_NE(refusal(changed("\"centre\"", "\"anchor\": {\"key_frame\": \"0:7\", \"pose\": [1e300, 0, 0]}, \"centre\""))
+                .find("too far"),
+            std::string::npos);
   EXPECT_NE(refusal(good.substr(0, good.size() / 2)).find("rooms.json"), std::string::npos);
+}
+
+TEST_F(RoomsFile, outlinesHaveThreeCornersAndIdsBeginAtOneAlsoWithoutRooms) {
+  auto json = nlohmann::json::parse(encodeRooms({{segmentRooms(twoRooms().grid()).storey}}));
+  auto& storey = json["building"]["storeys"][0];
+  storey["rooms"][0]["outline"] = nlohmann::json::array();
+  EXPECT_NE(refusal(json.dump()).find("fewer than 3 corners"), std::string::npos);
+  storey["rooms"] = storey["doors"] = nlohmann::json::array();
+  EXPECT_EQ(refusal(json.dump()), "");
+  storey["next_room"] = 0;
+  EXPECT_NE(refusal(json.dump()).find("impossible"), std::string::npos);
+}
+
+TEST_F(RoomsFile, aRoomOfOneCellIsReadBack) {
+  PaintedPlan plan(4, 4, 1);
+  plan.room(1, 1, 2, 2);
+  const Storey storey = segmentRooms(plan.grid()).storey;
+  ASSERT_EQ(storey.rooms.size(), 1U);
+  EXPECT_EQ(refusal(encodeRooms({{storey}})), "");
+  EXPECT_NEAR(geometry::area(storey.rooms[0].outline), 1, 1e-9) << "the corners of the cell";
+}
+
+TEST(RoomsOfCells, loopsWithoutCornersCoverNoCell) {
+  const grid::GridMap grid = twoRooms().grid();
+  Storey storey = segmentRooms(grid).storey;
+  const auto before = roomsOfCells(storey, grid);
+  storey.rooms[1].outline.clear();
+  storey.rooms[0].holes.emplace_back();
+  const auto after = roomsOfCells(storey, grid);
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_EQ(after[i], before[i] == 2 ? 0 : before[i]);
 }
 
 }  // namespace

@@ -12,11 +12,19 @@ namespace {
 
 using Loop = std::vector<Eigen::Vector2d>;
 
-/// The corners of a contour of cells, simplified, in the map. A contour runs through the middles of cells.
+/// The corners of a contour of cells, simplified, in the map. A contour runs through the middles of cells; one or two
+/// cells, which would have no area, have their outer corners instead.
 Loop loopOf(const FreeSpace& space, const geometry::Se2& map_from_grid, const std::vector<cv::Point>& contour,
             const cv::Point& corner) {
   constexpr double kTolerance = 0.1;  // [m]
   Loop all;
+  if (contour.size() < 3) {
+    const cv::Rect box = cv::boundingRect(contour) + corner;
+    const cv::Point2d low = cv::Point2d(box.tl()) - cv::Point2d(0.5, 0.5), size(box.width, box.height);
+    for (const auto& at : {low, low + cv::Point2d(size.x, 0), low + size, low + cv::Point2d(0, size.y)})
+      all.push_back(map_from_grid * space.inGrid(at));
+    return all;
+  }
   for (const cv::Point& point : contour) all.push_back(map_from_grid * space.inGrid(point + corner));
   Loop loop;
   for (const std::size_t i : geometry::keptOfLoop(all, kTolerance)) loop.push_back(all[i]);

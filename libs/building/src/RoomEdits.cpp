@@ -4,6 +4,7 @@
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/building/RoomEdits.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -30,9 +31,8 @@ Json placeJson(const Eigen::Vector2d& point) {
 }
 
 Eigen::Vector2d placeOf(const Json& json) {
-  constexpr double kFarthest = 1e7;  // [m]
   const Eigen::Vector2d point(json.at(0).get<double>(), json.at(1).get<double>());
-  if (!(point.cwiseAbs().maxCoeff() < kFarthest)) throw std::out_of_range("a point is too far away");
+  if (!(point.cwiseAbs().maxCoeff() <= kFarthest)) throw std::out_of_range("a point is too far away");
   return point;
 }
 
@@ -125,11 +125,12 @@ RoomEdits readEdits(const std::string& file) {
 }
 
 RoomEdits moved(RoomEdits edits, const geometry::Se2& now_from_then) {
-  for (auto& edit : edits.edits)
-    for (auto& point : edit.points) point = now_from_then * point;
-  for (auto& outline : edits.outlines)
-    for (auto& corner : outline) corner = now_from_then * corner;
-  for (auto& [text, place] : edits.signs) place = now_from_then * place;
+  const auto move = [&](Eigen::Vector2d& point) {
+    point = (now_from_then * point).cwiseMax(-kFarthest).cwiseMin(kFarthest);
+  };
+  for (auto& edit : edits.edits) std::for_each(edit.points.begin(), edit.points.end(), move);
+  for (auto& outline : edits.outlines) std::for_each(outline.begin(), outline.end(), move);
+  for (auto& [text, place] : edits.signs) move(place);
   return edits;
 }
 

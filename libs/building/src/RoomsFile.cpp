@@ -84,12 +84,15 @@ Json doorJson(const Door& door) {
 }
 
 Eigen::Vector2d pointOf(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>()};
+  const Eigen::Vector2d point(json.at(0).get<double>(), json.at(1).get<double>());
+  if (!(point.cwiseAbs().maxCoeff() <= kFarthest)) throw std::out_of_range("a point is too far away");
+  return point;
 }
 
 std::vector<Eigen::Vector2d> loopOf(const Json& json) {
   std::vector<Eigen::Vector2d> loop;
   for (const auto& point : json) loop.push_back(pointOf(point));
+  if (loop.size() < 3) throw std::out_of_range("an outline or a hole has fewer than 3 corners");
   return loop;
 }
 
@@ -120,7 +123,8 @@ Anchor anchorOf(const Json& json) {
   if (index.ec != std::errc() || index.ptr != end)
     throw std::out_of_range("'" + base::printable(id.substr(0, 40)) + "' is no key frame");
   const Json& pose = json.at("pose");
-  anchor.map_from_frame = {pose.at(0), pose.at(1), pose.at(2)};
+  const Eigen::Vector2d at = pointOf(pose);
+  anchor.map_from_frame = {at.x(), at.y(), pose.at(2)};
   return anchor;
 }
 
@@ -188,7 +192,7 @@ Storey storeyOf(const Json& json) {
   if (json.contains("unseen"))
     for (const auto& room : json.at("unseen")) storey.unseen.push_back(unseenOf(room));
   constexpr int kLargest = 1'000'000'000;
-  if (storey.next_room > kLargest || storey.next_door <= 0 || storey.next_door > kLargest)
+  if (storey.next_room <= 0 || storey.next_room > kLargest || storey.next_door <= 0 || storey.next_door > kLargest)
     throw std::out_of_range("the next id is impossible");
   for (const Room& room : storey.rooms)
     if (room.id <= 0 || room.id >= storey.next_room || !(room.clearance >= 0))

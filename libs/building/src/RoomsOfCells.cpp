@@ -19,8 +19,10 @@ std::vector<std::int32_t> roomsOfCells(const Storey& storey, const grid::GridMap
         loop.emplace_back(cell.x(), cell.y());
       }
     };
+    if (room.outline.empty()) continue;
     add(room.outline);
-    for (const auto& hole : room.holes) add(hole);
+    for (const auto& hole : room.holes)
+      if (!hole.empty()) add(hole);
     cv::fillPoly(picture, loops, room.id);
   }
   return rooms;

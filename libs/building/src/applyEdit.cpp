@@ -152,10 +152,14 @@ void giveDoors(Storey& storey, int room, const Room& part) {
 std::string split(const RoomEdit& edit, const grid::GridMap& grid, Segmentation& rooms) {
   constexpr double kLeastPart = 0.5;  // [m^2]
   const Vector2d middle = 0.5 * (edit.points[0] + edit.points[1]);
+  constexpr double kBehindWalls = 2;  // [m] the line may end this far outside of all rooms
   Room* room = roomNear(rooms, middle);
   if (!room) return noRoomAt(middle);
   if ((edit.points[1] - edit.points[0]).norm() < grid.resolution) return "the line has no length";
   cv::Mat labels(grid.rows, grid.columns, CV_32S, rooms.room_of_cell.data());
+  for (const Vector2d& end : edit.points)
+    if (!(nearestRoom(rooms.storey, end)->distance <= kBehindWalls))
+      return "the line ends at " + placeText(end) + ", far outside of all rooms: begin and end it at walls";
   const auto parts = partsOf(labels == room->id, grid, edit);
   const double cell_area = grid.resolution * grid.resolution;
   if (parts.size() < 2 || cv::countNonZero(parts[1]) * cell_area < kLeastPart)
@@ -186,7 +190,7 @@ std::string split(const RoomEdit& edit, const grid::GridMap& grid, Segmentation&
 }
 
 std::string moveDoor(const RoomEdit& edit, Segmentation& rooms) {
-  constexpr double kNear = 1;  // [m]
+  constexpr double kNear = 1, kWidest = 20, kMoved = 5;  // [m]
   Door* nearest = nullptr;
   double least = kNear;
   for (Door& door : rooms.storey.doors)
@@ -195,8 +199,13 @@ std::string moveDoor(const RoomEdit& edit, Segmentation& rooms) {
       nearest = &door;
     }
   if (!nearest) return "there is no door at " + placeText(edit.points[0]);
-  nearest->opening = {edit.points[1], edit.points[2]};
-  nearest->width = length(nearest->opening);
+  const geometry::Segment2 opening{edit.points[1], edit.points[2]};
+  if (!(length(opening) <= kWidest)) return "a door is at most " + base::brief(kWidest) + " m wide";
+  if (!(geometry::distance(nearest->opening, geometry::middle(opening)) <= kMoved))
+    return "a door moves by at most " + base::brief(kMoved) + " m, and this one is at " +
+           placeText(geometry::middle(nearest->opening));
+  nearest->opening = opening;
+  nearest->width = length(opening);
   nearest->confidence = 1;
   return "";
 }

@@ -18,7 +18,7 @@ struct RoomEdit {
     merge,      ///< points: one in each of two rooms; the larger room keeps its id
     split,      ///< points: the ends of the line; the larger part keeps the id
     remove,     ///< points: one in the room, which becomes no room
-    move_door,  ///< points: one at the door, then the ends of its new opening
+    move_door,  ///< points: one at the door, then the ends of its new opening, which is near the old one
   };
   Kind kind = Kind::rename;
   std::string name;                     ///< of rename
@@ -52,7 +52,7 @@ std::string applyEdit(const RoomEdit& edit, const grid::GridMap& grid, Segmentat
 std::optional<geometry::Se2> alignEdits(const RoomEdits& edits, const Storey& now,
                                         const std::map<std::string, Eigen::Vector2d>& signs);
 
-/// The edits in another frame.
+/// The edits in another frame. Coordinates of more than kFarthest become kFarthest.
 RoomEdits moved(RoomEdits edits, const geometry::Se2& now_from_then);
 
 /// The edits with the outlines and signs of now.

@@ -14,6 +14,9 @@
 /// The vocabulary of a building. Positions are in the frame of the map [m]; confidences are between 0 and 1.
 namespace omnimapper::building {
 
+/// Coordinates in documents are at most so far from zero [m]: what is farther away is damage.
+inline constexpr double kFarthest = 1e6;
+
 /// What speaks for a door.
 struct DoorEvidence {
   double narrowing = 0;       ///< width, divided by that of the largest circle that fits into the smaller room
