@@ -42,17 +42,31 @@ TEST_F(RoomEditsOfPlan, RenameGivesANameThatIsSure) {
 }
 
 TEST_F(RoomEditsOfPlan, MergeJoinsTwoRoomsThatHaveADoor) {
-  const int corridor = at(6, 1).id;
+  const int corridor = at(6, 1).id, id = at(2, 4).id;
   const double area = at(6, 1).area + at(2, 4).area;
   EXPECT_EQ(apply({Kind::merge, "", {{2, 4}, {6, 1}}}), "");
-  EXPECT_EQ(at(2, 4).id, corridor) << "the larger one keeps its id";
-  EXPECT_EQ(at(6, 1).id, corridor);
+  EXPECT_LT(id, corridor);
+  EXPECT_EQ(at(2, 4).id, id) << "the lower id stays, though that room is the smaller one";
+  EXPECT_EQ(at(6, 1).id, id);
   EXPECT_NEAR(at(2, 4).area, area, 0.5);
   EXPECT_EQ(rooms_.storey.rooms.size(), 3U);
   EXPECT_EQ(rooms_.storey.doors.size(), 2U);
   expectWhole();
   EXPECT_NE(apply({Kind::merge, "", {{5, 4}, {10, 4}}}), "") << "a wall is between them";
   EXPECT_NE(apply({Kind::merge, "", {{5, 4}, {5, 5}}}), "") << "one room";
+}
+
+TEST_F(RoomEditsOfPlan, MergeKeepsTheNameThatAUserGave) {
+  for (Room& room : rooms_.storey.rooms) {
+    room.name = "sign " + std::to_string(room.id);
+    room.why = {{NameEvidence::Source::sign, room.name, 0.9}};
+  }
+  EXPECT_EQ(apply({Kind::rename, "Lobby", {{6, 1}}}), "");
+  EXPECT_EQ(apply({Kind::merge, "", {{2, 4}, {6, 1}}}), "");
+  EXPECT_EQ(at(2, 4).name, "Lobby") << "the corridor has the higher id";
+  EXPECT_EQ(at(2, 4).name_confidence, 1);
+  EXPECT_EQ(apply({Kind::merge, "", {{10, 4}, {6, 1}}}), "");
+  EXPECT_EQ(at(10, 4).name, "Lobby");
 }
 
 TEST_F(RoomEditsOfPlan, LinesAndDoorsFarAwayAreRefused) {
@@ -81,6 +95,7 @@ TEST_F(RoomEditsOfPlan, SplitCutsARoomAtALineAndMakesADoorThere) {
 TEST_F(RoomEditsOfPlan, DeleteLeavesNoRoomAndMoveDoorMovesTheNearest) {
   EXPECT_EQ(apply({Kind::remove, "", {{2, 4}}}), "");
   EXPECT_EQ(roomAt(rooms_.storey, {2, 4}), nullptr);
+  EXPECT_EQ(apply({Kind::remove, "", {{4, 4}}}), "there is no room at 4.00 4.00") << "0.05 m beside its neighbour";
   EXPECT_EQ(rooms_.storey.doors.size(), 2U);
   expectWhole();
   EXPECT_EQ(apply({Kind::move_door, "", {{5.4, 2}, {6, 2.05}, {7, 2.05}}}), "");

@@ -96,12 +96,6 @@ void forgetSigns(Storey& storey) {
   storey.unseen.clear();
 }
 
-bool isNamedByUser(const Room& room) {
-  return !room.name.empty() && std::any_of(room.why.begin(), room.why.end(), [](const NameEvidence& each) {
-    return each.source == NameEvidence::Source::user;
-  });
-}
-
 // The text that most speaks for; two that say different things make each other doubtful.
 void chooseName(Room& room, const std::map<std::string, double>& texts) {
   if (texts.empty() || isNamedByUser(room)) return;

@@ -56,6 +56,12 @@ std::string nameOf(const Room& room) {
   return "room " + std::to_string(room.id);
 }
 
+bool isNamedByUser(const Room& room) {
+  return !room.name.empty() && std::any_of(room.why.begin(), room.why.end(), [](const NameEvidence& each) {
+    return each.source == NameEvidence::Source::user;
+  });
+}
+
 std::string labelOf(const Room& room) {
   const std::string name = nameOf(room), number = std::to_string(room.id);
   return name == "room " + number ? number : name + " (" + number + ")";

@@ -65,7 +65,8 @@ std::string rename(const RoomEdit& edit, Segmentation& rooms) {
 }
 
 std::string remove(const RoomEdit& edit, Segmentation& rooms) {
-  const Room* room = roomNear(rooms, edit.points[0]);
+  // The point itself must be in the room: if the room is gone already, its neighbour must not go, too.
+  const Room* room = roomAt(rooms.storey, edit.points[0]);
   if (!room) return noRoomAt(edit.points[0]);
   const int id = room->id;
   Storey& storey = rooms.storey;
@@ -86,9 +87,9 @@ std::string merge(const RoomEdit& edit, const grid::GridMap& grid, Segmentation&
   if (kept == other) return "both points are in room " + std::to_string(kept->id);
   if (std::count(kept->neighbours.begin(), kept->neighbours.end(), other->id) == 0)
     return "no door joins room " + std::to_string(kept->id) + " and room " + std::to_string(other->id);
-  if (other->area > kept->area) std::swap(kept, other);
+  if (other->id < kept->id) std::swap(kept, other);
   const int id = kept->id, gone = other->id;
-  if (kept->name.empty()) {
+  if (kept->name.empty() || (isNamedByUser(*other) && !isNamedByUser(*kept))) {
     kept->name = other->name;
     kept->name_confidence = other->name_confidence;
   }
@@ -151,15 +152,15 @@ void giveDoors(Storey& storey, int room, const Room& part) {
 
 std::string split(const RoomEdit& edit, const grid::GridMap& grid, Segmentation& rooms) {
   constexpr double kLeastPart = 0.5;  // [m^2]
-  const Vector2d middle = 0.5 * (edit.points[0] + edit.points[1]);
   constexpr double kBehindWalls = 2;  // [m] the line may end this far outside of all rooms
+  const Vector2d middle = 0.5 * (edit.points[0] + edit.points[1]);
   Room* room = roomNear(rooms, middle);
   if (!room) return noRoomAt(middle);
   if ((edit.points[1] - edit.points[0]).norm() < grid.resolution) return "the line has no length";
-  cv::Mat labels(grid.rows, grid.columns, CV_32S, rooms.room_of_cell.data());
   for (const Vector2d& end : edit.points)
     if (!(nearestRoom(rooms.storey, end)->distance <= kBehindWalls))
       return "the line ends at " + placeText(end) + ", far outside of all rooms: begin and end it at walls";
+  cv::Mat labels(grid.rows, grid.columns, CV_32S, rooms.room_of_cell.data());
   const auto parts = partsOf(labels == room->id, grid, edit);
   const double cell_area = grid.resolution * grid.resolution;
   if (parts.size() < 2 || cv::countNonZero(parts[1]) * cell_area < kLeastPart)

@@ -15,7 +15,7 @@ namespace omnimapper::building {
 struct RoomEdit {
   enum class Kind {
     rename,     ///< points: one in the room
-    merge,      ///< points: one in each of two rooms; the larger room keeps its id
+    merge,      ///< points: one in each of two rooms; the lower id stays
     split,      ///< points: the ends of the line; the larger part keeps the id
     remove,     ///< points: one in the room, which becomes no room
     move_door,  ///< points: one at the door, then the ends of its new opening, which is near the old one

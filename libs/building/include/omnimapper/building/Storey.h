@@ -79,6 +79,9 @@ inline constexpr double kSureKind = 0.8;
 /// "213", "kitchen" if its kind is sure, else "room 3".
 std::string nameOf(const Room& room);
 
+/// Whether its name is that of a user.
+bool isNamedByUser(const Room& room);
+
 /// What pictures show: "213 (3)", "kitchen (3)", or the number alone.
 std::string labelOf(const Room& room);
 
