@@ -29,6 +29,11 @@ void RoomsPlugin::registerKinds(mapper::Kinds& kinds) {
   kinds.layers.add<RoomsLayer>();
 }
 
+RoomsPlugin::RoomsPlugin(const RoomsOptions& options, const mapper::PluginContext& context)
+    : options_(options), section_(context.section) {
+  if (!options_.edits.empty()) edits_ = building::readEdits(options_.edits);
+}
+
 mapper::Batch RoomsPlugin::atEnd(const mapper::View& view) {
   mapper::Batch batch;
   if (view.map_is_held) return batch;
@@ -48,8 +53,7 @@ mapper::Batch RoomsPlugin::atEnd(const mapper::View& view) {
   } else if ((*shared)->resolution > kCoarse) {
     log("the map is so large that cells are " + base::brief((*shared)->resolution) + " m wide, too wide for doors");
   } else {
-    const auto edits = options_.edits.empty() ? building::RoomEdits() : building::readEdits(options_.edits);
-    auto rooms = roomsOfMap(view, withDrivenWay(gridMapOf(**shared), view.map, options_.robot_radius), edits);
+    auto rooms = roomsOfMap(view, withDrivenWay(gridMapOf(**shared), view.map, options_.robot_radius), edits_);
     for (const auto& [edit, why_not] : rooms.edits)
       log(edit + (why_not.empty() ? "" : ": " + why_not), why_not.empty());
     batch.setLayer(std::move(rooms.layer));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/building/RoomEdits.h>
 #include <omnimapper/plugin/MeasurementPlugin.h>
 #include <omnimapper/plugin/PluginFactory.h>
 
@@ -26,8 +27,8 @@ class RoomsPlugin : public mapper::MeasurementPlugin {
   static constexpr const char* kSummary = "Finds the rooms and doors of the finished map; signs name them.";
   static void registerKinds(mapper::Kinds& kinds);
 
-  RoomsPlugin(const RoomsOptions& options, const mapper::PluginContext& context)
-      : options_(options), section_(context.section) {}
+  /// Throws Error(unreadable_input) if there is a file of edits that cannot be read (building::readEdits()).
+  RoomsPlugin(const RoomsOptions& options, const mapper::PluginContext& context);
 
   bool wants(const mrpt::obs::CObservation&) const override { return false; }
   bool worksOnLandmarks() const override { return true; }
@@ -37,6 +38,7 @@ class RoomsPlugin : public mapper::MeasurementPlugin {
  private:
   RoomsOptions options_;
   std::string section_;
+  building::RoomEdits edits_;  // of the file
 };
 
 }  // namespace omnimapper::plugins

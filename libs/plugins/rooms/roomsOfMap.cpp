@@ -86,20 +86,82 @@ building::Storey asItIsNow(const building::Storey& earlier, const map::KeyFrames
   });
 }
 
-// Applies edits that were made in this map or in an earlier one of the place.
-void takeOver(const building::RoomEdits& edits, const grid::GridMap& grid,
-              const std::map<std::string, Eigen::Vector2d>& signs, building::Segmentation& rooms, EditedRooms& result) {
-  if (edits.edits.empty()) return;
-  const auto now_from_then = building::alignEdits(edits, rooms.storey, signs);
-  if (!now_from_then) {
-    result.edits.emplace_back("all " + std::to_string(edits.edits.size()) + " edits",
-                              "their rooms are not those of this map: they are of another place");
-    return;
+bool isSame(const building::RoomEdit& a, const building::RoomEdit& b) {
+  const auto areClose = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    constexpr double kClose = 0.01;  // [m]
+    return (p - q).norm() <= kClose;
+  };
+  return a.kind == b.kind && a.name == b.name &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), areClose);
+}
+
+// Edits of the place, each also in the frame of the map of now.
+struct PlacedEdits {
+  building::RoomEdits then, now;
+  bool are_placed = false;
+};
+
+PlacedEdits placed(const building::RoomEdits& edits, const building::Storey& storey,
+                   const std::map<std::string, Eigen::Vector2d>& signs) {
+  const auto now_from_then = building::alignEdits(edits, storey, signs);
+  if (!now_from_then) return {edits, {}, false};
+  return {edits, building::moved(edits, *now_from_then), true};
+}
+
+// Without those that are among the known ones, in either frame; each known one stands for one.
+void forgetKnown(PlacedEdits known, PlacedEdits& edits) {
+  const auto has = [](const PlacedEdits& all, std::size_t i, const PlacedEdits& others, std::size_t j) {
+    return isSame(all.then.edits[i], others.then.edits[j]) ||
+           (all.are_placed && others.are_placed && isSame(all.now.edits[i], others.now.edits[j]));
+  };
+  const auto forget = [](PlacedEdits& all, std::size_t i) {
+    all.then.edits.erase(all.then.edits.begin() + static_cast<std::ptrdiff_t>(i));
+    if (all.are_placed) all.now.edits.erase(all.now.edits.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  for (std::size_t i = 0; i < edits.then.edits.size();) {
+    std::size_t j = 0;
+    while (j < known.then.edits.size() && !has(edits, i, known, j)) ++j;
+    if (j == known.then.edits.size()) {
+      ++i;
+      continue;
+    }
+    forget(edits, i);
+    forget(known, j);
   }
-  for (const auto& edit : building::moved(edits, *now_from_then).edits) {
-    result.edits.emplace_back(toString(edit), building::applyEdit(edit, grid, rooms));
-    if (result.edits.back().second.empty()) result.layer.rooms.edits.edits.push_back(edit);
+}
+
+enum class Source { map, file, file_for_now };
+
+// Applies the edits that the map has, which it keeps, or those of a file.
+void takeOver(const PlacedEdits& edits, Source source, const grid::GridMap& grid, building::Segmentation& rooms,
+              EditedRooms& result) {
+  if (edits.then.edits.empty()) return;
+  const std::string kept = source == Source::map ? "; kept for a later session" : "",
+                    now_only = source == Source::file_for_now ? ", in this session only" : "";
+  if (!edits.are_placed)
+    result.edits.emplace_back("all " + std::to_string(edits.then.edits.size()) + " edits",
+                              "their rooms are not those of this map: they are of another place" + kept);
+  for (const auto& edit : edits.now.edits) {
+    const std::string why_not = building::applyEdit(edit, grid, rooms);
+    result.edits.emplace_back(toString(edit) + now_only, why_not.empty() ? "" : why_not + kept);
+    if (why_not.empty() || source == Source::map) result.layer.rooms.edits.edits.push_back(edit);
   }
+}
+
+// Applies the edits of the map and those of a file, and sets those of the layer.
+void takeOverAll(const building::RoomEdits& of_map, const building::RoomEdits& of_file, const grid::GridMap& grid,
+                 const std::map<std::string, Eigen::Vector2d>& signs, building::Segmentation& rooms,
+                 EditedRooms& result) {
+  const PlacedEdits own = placed(of_map, rooms.storey, signs);
+  takeOver(own, Source::map, grid, rooms, result);
+  PlacedEdits given = placed(of_file, rooms.storey, signs);
+  forgetKnown(own, given);
+  // Edits without a place stay as they are, with what their place looked like. Others do not go with them.
+  const bool is_lost = !own.are_placed && !of_map.edits.empty();
+  takeOver(given, is_lost ? Source::file_for_now : Source::file, grid, rooms, result);
+  auto& edits = result.layer.rooms.edits;
+  edits = is_lost ? of_map : building::anchoredTo(std::move(edits), rooms.storey, signs);
+  if (edits.edits.empty()) edits.outlines.clear();
 }
 
 }  // namespace
@@ -108,7 +170,8 @@ EditedRooms roomsOfMap(const mapper::State& state, const grid::GridMap& grid, co
   EditedRooms result;
   RoomsLayer& layer = result.layer;
   building::Segmentation now = building::segmentRooms(grid);
-  if (const auto* earlier = state.map.layers.find<RoomsLayer>()) {
+  const auto* earlier = state.map.layers.find<RoomsLayer>();
+  if (earlier) {
     const auto& storey = earlier->rooms.building.storeys.front();
     auto continued = building::continueRooms(asItIsNow(storey, state.map.key_frames), grid, std::move(now));
     now = std::move(continued.now);
@@ -116,16 +179,13 @@ EditedRooms roomsOfMap(const mapper::State& state, const grid::GridMap& grid, co
   }
   const auto landmarks = derived::shapesOf(state);
   const auto signs = signsOf(landmarks);
-  const auto* earlier = state.map.layers.find<RoomsLayer>();
-  for (const auto* from : {earlier ? &earlier->rooms.edits : nullptr, &edits})
-    if (from) takeOver(*from, grid, building::uniqueSigns(signs), now, result);
+  takeOverAll(earlier ? earlier->rooms.edits : building::RoomEdits(), edits, grid, building::uniqueSigns(signs), now,
+              result);
   building::Storey storey = std::move(now.storey);
   building::nameBySigns(storey, signs);
   const auto contents = contentsOf(landmarks, storey);
   building::nameByContents(storey, contents.by_room, contents.sees_things);
   for (auto& room : storey.rooms) room.anchor = anchorOf(room, state.map.key_frames);
-  layer.rooms.edits = building::anchoredTo(std::move(layer.rooms.edits), storey, building::uniqueSigns(signs));
-  if (layer.rooms.edits.edits.empty()) layer.rooms.edits.outlines.clear();
   layer.rooms.building.storeys.push_back(std::move(storey));
   return result;
 }

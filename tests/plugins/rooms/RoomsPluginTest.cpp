@@ -5,6 +5,7 @@
 #include <omnimapper/testing/Fixtures.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "rooms/RoomsLayer.h"
 #include "rooms/RoomsOutput.h"
@@ -17,21 +18,24 @@ using namespace box_world;
 using omnimapper::testing::ScratchFolder;
 using plugins::RoomsLayer;
 
-mapper::Batch atEnd(const RunRecord& run, bool map_is_held = false) {
+mapper::Batch atEnd(const RunRecord& run, bool map_is_held = false, const plugins::RoomsOptions& options = {}) {
   mapper::View view = run.view();
   view.map_is_held = map_is_held;
-  plugins::RoomsPlugin plugin({}, {});
+  plugins::RoomsPlugin plugin(options, {});
   return plugin.atEnd(view);
 }
 
 /// The layer that the plugin sets; fails the test if it sets none.
-RoomsLayer layerOf(const RunRecord& run) {
-  const mapper::Batch batch = atEnd(run);
+RoomsLayer layerOf(const mapper::Batch& batch) {
   if (batch.layers().size() != 1) {
     ADD_FAILURE() << "the plugin sets no layer";
     return {};
   }
   return dynamic_cast<const map::LayerOf<RoomsLayer>&>(*batch.layers().front().second).value;
+}
+
+RoomsLayer layerOf(const RunRecord& run) {
+  return layerOf(atEnd(run));
 }
 
 const building::Storey& storeyOf(const RoomsLayer& layer) {
@@ -93,6 +97,80 @@ TEST(RoomsPlugin, aRoomKeepsItsIdIfALoopClosureMovesTheWholeMap) {
   for (const auto& frame : boxRun().map.key_frames)
     run.map.key_frames.edit(frame.id).map_from_base = moved + frame.map_from_base;
   EXPECT_EQ(storeyOf(layerOf(run)).rooms.front().id, 5);
+}
+
+building::RoomEdit renameTo(const std::string& name) {
+  return {building::RoomEdit::Kind::rename, name, {{1, 0}}};
+}
+
+/// What the decisions say, one line each.
+std::string saidBy(const mapper::Batch& batch) {
+  std::string said;
+  for (const auto& decision : batch.decisions()) said += decision.reason + "\n";
+  return said;
+}
+
+/// The box with a layer that has some edits, and a file of edits.
+class EditsOfRooms : public ::testing::Test {
+ protected:
+  EditsOfRooms() : layer_(layerOf(run_)) {}
+  building::RoomEdits editsHere(const std::vector<building::RoomEdit>& edits) const {
+    return building::anchoredTo({edits, {}, {}}, storeyOf(layer_), {});
+  }
+  void setLayer(const building::RoomEdits& edits) {
+    layer_.rooms.edits = edits;
+    run_.map.layers.set(layer_);
+  }
+  mapper::Batch continued(const building::RoomEdits& of_file) const {
+    std::ofstream(folder_ / "edits.json") << building::encodeEdits(of_file);
+    plugins::RoomsOptions options;
+    options.edits = folder_ / "edits.json";
+    return atEnd(run_, false, options);
+  }
+  static building::RoomEdits elsewhere() { return {{renameTo("cellar")}, {{{0, 0}, {90, 0}, {90, 1}, {0, 1}}}, {}}; }
+
+  RunRecord run_ = boxRun();
+  RoomsLayer layer_;
+  ScratchFolder folder_;
+};
+
+TEST_F(EditsOfRooms, AFileThatCannotBeReadIsRefusedBeforeTheRun) {
+  plugins::RoomsOptions options;
+  options.edits = folder_ / "edits.json";
+  EXPECT_THROW(plugins::RoomsPlugin(options, {}), base::Error);
+  std::ofstream(options.edits) << "{}";
+  EXPECT_THROW(plugins::RoomsPlugin(options, {}), base::Error);
+}
+
+TEST_F(EditsOfRooms, TheMapKeepsThoseThatCannotBeAppliedNow) {
+  setLayer(editsHere({{building::RoomEdit::Kind::merge, "", {{1, 0}, {9, 9}}}, renameTo("den")}));
+  const mapper::Batch batch = atEnd(run_);
+  const auto edits = layerOf(batch).rooms.edits.edits;
+  ASSERT_EQ(edits.size(), 2U);
+  EXPECT_EQ(edits[0].kind, building::RoomEdit::Kind::merge);
+  EXPECT_EQ(storeyOf(layerOf(batch)).rooms.front().name, "den");
+  EXPECT_NE(saidBy(batch).find("there is no room at 9.00 9.00; kept for a later session"), std::string::npos);
+  const auto of_file = layerOf(continued(editsHere({{building::RoomEdit::Kind::remove, "", {{9, 9}}}})));
+  EXPECT_EQ(of_file.rooms.edits.edits.size(), 2U) << "one of a file that cannot be applied is none of the map";
+}
+
+TEST_F(EditsOfRooms, TheMapKeepsThoseOfAPlaceThatWasNotFoundAsTheyAre) {
+  setLayer(elsewhere());
+  const mapper::Batch batch = continued(editsHere({renameTo("den")}));
+  EXPECT_EQ(building::encodeEdits(layerOf(batch).rooms.edits), building::encodeEdits(elsewhere()));
+  EXPECT_EQ(storeyOf(layerOf(batch)).rooms.front().name, "den");
+  EXPECT_NE(saidBy(batch).find("of another place; kept for a later session"), std::string::npos) << saidBy(batch);
+  EXPECT_NE(saidBy(batch).find("in this session only"), std::string::npos) << saidBy(batch);
+}
+
+TEST_F(EditsOfRooms, ThoseOfAFileThatTheMapHasAreNotAppliedAgain) {
+  setLayer(editsHere({renameTo("den")}));
+  const auto again = continued(editsHere({renameTo("den")}));
+  EXPECT_EQ(layerOf(again).rooms.edits.edits.size(), 1U);
+  EXPECT_EQ(again.decisions().size(), 1U);
+  const auto more = layerOf(continued(editsHere({renameTo("den"), renameTo("hall"), renameTo("den")})));
+  EXPECT_EQ(more.rooms.edits.edits.size(), 3U) << "the one edit of the map stands for the first of them";
+  EXPECT_EQ(storeyOf(more).rooms.front().name, "den");
 }
 
 TEST(RoomsLayer, isReadBackAndRefusedIfItIsOfALaterVersionOrDamaged) {
