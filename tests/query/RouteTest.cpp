@@ -44,5 +44,17 @@ TEST_F(Route, TheCentreOfARoomIsMovedToTheNearestFreePlace) {
   EXPECT_FALSE(freeCentre(map_.rooms->rooms[1], RoomToMove(grid, 2, {1, 1}), grid));
 }
 
+TEST_F(Route, ARoomThatIsSaidToBeEndlessIsSearchedInTheGridAlone) {
+  const GridMap grid = readGrid(map_.folder);
+  const RoomToMove room(grid, 0.25, {1, 1});
+  building::Room endless = roomBetween(3, -1e6, -1e6, 1e6, 1e6);
+  endless.centre = {30, 30};  // outside of the grid
+  const auto centre = freeCentre(endless, room, grid);
+  ASSERT_TRUE(centre);
+  EXPECT_TRUE(room.isReached(grid.cellOf(*centre)));
+  endless.centre = {1e6, -1e6};
+  EXPECT_TRUE(freeCentre(endless, room, grid));
+}
+
 }  // namespace
 }  // namespace omnimapper::query::route_test

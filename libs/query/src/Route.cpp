@@ -100,13 +100,15 @@ std::vector<Route::Passed> roomsAlong(const std::vector<Vector2d>& points, const
 template <class Fits>
 std::optional<Vector2i> nearestCell(const GridMap& grid, const Vector2d& point, double most, const Fits& fits) {
   const Vector2i middle = grid.cellOf(point);
-  const int reach = static_cast<int>(std::ceil(most / grid.resolution));
+  // Rooms are as large as their documents say, which may be wrong: nothing outside of the grid is searched.
+  const auto reach = static_cast<int>(std::min(std::ceil(most / grid.resolution), 1e9));
+  const Vector2i low = (middle.array() - reach).max(0), size(grid.columns, grid.rows),
+                 high = (middle.array() + reach).min(size.array() - 1);
   std::optional<Vector2i> nearest;
   double least = most;
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
-      const Vector2i cell = middle + Vector2i(dx, dy);
-      if (!grid.contains(cell)) continue;
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      const Vector2i cell(x, y);
       const double distance = (grid.middleOf(cell) - point).norm();
       if (distance > least || (nearest && distance == least) || !fits(cell)) continue;
       least = distance;
