@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "program/Program.h"
 
@@ -25,12 +26,14 @@ int find(const building::RoomsRequest& request, bool quiet) {
 
 // A map has its rooms as a layer, too, which queries read.
 int edit(const building::RoomsEditRequest& request, bool quiet) {
+  const std::string file = (std::filesystem::path(building::editedFolder(request)) / "map.omnimap").string();
+  // A map that cannot be read is found before any file is changed.
+  std::optional<map::MapFile> map;
+  if (std::filesystem::exists(file)) map = map::MapFile::read(file);
   const auto result = building::runRoomsEdit(request);
-  const std::string file = request.folder + "/map.omnimap";
-  if (std::filesystem::exists(file)) {
-    auto map = map::MapFile::read(file);
-    map.set({building::kRoomsLayer, building::kRoomsLayerVersion, result.rooms});
-    map.write(file);
+  if (map) {
+    map->set({building::kRoomsLayer, building::kRoomsLayerVersion, result.rooms});
+    map->write(file);
   }
   if (!quiet) std::cout << result.text;
   return 0;

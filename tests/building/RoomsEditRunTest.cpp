@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "PaintedPlan.h"
 
@@ -65,8 +67,40 @@ TEST_F(RoomsEditRun, WhatIsNoEditIsRefusedAndChangesNothing) {
   EXPECT_NE(refusal({"rename", "1", "\x1b[2J"}).find("control characters"), std::string::npos);
   EXPECT_NE(refusal({"split", "1", "0", "x", "3"}).find("'x' is not a coordinate"), std::string::npos);
   EXPECT_NE(refusal({"split", "1", "1", "1", "1.5"}).find("does not cut"), std::string::npos);
+  EXPECT_NE(refusal({"split", "1", "0", "2e7", "3"}).find("'2e7' is not a coordinate"), std::string::npos);
+  EXPECT_NE(refusal({"move-door", "1", "0", "0", "1e200", "0"}).find("not a coordinate"), std::string::npos);
+  EXPECT_NE(refusal({"move-door", "1", "0", "0", "900000", "0"}).find("20 m wide"), std::string::npos);
   EXPECT_NE(refusal({"move-door", "7", "1", "1", "1", "2"}).find("no door 7"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "edits.json"));
+}
+
+TEST_F(RoomsEditRun, TheFolderOfAYamlFileIsThatOfItsMap) {
+  const auto folderOf = [](const std::string& given) { return editedFolder({given, {}}); };
+  EXPECT_EQ(folderOf(folder_.path()), folder_.path());
+  EXPECT_EQ(folderOf(folder_ / "grid.yaml"), folder_.path());
+  EXPECT_EQ(folderOf("grid.yaml"), ".");
+  runRoomsEdit({folder_ / "grid.yaml", {"rename", "1", "kitchen"}});
+  EXPECT_EQ(document().building.storeys[0].rooms[0].name, "kitchen");
+}
+
+TEST_F(RoomsEditRun, WhatCouldNotBeReadAgainIsNotWritten) {
+  std::stringstream before;
+  before << std::ifstream(folder_ / "rooms.json").rdbuf();
+  auto json = nlohmann::ordered_json::parse(before.str());
+  for (auto& room : json["building"]["storeys"][0]["rooms"]) {
+    room["area_m2"] = 1e308;
+    room["openness"] = 2;
+  }
+  std::ofstream(folder_ / "rooms.json") << json;
+  // The mean openness of both rooms overflows.
+  try {
+    edit({"merge", "1", "2"});
+    FAIL() << "it was written";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("the rooms after merge"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "edits.json"));
+  EXPECT_EQ(readRooms(folder_ / "rooms.json").storeys[0].rooms.size(), 2U);
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ double metresOf(const std::string& word) {
   double number = 0;
   const char* const end = word.data() + word.size();
   const auto read = std::from_chars(word.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end || !std::isfinite(number))
-    refuseEdit("'" + base::printable(word.substr(0, 40)) + "' is not a coordinate in metres");
+  if (read.ec != std::errc() || read.ptr != end || !(std::abs(number) <= kFarthest))
+    refuseEdit("'" + base::printable(word.substr(0, 40)) + "' is not a coordinate in metres of at most a million");
   return number;
 }
 
@@ -78,9 +78,15 @@ void put(const std::string& folder, const std::string& name, const std::string& 
 
 }  // namespace
 
+std::string editedFolder(const RoomsEditRequest& request) {
+  const fs::path given(request.folder);
+  if (fs::is_directory(given)) return given.string();
+  return given.has_parent_path() ? given.parent_path().string() : ".";
+}
+
 RoomsEditResult runRoomsEdit(const RoomsEditRequest& request) {
   const fs::path given(request.folder);
-  const std::string folder = fs::is_directory(given) ? given.string() : given.parent_path().string();
+  const std::string folder = editedFolder(request);
   const std::string grid_file = fs::is_directory(given) ? (given / "grid.yaml").string() : given.string();
   const std::string rooms_file = (fs::path(folder) / "rooms.json").string();
   RoomsDocument document = decodeRooms(base::readInput(rooms_file, "rooms"), rooms_file);
@@ -94,6 +100,7 @@ RoomsEditResult runRoomsEdit(const RoomsEditRequest& request) {
   document.edits.edits.push_back(edit);
   document.edits = anchoredTo(std::move(document.edits), storey, signs);
   const std::string text = encodeRooms(document);
+  decodeRooms(text, "the rooms after " + toString(edit));  // what could not be read again must not be written
   put(folder, "edits.json", encodeEdits(document.edits));
   put(folder, "rooms.png", draw::encodePng(drawRooms(grid, rooms)));
   put(folder, "plan.svg", encodePlan(storey));
