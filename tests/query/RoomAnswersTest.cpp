@@ -99,6 +99,20 @@ TEST_F(RoomAnswers, APathIsNotThroughDoorsThatAreTooNarrow) {
     }
 }
 
+TEST_F(RoomAnswers, RoomsThatAreSaidToBeEndlessAreSearchedInTheGridAlone) {
+  map_.rooms->rooms[1] = roomBetween(2, 4.1, -1e6, 1e6, 1e6);
+  const auto goal = asked("goal", {"room", "2"})["goal"];
+  EXPECT_GT(goal["x_m"].get<double>(), 4.1);
+  EXPECT_LT(goal["x_m"].get<double>(), 8);
+  EXPECT_EQ(goal["connected"], true);
+  for (const bool has_pose : {true, false}) {
+    if (!has_pose) map_.places.last_pose.reset();
+    EXPECT_EQ(ask("path", {"room", "2", "to", "kitchen"}).code, ExitCode::ok);
+    EXPECT_EQ(ask("between", {"kitchen", "and", "room", "2"}).code, ExitCode::ok);
+    EXPECT_EQ(ask("in", {"room", "2"}).code, ExitCode::ok);
+  }
+}
+
 TEST_F(RoomAnswers, BetweenAreDoorsRoomsOnTheWayAndThingsOnTheLine) {
   const Answer rooms = ask("between", {"kitchen", "and", "room", "2"});
   EXPECT_TRUE(says(rooms.text, "door 1 at 4.05 2.00 joins them")) << rooms.text;
