@@ -111,6 +111,15 @@ TEST(Segmentation, outlinesAreCounterClockwiseAndInTheMap) {
   }
 }
 
+// OpenCV's exact distances are wrong in columns from 4096 on.
+TEST(Segmentation, aGridOfThousandsOfColumnsHasItsRooms) {
+  PaintedPlan plan(240, 3);
+  plan.room(230, 0, 234, 3).room(234.1, 0, 237.1, 3).free(234, 1, 234.1, 1.9);
+  const Segmentation rooms = segmentRooms(plan.grid());
+  ASSERT_EQ(rooms.storey.rooms.size(), 2U);
+  for (const Room& room : rooms.storey.rooms) EXPECT_NEAR(room.clearance, 1.5, 0.1);
+}
+
 TEST(Segmentation, oneRoomIsOneRoom) {
   PaintedPlan plan(5, 4);
   const auto rooms = segmentRooms(plan.room(0, 0, 5, 4).grid()).storey;

@@ -142,6 +142,9 @@ FreeSpace freeSpaceOf(const grid::GridMap& grid, const SegmentationOptions& opti
   keepPartsOfWalls(stripsOfWalls(without_clutter, options), space.cell, things);
   freeClutter(things, space.free);
   cv::distanceTransform(space.free, space.clearance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  // OpenCV squares columns as floats, which are exact up to 4096: beyond, cells that are not free get a distance.
+  cv::max(space.clearance, 1, space.clearance);
+  space.clearance.setTo(0, space.free == 0);
   return space;
 }
 

@@ -117,7 +117,7 @@ TEST_F(Fuzz, DamagedInisNeverCrashARun) {
   writeFile(log_path_, log_);
   // This INI sets keys of the engine and of scan matching, whose values are damaged, too.
   std::string ini = readFile(omnimapper::testing::sourceFile(kIni));
-  for (unsigned seed = 0; seed < 80; ++seed) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Dice dice(1000 + seed);
     writeFile(ini_path_, omnimapper::fuzz::mutatedText(ini, dice));
