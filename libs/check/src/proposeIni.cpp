@@ -19,6 +19,12 @@ namespace omnimapper::check {
 
 namespace {
 
+// Sections of measurement plugins in our INIs that need a laser.
+const std::vector<std::string>& pluginsOfLasers() {
+  static const std::vector<std::string> sections{"loop_closure", "walls", "relations", "rooms"};
+  return sections;
+}
+
 class Proposal {
  public:
   Proposal(const LogFacts& facts, const PluginLists& plugins)
@@ -82,9 +88,7 @@ class Proposal {
     if (!shows_signs) unfed.push_back("signs");
     proposeWithout(unfed, plugins_.extractors, "perception", "extractors",
                    is_blind ? no_laser : "there are no pictures to read signs in");
-    if (is_blind)
-      proposeWithout({"loop_closure", "walls", "relations", "rooms"}, plugins_.measurement, "mapper",
-                     "measurement_plugins", no_laser);
+    if (is_blind) proposeWithout(pluginsOfLasers(), plugins_.measurement, "mapper", "measurement_plugins", no_laser);
   }
 
   // The true duration of a step is not known, but only speeds depend on it.
@@ -301,7 +305,7 @@ class Proposal {
 
 bool canMeasure(const LogFacts& facts, const PluginLists& plugins) {
   if (!usableLasers(facts).empty()) return !plugins.measurement.empty();
-  const std::vector<std::string> of_lasers{"loop_closure", "walls", "relations"};
+  const auto& of_lasers = pluginsOfLasers();
   return std::any_of(plugins.measurement.begin(), plugins.measurement.end(), [&](const std::string& name) {
     return std::find(of_lasers.begin(), of_lasers.end(), name) == of_lasers.end();
   });

@@ -85,7 +85,7 @@ TEST(LabelsPlugin, aRequestThatNobodyAnswersEndsAndSaysWhy) {
 TEST(LabelsPlugin, anEditLeavesARequestThatWaits) {
   Tour tour;
   tour.command("charger", obs::CommandSubject::place);
-  tour.command("table");
+  tour.command("table", obs::CommandSubject::map);
   tour.edit("rename charger = dock");
   tour.point(kTable);
   ASSERT_EQ(tour.labels().labels.size(), 2u) << tour.lastReason();

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "rooms/RoomFilesOutput.h"
 #include "rooms/RoomsLayer.h"
-#include "rooms/RoomsOutput.h"
 #include "rooms/RoomsPlugin.h"
 
 namespace rooms_plugin_test {
@@ -180,10 +180,10 @@ TEST(RoomsLayer, isReadBackAndRefusedIfItIsOfALaterVersionOrDamaged) {
     EXPECT_THROW(RoomsLayer::fromSection(bad), base::Error);
 }
 
-TEST(RoomsOutput, writesItsFilesAndNoneWithoutRooms) {
+TEST(RoomFilesOutput, writesItsFilesAndNoneWithoutRooms) {
   RunRecord run = boxRun();
   ScratchFolder folder;
-  plugins::RoomsOutput output({}, contextFor(folder.path()));
+  plugins::RoomFilesOutput output({}, contextFor(folder.path()));
   output.finish(run.view());
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   const RoomsLayer layer = layerOf(run);

@@ -125,8 +125,8 @@ TEST_F(CommandLine, EveryListedPluginPrintsASectionThatRuns) {
   writeFile(file("all.ini"), ini);
   EXPECT_TRUE(endedWith(ExitCode::ok, graphslam({"-i", file("all.ini"), "-r", file("box.rawlog"), "-o", file("all")})));
   auto expected = allOutputs();
-  expected.insert({"floorplan.geojson", "landmarks.ply",
-                   "surfaces.json"});  // outputs of walls, which ini/laser2d.ini does not have
+  expected.insert({"floorplan.geojson", "landmarks.ply", "surfaces.json",
+                   "objects.json"});  // outputs of walls and objects, which ini/laser2d.ini does not have
   EXPECT_EQ(filesIn(file("all")), expected);
   if (!hasSignNetworks())
     GTEST_SKIP() << "ran without DoorSignExtractor: its networks are missing; scripts/models fetches them";

@@ -1,4 +1,4 @@
-#include "RoomsOutput.h"
+#include "RoomFilesOutput.h"
 
 #include <omnimapper/building/RoomsOfCells.h>
 #include <omnimapper/building/RoomsPicture.h>
@@ -12,15 +12,15 @@
 
 namespace omnimapper::plugins {
 
-const base::OptionTable<RoomsOutputOptions>& RoomsOutputOptions::table() {
-  static const base::OptionTable<RoomsOutputOptions> table;
+const base::OptionTable<RoomFilesOutputOptions>& RoomFilesOutputOptions::table() {
+  static const base::OptionTable<RoomFilesOutputOptions> table;
   return table;
 }
 
-RoomsOutput::RoomsOutput(const RoomsOutputOptions&, const mapper::PluginContext& context)
+RoomFilesOutput::RoomFilesOutput(const RoomFilesOutputOptions&, const mapper::PluginContext& context)
     : title_(context.title), folder_(derived::outputPath(context, "")) {}
 
-void RoomsOutput::finish(const mapper::View& view) {
+void RoomFilesOutput::finish(const mapper::View& view) {
   const auto* layer = view.map.layers.find<RoomsLayer>();
   if (!layer) return;
   const building::Storey& storey = layer->rooms.building.storeys.front();

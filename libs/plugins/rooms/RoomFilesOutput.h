@@ -7,20 +7,20 @@
 namespace omnimapper::plugins {
 
 /// This output has no options.
-struct RoomsOutputOptions {
-  static const base::OptionTable<RoomsOutputOptions>& table();
+struct RoomFilesOutputOptions {
+  static const base::OptionTable<RoomFilesOutputOptions>& table();
 };
 
 /// Writes the rooms that RoomsPlugin found (doc/rooms.md): rooms.json for programs, rooms.png, a picture of the grid
 /// with the rooms, plan.svg, a floor plan, and scene_graph.json (doc/scene_graph.md). A map without the layer has none
 /// of these files.
-class RoomsOutput : public mapper::OutputPlugin {
+class RoomFilesOutput : public mapper::OutputPlugin {
  public:
-  static constexpr const char* kName = "RoomsOutput";
+  static constexpr const char* kName = "RoomFilesOutput";
   static constexpr const char* kSummary =
       "Writes the rooms of RoomsPlugin: rooms.json, rooms.png, plan.svg, scene_graph.json.";
 
-  RoomsOutput(const RoomsOutputOptions& options, const mapper::PluginContext& context);
+  RoomFilesOutput(const RoomFilesOutputOptions& options, const mapper::PluginContext& context);
   bool isOfMap() const override { return true; }
   void finish(const mapper::View& view) override;
 
