@@ -153,7 +153,7 @@ TEST(ObjectLandmarksPlugin, ThousandsOfFragmentsAreBounded) {
   for (auto& observation : log) {
     auto* objects = dynamic_cast<obs::CObservationObjects*>(observation.get());
     if (objects == nullptr) continue;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 500; ++i) {
       ObjectPoints points;
       const double shift = base::secondsBetween(at(0), objects->timestamp);
       for (int k = 0; k < 10; ++k)
