@@ -43,6 +43,8 @@ void addVerb(CLI::App& app, const query::Verb& verb, query::Request& request, Ar
     added->add_option("--" + option.name, request.numbers[option.name], option.help)
         ->expected(option.count)
         ->check(validatorOf(option.range));
+  for (const auto& option : verb.texts)
+    added->add_option("--" + option.name, request.texts[option.name], option.help)->type_name("TEXT");
   added->add_flag("--json", arguments.json, "print one JSON document");
   added->add_flag("--brief", arguments.brief, "with --json: only names and positions of landmarks");
 }

@@ -13,6 +13,7 @@
 #include "FoundText.h"
 #include "PlaceJson.h"
 #include "PlaceText.h"
+#include "SurfaceAnswers.h"
 #include "Target.h"
 
 namespace omnimapper::query {
@@ -142,6 +143,8 @@ std::vector<double> numbersOf(const Request& request, const std::string& option,
 }
 
 Answer answerFind(const MapToAsk& map, const Request& request) {
+  const auto on = request.texts.find("on");
+  if (on != request.texts.end() && !on->second.empty()) return answerFindOn(map, request, on->second);
   const std::string text = textOf(request);
   const Found found = find(map.places.places, text);
   Json document = answerTo("find", map);

@@ -36,13 +36,6 @@ Json jsonOf(const map::Extent& extent) {
           {"holes", jsonOf(extent.holes)},   {"bottom_m", extent.bottom}, {"top_m", extent.top}};
 }
 
-Json timeJson(base::Stamp stamp) {
-  std::string text = timeText(stamp);
-  if (text.empty()) return nullptr;
-  text[text.find(' ')] = 'T';
-  return text + "Z";
-}
-
 struct ValueJson {
   Json operator()(const std::string& text) const { return text; }
   Json operator()(std::uint64_t count) const { return count; }
@@ -52,6 +45,13 @@ struct ValueJson {
 };
 
 }  // namespace
+
+Json timeJson(base::Stamp stamp) {
+  std::string text = timeText(stamp);
+  if (text.empty()) return nullptr;
+  text[text.find(' ')] = 'T';
+  return text + "Z";
+}
 
 Json jsonOf(const map::Place& place, bool brief) {
   if (brief)

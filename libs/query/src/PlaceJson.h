@@ -14,6 +14,9 @@ using Json = nlohmann::ordered_json;
 /// called, where it is, and whether it is still there.
 Json jsonOf(const map::Place& place, bool brief = false);
 
+/// ISO 8601 in UTC: "2023-11-14T22:22:17Z"; null for no stamp.
+Json timeJson(base::Stamp stamp);
+
 /// A document that begins with the verb, the map, its frame and its age, to which the query and the answer are added.
 Json answerTo(const std::string& verb, const MapToAsk& map);
 

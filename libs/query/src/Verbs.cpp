@@ -3,6 +3,7 @@
 
 #include "Answers.h"
 #include "RoomAnswers.h"
+#include "SurfaceAnswers.h"
 
 namespace omnimapper::query {
 
@@ -16,7 +17,8 @@ const std::vector<Verb>& verbs() {
        1,
        -1,
        {},
-       answerFind},
+       answerFind,
+       {{"on", "name of a table or another surface: only what stands on it"}}},
       {"near",
        "landmarks nearest to a point, by the distance to their extents",
        "X Y",
@@ -43,6 +45,14 @@ const std::vector<Verb>& verbs() {
        -1,
        {},
        answerList},
+      {"looked",
+       "what was seen on the surface of that name, what is gone from it, and when it was looked at last",
+       "SURFACE",
+       "name of a table or another surface, as for find",
+       1,
+       -1,
+       {},
+       answerLooked},
       {"rooms", "all rooms, and the rooms behind known doors that were not seen", "", "", 0, 0, {}, answerRooms},
       {"where",
        "the room at a point: where am i X Y; without a point that of the last pose. where is TEXT is find TEXT",

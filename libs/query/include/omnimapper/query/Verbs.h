@@ -14,6 +14,7 @@ struct Request {
   std::vector<std::string> words;                      ///< the words after the verb
   std::map<std::string, std::vector<double>> numbers;  ///< the numbers of each option that was given
   bool brief = false;                                  ///< the JSON has only names and positions of landmarks
+  std::map<std::string, std::string> texts = {};       ///< the texts of options that were given
 };
 
 struct Answer {
@@ -30,6 +31,11 @@ struct NumberOption {
   Range range = Range::any;
 };
 
+/// An option of a verb that takes a text.
+struct TextOption {
+  std::string name, help;
+};
+
 /// A kind of query. Programs build their command line from this table.
 struct Verb {
   std::string name;   ///< "find"
@@ -40,6 +46,7 @@ struct Verb {
   std::vector<NumberOption> options;
   /// Throws base::Error for a query that is not valid or cannot be answered.
   Answer (*answer)(const MapToAsk& map, const Request& request);
+  std::vector<TextOption> texts = {};
 };
 
 /// Throws Error(command_line) if the request has too few words for the verb.
