@@ -8,6 +8,7 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfig.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/omnimapperConfigVersion.cmake" DESTINATION "${package_dir}")
 install(EXPORT omnimapperTargets NAMESPACE omnimapper:: DESTINATION "${package_dir}")
 install(DIRECTORY ini/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/ini" FILES_MATCHING PATTERN "*.ini")
+install(DIRECTORY web/ DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/web")
 # The simulator's INIs, and the pages that programs, INIs and README speak of, with the same paths between them.
 file(GLOB places CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/rawlogs/*.ini")
 install(FILES ${places} DESTINATION "${CMAKE_INSTALL_DATADIR}/omnimapper/rawlogs")

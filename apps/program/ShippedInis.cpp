@@ -9,6 +9,8 @@
 #include <optional>
 #include <system_error>
 
+#include "shippedFolder.h"
+
 namespace omnimapper::program {
 
 namespace fs = std::filesystem;
@@ -17,11 +19,10 @@ namespace {
 
 // Folders with the INIs of the program: of its installation, or of the checkout that it was built in.
 std::vector<fs::path> shippedFolders() {
-  std::error_code error;
-  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (error || bin.empty()) return {};
-  if (fs::exists(bin.parent_path() / "CMakeCache.txt", error)) return {bin / "../../../ini", bin / "../../../rawlogs"};
-  return {bin / "../share/omnimapper/ini", bin / "../share/omnimapper/rawlogs"};
+  std::vector<fs::path> folders;
+  for (const char* name : {"ini", "rawlogs"})
+    if (const std::string folder = shippedFolder(name); !folder.empty()) folders.emplace_back(folder);
+  return folders;
 }
 
 /// The names of all these INIs, sorted.

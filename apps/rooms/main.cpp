@@ -1,13 +1,11 @@
 // omnimapper-rooms: finds the rooms and doors of an occupancy grid, and edits them.
 #include <omnimapper/base/Error.h>
-#include <omnimapper/building/RoomsEditRun.h>
-#include <omnimapper/building/RoomsFile.h>
 #include <omnimapper/building/RoomsRun.h>
-#include <omnimapper/map/MapFile.h>
+#include <omnimapper/query/editRooms.h>
 
-#include <filesystem>
 #include <iostream>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include "program/Program.h"
 
@@ -24,18 +22,9 @@ int find(const building::RoomsRequest& request, bool quiet) {
   return 0;
 }
 
-// A map has its rooms as a layer, too, which queries read.
-int edit(const building::RoomsEditRequest& request, bool quiet) {
-  const std::string file = (std::filesystem::path(building::editedFolder(request)) / "map.omnimap").string();
-  // A map that cannot be read is found before any file is changed.
-  std::optional<map::MapFile> map;
-  if (std::filesystem::exists(file)) map = map::MapFile::read(file);
-  const auto result = building::runRoomsEdit(request);
-  if (map) {
-    map->set({building::kRoomsLayer, building::kRoomsLayerVersion, result.rooms});
-    map->write(file);
-  }
-  if (!quiet) std::cout << result.text;
+int edit(const std::string& map, const std::vector<std::string>& words, bool quiet) {
+  const std::string text = query::editRooms(map, words);
+  if (!quiet) std::cout << text;
   return 0;
 }
 
@@ -43,7 +32,7 @@ int edit(const building::RoomsEditRequest& request, bool quiet) {
 
 int main(int argc, char** argv) {
   building::RoomsRequest request;
-  building::RoomsEditRequest edits;
+  std::vector<std::string> words;
   bool quiet = false;
   CLI::App app(
       "Finds the rooms and doors of an occupancy grid in the format of ROS map_server, of any program; with edit, "
@@ -63,13 +52,11 @@ int main(int argc, char** argv) {
   app.add_flag("-q,--quiet", quiet, "no summary");
   CLI::App* editing = app.add_subcommand("edit", "changes the rooms of a map, and keeps the edit for later maps");
   editing
-      ->add_option("EDIT", edits.words,
+      ->add_option("EDIT", words,
                    "rename ROOM NAME, merge ROOM ROOM, split X Y X Y, delete ROOM, or move-door DOOR X Y X Y")
       ->type_name("")
       ->expected(0, -1);
   app.footer("Exit codes: doc/exit_codes.md (14: the grid shows no room). More: doc/rooms.md.");
-  return program::run(app, argc, argv, [&] {
-    edits.folder = request.grid;
-    return editing->parsed() ? edit(edits, quiet) : find(request, quiet);
-  });
+  return program::run(app, argc, argv,
+                      [&] { return editing->parsed() ? edit(request.grid, words, quiet) : find(request, quiet); });
 }

@@ -63,6 +63,8 @@ class TwoRooms : public ::testing::Test {
     unseen.seen_from = 2;
     unseen.confidence = 0.9;
     storey.unseen = {unseen};
+    storey.next_room = 3;
+    storey.next_door = 2;
     map_.rooms = storey;
     std::vector<std::string> rows(40, "#" + std::string(78, '.') + "#");
     rows.front() = rows.back() = std::string(80, '#');

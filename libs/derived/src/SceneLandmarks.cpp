@@ -1,6 +1,6 @@
-#include <omnimapper/derived/LandmarkColours.h>
 #include <omnimapper/derived/PlanShape.h>
 #include <omnimapper/derived/SceneLandmarks.h>
+#include <omnimapper/draw/LabelColours.h>
 #include <omnimapper/obs/SceneDrawing.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double kLineStroke = 0.05, kOutlineStroke = 0.015, kPointBall = 0.06, 
 constexpr std::uint8_t kTranslucent = 90, kFaint = 40;
 
 TColor inkOf(const ShapedLandmark& landmark, std::uint8_t alpha = 255) {
-  const draw::Rgb colour = colourOfLabel(landmark.shape.label);
+  const draw::Rgb colour = draw::colourOfLabel(landmark.shape.label);
   return {colour.r, colour.g, colour.b, alpha};
 }
 
@@ -111,7 +111,7 @@ CSetOfObjects::Ptr objectOf(const ShapedLandmark& landmark, bool with_name) {
   const std::string name = shape.label + " " + toString(landmark.landmark->id);
   object->setName(name);
   if (!landmark.moved) {
-    const std::uint8_t alpha = coversThePlan(shape.label) || landmark.isFaint() ? kFaint : kTranslucent;
+    const std::uint8_t alpha = draw::coversThePlan(shape.label) || landmark.isFaint() ? kFaint : kTranslucent;
     for (std::size_t i = 0; i < shape.surfaces.size(); ++i)
       obs::addFilled(*object, planeOf(shape.surfaces[i], shape), withHoles(i, shape), inkOf(landmark, alpha));
     if (shape.box && !shape.mesh)

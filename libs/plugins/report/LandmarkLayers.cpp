@@ -1,8 +1,8 @@
 #include "LandmarkLayers.h"
 
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/derived/LandmarkColours.h>
 #include <omnimapper/derived/PlanShape.h>
+#include <omnimapper/draw/LabelColours.h>
 #include <omnimapper/draw/Markup.h>
 
 #include <map>
@@ -37,7 +37,7 @@ std::string svgOf(const derived::GridPicture& grid, const derived::ShapedLandmar
   for (const auto& area : plan.areas) {
     std::vector<draw::PixelPoint> walk;
     for (const auto& corner : area) walk.push_back(at(corner));
-    const char* kind = shaped.moved ? "moved" : derived::coversThePlan(shaped.shape.label) ? "area floor" : "area";
+    const char* kind = shaped.moved ? "moved" : draw::coversThePlan(shaped.shape.label) ? "area floor" : "area";
     paths += svgPathOf(kind, svgPath(walk) + "Z");
   }
   for (const auto& [from, to] : plan.lines)
@@ -62,14 +62,14 @@ std::vector<LandmarkLayer> landmarkLayers(const derived::GridPicture& grid,
   std::map<std::pair<bool, std::string>, LandmarkLayer> by_label;
   for (const auto& landmark : landmarks) {
     const std::string& label = landmark.shape.label;
-    LandmarkLayer& layer = by_label[{!derived::coversThePlan(label), label}];
+    LandmarkLayer& layer = by_label[{!draw::coversThePlan(label), label}];
     ++layer.count;
     layer.svg += svgOf(grid, landmark);
   }
   std::vector<LandmarkLayer> layers;
   for (auto& [key, layer] : by_label) {
     layer.label = key.second;
-    layer.colour = cssColour(derived::colourOfLabel(layer.label));
+    layer.colour = cssColour(draw::colourOfLabel(layer.label));
     layer.name = "landmarks" + std::to_string(layers.size());
     layer.shown = key.first;
     layer.svg = "<g class=\"landmarks " + layer.name + "\" style=\"color:" + layer.colour +

@@ -1,9 +1,9 @@
 #include "MapPicture.h"
 
-#include <omnimapper/derived/LandmarkColours.h>
 #include <omnimapper/derived/PlanShape.h>
 #include <omnimapper/derived/ScaleBar.h>
 #include <omnimapper/derived/SessionColours.h>
+#include <omnimapper/draw/LabelColours.h>
 #include <omnimapper/draw/Legend.h>
 #include <omnimapper/geometry/Simplify.h>
 
@@ -40,9 +40,9 @@ void drawAreas(draw::Image& image, const derived::GridPicture& grid,
                const std::vector<derived::ShapedLandmark>& landmarks, double width) {
   for (const auto& landmark : landmarks) {
     const auto& label = landmark.shape.label;
-    if (derived::coversThePlan(label)) continue;
-    const draw::Pen outline{derived::colourOfLabel(label), width, 0.9},
-        fill{derived::colourOfLabel(label), 0, landmark.isFaint() ? 0.1 : 0.28};
+    if (draw::coversThePlan(label)) continue;
+    const draw::Pen outline{draw::colourOfLabel(label), width, 0.9},
+        fill{draw::colourOfLabel(label), 0, landmark.isFaint() ? 0.1 : 0.28};
     for (const auto& area : derived::fromAbove(landmark.shape).areas) {
       const auto walk = pixelsOf(grid, area);
       if (!landmark.moved) fillAreas(image, {walk}, fill);
@@ -55,7 +55,7 @@ void drawAreas(draw::Image& image, const derived::GridPicture& grid,
 void drawLinesAndPoints(draw::Image& image, const derived::GridPicture& grid,
                         const std::vector<derived::ShapedLandmark>& landmarks, double width) {
   for (const auto& landmark : landmarks) {
-    const draw::Pen pen{derived::colourOfLabel(landmark.shape.label), (landmark.isFaint() ? 0.8 : 2.4) * width};
+    const draw::Pen pen{draw::colourOfLabel(landmark.shape.label), (landmark.isFaint() ? 0.8 : 2.4) * width};
     const derived::PlanShape plan = derived::fromAbove(landmark.shape);
     for (const auto& [from, to] : plan.lines) {
       const auto a = grid.pixelOf(from.x(), from.y()), b = grid.pixelOf(to.x(), to.y());
@@ -106,7 +106,7 @@ void drawTracks(draw::Image& image, const std::vector<SessionPath>& paths, doubl
 std::vector<draw::LegendRow> legendOf(const std::vector<derived::ShapedLandmark>& landmarks, std::size_t sessions) {
   std::map<std::string, int> counts;
   for (const auto& landmark : landmarks)
-    if (landmark.isSomewhere() && !derived::coversThePlan(landmark.shape.label)) ++counts[landmark.shape.label];
+    if (landmark.isSomewhere() && !draw::coversThePlan(landmark.shape.label)) ++counts[landmark.shape.label];
   std::vector<std::pair<int, std::string>> by_count;
   for (const auto& [label, count] : counts) by_count.emplace_back(-count, label);
   std::sort(by_count.begin(), by_count.end());
@@ -115,7 +115,7 @@ std::vector<draw::LegendRow> legendOf(const std::vector<derived::ShapedLandmark>
     rows = {{derived::kNewestSession, "newest session"},
             {derived::kEarlierSessions, "earlier: " + std::to_string(sessions - 1)}};
   for (const auto& [count, label] : by_count)
-    rows.push_back({derived::colourOfLabel(label), label + ": " + std::to_string(-count)});
+    rows.push_back({draw::colourOfLabel(label), label + ": " + std::to_string(-count)});
   return rows;
 }
 

@@ -10,7 +10,7 @@
 
 namespace omnimapper::plugins {
 
-/// The map from above as a picture: the grid; landmarks in the colours of LandmarkColours.h, upright ones as thick
+/// The map from above as a picture: the grid; landmarks in the colours of LabelColours.h, upright ones as thick
 /// lines (thin if they were rarely measured), all others but floors and ceilings as areas, moved ones dashed; the
 /// trajectory with its start (ring) and end (dot) in the colours of SessionColours.h; accepted closures; a scale bar.
 draw::Image drawMap(const derived::GridPicture& grid, const std::vector<derived::ShapedLandmark>& landmarks,

@@ -1,7 +1,7 @@
 #include "ReportLandmarks.h"
 
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/derived/LandmarkColours.h>
+#include <omnimapper/draw/LabelColours.h>
 #include <omnimapper/draw/Markup.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMostLandmarkRows = 200;
 
 std::string swatch(const std::string& label) {
-  const draw::Rgb colour = derived::colourOfLabel(label);
+  const draw::Rgb colour = draw::colourOfLabel(label);
   return "<i class=\"swatch\" style=\"background:rgb(" + std::to_string(colour.r) + "," + std::to_string(colour.g) +
          "," + std::to_string(colour.b) + ")\"></i>";
 }

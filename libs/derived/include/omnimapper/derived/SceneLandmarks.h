@@ -8,7 +8,7 @@
 
 namespace omnimapper::derived {
 
-/// Landmarks as a part of a 3D scene, one named object ("wall 0:12") for each, in the colours of LandmarkColours.h:
+/// Landmarks as a part of a 3D scene, one named object ("wall 0:12") for each, in the colours of LabelColours.h:
 /// surfaces translucent with their outline and an arrow to the free side, lines as thick strokes, points as balls, and
 /// the name if `with_names` is set. Rarely measured landmarks are fainter, without arrow and name; moved ones are
 /// dashed outlines.

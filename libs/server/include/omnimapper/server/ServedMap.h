@@ -1,0 +1,45 @@
+#pragma once
+
+#include <omnimapper/query/MapToAsk.h>
+
+#include <optional>
+#include <string>
+
+namespace omnimapper::server {
+
+/// A map as pages see it. It is read again when its file was replaced: by an edit, or while a live run goes on.
+class ServedMap {
+ public:
+  /// `path` is the folder of a map, or a map file. Throws as query::openMap() does.
+  explicit ServedMap(std::string path);
+
+  /// Reads the map again if its file is another one than before; whether it is. If it cannot be read, the one of before
+  /// stays, and `warning` says why.
+  bool update(std::string& warning);
+
+  const query::MapToAsk& map() const { return map_; }
+  /// Changes with each map that is read.
+  int revision() const { return revision_; }
+  /// query::mapDocument() with the revision and the place of the grid.
+  const std::string& document() const { return document_; }
+  /// The occupancy grid as a PNG file with three colours: black is occupied, white free, grey unknown. Empty if the map
+  /// has none yet.
+  const std::string& gridPng() const { return grid_png_; }
+  /// Where the base was: a JSON document with a list of x, y [m] of at most `kMostPoses` poses.
+  const std::string& trajectory() const { return trajectory_; }
+  static constexpr std::size_t kMostPoses = 20000;
+
+  /// The picture of an object, by the id of its landmark, "0:12"; none if it has none.
+  std::optional<std::string> pictureOf(const std::string& id) const;
+
+ private:
+  void load();
+
+  std::string path_;
+  query::MapToAsk map_;
+  std::string document_, grid_png_, trajectory_;
+  std::string stamp_;  // of the file that was read
+  int revision_ = 0;
+};
+
+}  // namespace omnimapper::server

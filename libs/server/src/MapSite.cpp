@@ -1,0 +1,139 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Names.h>
+#include <omnimapper/query/Verbs.h>
+#include <omnimapper/query/editRooms.h>
+#include <omnimapper/server/MapSite.h>
+
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::server {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr char kJson[] = "application/json";
+
+std::string dumped(const Json& json) {
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
+}
+
+HttpResponse jsonAnswer(const std::string& body) {
+  return {200, kJson, body};
+}
+
+std::vector<std::string> wordsOf(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+/// The verb with which a question begins, which is taken from its words; `find` if it begins with none.
+const query::Verb& verbOf(std::vector<std::string>& words) {
+  for (const auto& verb : query::verbs()) {
+    if (words.empty() || words.front() != verb.name) continue;
+    words.erase(words.begin());
+    return verb;
+  }
+  return query::verbs().front();
+}
+
+/// The edit of a request: a JSON object with a list of texts, "words". Throws Error(command_line) if it is another one.
+std::vector<std::string> editWords(const std::string& body) {
+  const Json json = Json::parse(body, nullptr, false);
+  if (json.is_object() && json.contains("words") && json["words"].is_array()) {
+    std::vector<std::string> words;
+    for (const auto& word : json["words"])
+      if (word.is_string()) words.push_back(word.get<std::string>());
+    if (words.size() == json["words"].size()) return words;
+  }
+  throw base::Error(base::ExitCode::command_line, "an edit is a JSON object with a list of texts, \"words\"");
+}
+
+}  // namespace
+
+MapSite::MapSite(ServedMap map, StaticFiles files, Access access)
+    : map_(std::move(map)), files_(std::move(files)), access_(std::move(access)), announced_(map_.revision()) {}
+
+HttpResponse MapSite::answer(const HttpRequest& request) {
+  HttpResponse response;
+  try {
+    const auto refused = access_.refused(request);
+    response = refused ? *refused : answerAllowed(request);
+  } catch (const base::Error& error) {
+    response = refusal(400, base::printable(error.what()));
+  } catch (const std::exception& error) {
+    response = refusal(500, std::string("a defect of the server: ") + error.what());
+  }
+  Access::protect(response);
+  return response;
+}
+
+HttpResponse MapSite::answerAllowed(const HttpRequest& request) {
+  if (request.method == "POST")
+    return request.path == "/api/edit" ? edit(request) : refusal(404, "Nothing at this address can be changed.");
+  if (const auto file = files_.find(request.path)) return *file;
+  if (request.path == "/enter") return access_.enter(request);
+  if (request.path == "/api/map") return jsonAnswer(map_.document());
+  if (request.path == "/api/trajectory") return jsonAnswer(map_.trajectory());
+  if (request.path == "/api/query") return question(request);
+  if (request.path == "/api/picture") return picture(request);
+  if (request.path == "/api/events") return events();
+  if (request.path == "/api/me") return jsonAnswer(dumped({{"may_change", access_.mayChange(request)}}));
+  if (request.path == "/api/grid" && !map_.gridPng().empty()) return {200, "image/png", map_.gridPng()};
+  return refusal(404, "There is nothing at this address.");
+}
+
+HttpResponse MapSite::question(const HttpRequest& request) const {
+  const auto text = request.values.find("q");
+  if (text == request.values.end() || text->second.empty())
+    return refusal(400, "A question is missing: /api/query?q=kitchen");
+  query::Request asked;
+  asked.words = wordsOf(text->second);
+  const auto& verb = verbOf(asked.words);
+  query::expectWords(verb, asked);
+  const query::Answer answer = verb.answer(map_.map(), asked);
+  Json document = Json::parse(answer.json, nullptr, false);
+  document.erase("map");  // the path of a file on this machine is nothing for a page
+  return jsonAnswer(dumped(
+      {{"is_found", answer.code == base::ExitCode::ok}, {"text", answer.text}, {"answer", std::move(document)}}));
+}
+
+HttpResponse MapSite::picture(const HttpRequest& request) const {
+  const auto id = request.values.find("id");
+  const auto bytes = id == request.values.end() ? std::nullopt : map_.pictureOf(id->second);
+  if (!bytes) return refusal(404, "There is no picture of it.");
+  return {200, "image/png", *bytes};
+}
+
+HttpResponse MapSite::edit(const HttpRequest& request) {
+  const std::string done = query::editRooms(map_.map().folder, editWords(request.body));
+  std::string warning;
+  map_.update(warning);
+  return jsonAnswer(dumped({{"done", done}}));
+}
+
+std::string MapSite::revisionEvent() const {
+  return Json{{"revision", map_.revision()}}.dump();
+}
+
+HttpResponse MapSite::events() const {
+  HttpResponse response{200, "text/event-stream", "data: " + revisionEvent() + "\n\n"};
+  response.is_event_stream = true;
+  return response;
+}
+
+std::string MapSite::update(std::string& warning) {
+  map_.update(warning);
+  if (map_.revision() == announced_) return {};
+  announced_ = map_.revision();
+  return revisionEvent();
+}
+
+}  // namespace omnimapper::server

@@ -1,0 +1,127 @@
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/InputFile.h>
+#include <omnimapper/draw/Image.h>
+#include <omnimapper/query/MapDocument.h>
+#include <omnimapper/query/MapGrid.h>
+#include <omnimapper/server/ServedMap.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace omnimapper::server {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// What changes when a file is replaced.
+std::string stampOf(const std::string& file) {
+  struct stat found {};
+  if (::stat(file.c_str(), &found) != 0) return "missing";
+  return std::to_string(found.st_ino) + " " + std::to_string(found.st_size) + " " +
+         std::to_string(found.st_mtim.tv_sec) + "." + std::to_string(found.st_mtim.tv_nsec);
+}
+
+std::string pngOf(const query::GridMap& grid) {
+  draw::PaletteImage image{grid.columns, grid.rows, {{128, 128, 128}, {255, 255, 255}, {0, 0, 0}}, {}};
+  image.pixels.reserve(grid.cells.size());
+  for (int row = grid.rows - 1; row >= 0; --row)
+    for (int column = 0; column < grid.columns; ++column)
+      image.pixels.push_back(static_cast<std::uint8_t>(grid.at({column, row})));
+  return draw::encodePng(image);
+}
+
+Json placeOf(const query::GridMap& grid) {
+  return {{"min_x_m", grid.map_from_grid.x},
+          {"min_y_m", grid.map_from_grid.y},
+          {"cell_m", grid.resolution},
+          {"columns", grid.columns},
+          {"rows", grid.rows}};
+}
+
+/// A grid is a part of the map only once a run has ended.
+std::optional<query::GridMap> gridOf(const std::string& folder) {
+  try {
+    return query::readGrid(folder);
+  } catch (const base::Error&) {
+    return std::nullopt;
+  }
+}
+
+// Lines of the TUM format: stamp x y z and a quaternion.
+Json trajectoryOf(const std::string& folder) {
+  const std::string file = (fs::path(folder) / "trajectory.tum").string();
+  std::vector<std::array<double, 2>> path;
+  if (std::error_code none; fs::exists(file, none)) {
+    std::istringstream lines(base::readInput(file, "trajectory"));
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream numbers(line);
+      double stamp = 0, x = 0, y = 0;
+      if (numbers >> stamp >> x >> y && std::isfinite(x) && std::isfinite(y)) path.push_back({x, y});
+    }
+  }
+  const std::size_t step = path.size() / ServedMap::kMostPoses + 1;
+  Json list = Json::array();
+  for (std::size_t i = 0; i < path.size(); i += step)
+    list.push_back({std::round(path[i][0] * 1000) / 1000, std::round(path[i][1] * 1000) / 1000});
+  return list;
+}
+
+}  // namespace
+
+ServedMap::ServedMap(std::string path) : path_(std::move(path)) {
+  load();
+}
+
+bool ServedMap::update(std::string& warning) {
+  const std::string now = stampOf(map_.file) + stampOf((fs::path(map_.folder) / "map.omnimap").string());
+  if (now == stamp_) return false;
+  try {
+    load();
+    return true;
+  } catch (const base::Error& error) {
+    stamp_ = now;
+    warning = error.what();
+    return false;
+  }
+}
+
+void ServedMap::load() {
+  auto map = query::openMap(path_);
+  const std::string stamp = stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string());
+  const auto grid = gridOf(map.folder);
+  Json document = Json::parse(query::mapDocument(map));
+  document["revision"] = revision_ + 1;
+  document["grid"] = grid ? placeOf(*grid) : Json(nullptr);
+  std::string trajectory = trajectoryOf(map.folder).dump() + "\n";
+  std::string png = grid ? pngOf(*grid) : std::string();
+  map_ = std::move(map);
+  document_ = document.dump() + "\n";
+  grid_png_ = std::move(png);
+  trajectory_ = std::move(trajectory);
+  stamp_ = stamp;
+  ++revision_;
+}
+
+std::optional<std::string> ServedMap::pictureOf(const std::string& id) const {
+  const auto& places = map_.places.places;
+  const auto place =
+      std::find_if(places.begin(), places.end(), [&](const auto& each) { return toString(each.id) == id; });
+  if (place == places.end()) return std::nullopt;
+  std::string name = toString(place->id);
+  std::replace(name.begin(), name.end(), ':', '-');
+  const fs::path file = fs::path(map_.folder) / "objects" / (name + ".png");
+  std::error_code none;
+  if (!fs::is_regular_file(file, none)) return std::nullopt;
+  return base::readInput(file.string(), "picture");
+}
+
+}  // namespace omnimapper::server

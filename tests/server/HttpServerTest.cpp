@@ -1,0 +1,212 @@
+#include <omnimapper/base/Error.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "Client.h"
+#include "omnimapper/server/HttpServer.h"
+
+namespace omnimapper::server::http_server_test {
+namespace {
+
+/// A server in a thread of its own, which answers with method, path and body.
+class Running {
+ public:
+  explicit Running(const HttpLimits& limits = {})
+      : server_("127.0.0.1", 0, limits, [this](const HttpRequest& request) { return answer(request); }),
+        thread_([this] { server_.run([this] { return stopped_.load(); }, [this] { sendWaiting(); }); }) {}
+  ~Running() {
+    stopped_ = true;
+    thread_.join();
+  }
+  std::uint16_t port() const { return server_.port(); }
+  int answered() const { return answered_; }
+  void sendEvent(const std::string& event) {
+    const std::lock_guard lock(mutex_);
+    waiting_ = event;
+  }
+  /// The whole answer to these bytes, after which the connection must be closed.
+  std::string talk(const std::string& bytes) {
+    Client client(port());
+    client.send(bytes);
+    return client.readAll();
+  }
+
+ private:
+  HttpResponse answer(const HttpRequest& request) {
+    ++answered_;
+    HttpResponse response{200, "text/plain", request.method + " " + request.path + " " + request.body};
+    response.is_event_stream = request.path == "/events";
+    if (response.is_event_stream) response.body = "data: first\n\n";
+    return response;
+  }
+  void sendWaiting() {
+    const std::lock_guard lock(mutex_);
+    if (!waiting_.empty()) server_.send(waiting_);
+    waiting_.clear();
+  }
+
+  std::atomic<bool> stopped_ = false;
+  std::atomic<int> answered_ = 0;
+  std::mutex mutex_;
+  std::string waiting_;
+  HttpServer server_;
+  std::thread thread_;
+};
+
+std::string statusOf(const std::string& answer) {
+  return answer.substr(0, 12);
+}
+
+constexpr char kClose[] = "Host: a\r\nConnection: close\r\n\r\n";
+
+TEST(HttpServer, ARequestIsAnsweredAndTheConnectionIsKept) {
+  Running server;
+  Client client(server.port());
+  for (const char* path : {"/one", "/two"}) {
+    client.send(std::string("GET ") + path + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    const std::string answer = client.readTo(std::string("GET ") + path + " ");
+    EXPECT_EQ(statusOf(answer), "HTTP/1.1 200") << answer;
+  }
+  client.send(std::string("HEAD /three HTTP/1.1\r\n") + kClose);
+  const std::string answer = client.readAll();
+  EXPECT_EQ(statusOf(answer), "HTTP/1.1 200");
+  EXPECT_NE(answer.find("Content-Length: 12\r\n"), std::string::npos) << answer;
+  EXPECT_EQ(answer.substr(answer.size() - 4), "\r\n\r\n") << "HEAD has no body";
+}
+
+TEST(HttpServer, TooLargeCompressedOrDamagedRequestsNeverReachTheHandler) {
+  HttpLimits limits;
+  limits.header_bytes = 1000;
+  limits.body_bytes = 100;
+  Running server(limits);
+  const std::string begin = "POST / HTTP/1.1\r\nHost: a\r\n";
+  EXPECT_EQ(statusOf(server.talk(begin + "X: " + std::string(2000, 'x') + "\r\n\r\n")), "HTTP/1.1 431");
+  EXPECT_EQ(statusOf(server.talk(begin + "Content-Length: 101\r\n\r\n" + std::string(101, 'x'))), "HTTP/1.1 413");
+  EXPECT_EQ(statusOf(server.talk(begin + "Transfer-Encoding: chunked\r\n\r\n65\r\n" + std::string(101, 'x') +
+                                 "\r\n0\r\n\r\n")),
+            "HTTP/1.1 413");
+  EXPECT_EQ(statusOf(server.talk(begin + "Content-Encoding: gzip\r\nContent-Length: 1\r\n\r\nx")), "HTTP/1.1 415");
+  EXPECT_EQ(statusOf(server.talk("GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n")), "HTTP/1.1 400");
+  EXPECT_EQ(statusOf(server.talk("GET /%zz HTTP/1.1\r\nHost: a\r\n\r\n")), "HTTP/1.1 400");
+  EXPECT_EQ(statusOf(server.talk("GET http://a/ HTTP/1.1\r\nHost: a\r\n\r\n")), "HTTP/1.1 400");
+  EXPECT_EQ(statusOf(server.talk("no request at all\r\n\r\n")), "HTTP/1.1 400");
+  EXPECT_EQ(statusOf(server.talk(std::string(64, '\0') + "\r\n\r\n")), "HTTP/1.1 400");
+  EXPECT_EQ(server.answered(), 0);
+  EXPECT_EQ(statusOf(server.talk(begin + "Content-Length: 4\r\nConnection: close\r\n\r\nbody")), "HTTP/1.1 200");
+}
+
+TEST(HttpServer, SlowSendersHoldNobodyUpAndAreDisconnected) {
+  HttpLimits limits;
+  limits.request_s = 1;
+  Running server(limits);
+  std::vector<std::unique_ptr<Client>> slow;
+  for (int i = 0; i < 40; ++i) {
+    slow.push_back(std::make_unique<Client>(server.port()));
+    slow.back()->send("GET / HTTP/1.1\r\nHo");
+  }
+  EXPECT_EQ(statusOf(server.talk(std::string("GET / HTTP/1.1\r\n") + kClose)), "HTTP/1.1 200");
+  for (const auto& client : slow) EXPECT_TRUE(client->isClosed());
+  EXPECT_EQ(server.answered(), 1);
+}
+
+TEST(HttpServer, WhoIsIdleIsDisconnected) {
+  HttpLimits limits;
+  limits.idle_s = 1;
+  Running server(limits);
+  Client client(server.port());
+  EXPECT_TRUE(client.isClosed());
+}
+
+TEST(HttpServer, ConnectionsBeyondTheLimitAreRefused) {
+  HttpLimits limits;
+  limits.connections = 3;
+  Running server(limits);
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < 3; ++i) {
+    clients.push_back(std::make_unique<Client>(server.port()));
+    clients.back()->send("GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(statusOf(clients.back()->readTo("GET / ")), "HTTP/1.1 200");
+  }
+  EXPECT_EQ(statusOf(server.talk("")), "HTTP/1.1 503");
+  clients.pop_back();
+  std::string answer;
+  do {
+    answer = server.talk(std::string("GET / HTTP/1.1\r\n") + kClose);
+  } while (statusOf(answer) == "HTTP/1.1 503");  // until the server has seen that one is gone
+  EXPECT_EQ(statusOf(answer), "HTTP/1.1 200");
+}
+
+TEST(HttpServer, RequestsBeyondTheRateAreRefused) {
+  HttpLimits limits;
+  limits.requests_at_once = 5;
+  limits.requests_per_s = 1e-3;
+  Running server(limits);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(statusOf(server.talk(std::string("GET / HTTP/1.1\r\n") + kClose)), "HTTP/1.1 200");
+  EXPECT_EQ(statusOf(server.talk(std::string("GET / HTTP/1.1\r\n") + kClose)), "HTTP/1.1 429");
+  EXPECT_EQ(server.answered(), 5);
+}
+
+TEST(HttpServer, EventsReachEveryOpenStream) {
+  HttpLimits limits;
+  limits.event_streams = 2;
+  Running server(limits);
+  const std::string request = "GET /events HTTP/1.1\r\nHost: a\r\n\r\n";
+  Client one(server.port()), other(server.port());
+  for (Client* client : {&one, &other}) {
+    client->send(request);
+    EXPECT_EQ(statusOf(client->readTo("data: first\n\n")), "HTTP/1.1 200");
+  }
+  EXPECT_EQ(statusOf(server.talk(request)), "HTTP/1.1 503") << "a third stream";
+  server.sendEvent("second");
+  for (Client* client : {&one, &other}) EXPECT_EQ(client->readTo("\n\n"), "data: second\n\n");
+}
+
+TEST(HttpServer, AStreamThatIsNotReadIsClosedAndTheOthersGoOn) {
+  HttpLimits limits;
+  limits.unsent_bytes = 4 * 1024 * 1024;
+  Running server(limits);
+  const std::string request = "GET /events HTTP/1.1\r\nHost: a\r\n\r\n";
+  Client slow(server.port()), good(server.port());
+  for (Client* client : {&slow, &good}) {
+    client->send(request);
+    client->readTo("data: first\n\n");
+  }
+  // The system buffers some megabytes of a connection, too.
+  for (int i = 0; i < 12; ++i) {
+    server.sendEvent(std::string(1024 * 1024, 'e'));
+    EXPECT_EQ(good.readTo("\n\n").size(), 1024 * 1024 + 8);
+  }
+  EXPECT_LT(slow.readAll().size(), 12U * 1024 * 1024) << "it was closed before its end";
+}
+
+TEST(HttpServer, ATakenPortAndAWrongAddressAreRefusedWithTheRemedy) {
+  Running server;
+  const auto handler = [](const HttpRequest&) { return HttpResponse(); };
+  try {
+    HttpServer second("127.0.0.1", server.port(), {}, handler);
+    ADD_FAILURE() << "the port is taken";
+  } catch (const base::Error& error) {
+    EXPECT_NE(std::string(error.what()).find("choose another"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(HttpServer("nowhere", 0, {}, handler), base::Error);
+  EXPECT_TRUE(isLoopback("127.0.0.1") && isLoopback("::1") && !isLoopback("0.0.0.0") && !isLoopback("localhost"));
+}
+
+TEST(HttpMessage, TargetsAreDecoded) {
+  HttpRequest request;
+  ASSERT_TRUE(readTarget("/a%20b?q=caf%C3%A9+au+lait&q=tea&empty=&flag", request));
+  EXPECT_EQ(request.path, "/a b");
+  EXPECT_EQ(request.values.at("q"), "caf\xC3\xA9 au lait");
+  EXPECT_EQ(request.values.at("empty"), "");
+  EXPECT_EQ(request.values.count("flag"), 1U);
+  for (const char* damaged : {"", "a", "*", "/%", "/%4", "/%zz", "/%00", "/?a=%0a"})
+    EXPECT_FALSE(readTarget(damaged, request)) << damaged;
+}
+
+}  // namespace
+}  // namespace omnimapper::server::http_server_test

@@ -1,0 +1,203 @@
+#include <omnimapper/building/RoomsFile.h>
+#include <omnimapper/map/Layers.h>
+
+#include <filesystem>
+
+#include "../query/TwoRooms.h"
+#include "omnimapper/server/MapSite.h"
+
+namespace omnimapper::server::map_site_test {
+namespace {
+
+using nlohmann::json;
+
+constexpr char kToken[] = "0123456789abcdef";
+
+/// The page of the map of two rooms, in files.
+class MapSiteTest : public query::TwoRooms {
+ protected:
+  MapSiteTest() {
+    building::Building building;
+    building.storeys = {*map_.rooms};
+    const std::string rooms = building::encodeRooms(building);
+    EXPECT_NO_THROW(building::decodeRooms(rooms, "the rooms of the test"));
+    query::putFile(folder_ / "rooms.json", rooms);
+    map::MapFile file;
+    file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(map_.places)));
+    file.set({building::kRoomsLayer, building::kRoomsLayerVersion, rooms});
+    file.write(map_.file);
+    query::putFile(folder_ / "trajectory.tum", "1 0.5 0.5 0 0 0 0 1\n2 1 1 0 0 0 0 1\nno numbers\n");
+    std::filesystem::create_directory(folder_ / "page");
+    query::putFile(folder_ / "page/index.html", "<p>the page</p>");
+    query::putFile(folder_ / "page/secret.txt", "no page");
+    std::filesystem::create_directory(folder_ / "objects");
+    query::putFile(folder_ / "objects/0-1.png", "a picture");
+    query::putFile(folder_ / "objects/secret.png", "no picture of a landmark");
+  }
+  MapSite site() { return {ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken)}; }
+
+  static HttpRequest get(const std::string& target) {
+    HttpRequest request;
+    EXPECT_TRUE(readTarget(target, request)) << target;
+    request.method = "GET";
+    request.host = "map:8080";
+    return request;
+  }
+  static HttpRequest edit(const json& words) {
+    HttpRequest request = get("/api/edit");
+    request.method = "POST";
+    request.origin = "http://map:8080";
+    request.content_type = "application/json";
+    request.cookie = std::string("other=1; omnimapper_token=") + kToken;
+    request.body = json{{"words", words}}.dump();
+    return request;
+  }
+};
+
+TEST_F(MapSiteTest, ThePageAndTheMapAreServed) {
+  auto served = site();
+  EXPECT_EQ(served.answer(get("/")).body, "<p>the page</p>");
+  const auto map = json::parse(served.answer(get("/api/map")).body);
+  EXPECT_EQ(map["rooms"].size(), 2U);
+  EXPECT_EQ(map["rooms"][0]["outline_m"][1], (json{4, 0.1}));
+  EXPECT_EQ(map["doors"][0]["rooms"][1]["id"], "room 2");
+  EXPECT_EQ(map["unseen"][0]["name"], "118");
+  EXPECT_EQ(map["places"].size(), 6U);
+  EXPECT_EQ(map["places"][1]["room"]["name"], "kitchen");
+  EXPECT_EQ(map["places"][5]["room"], nullptr);
+  EXPECT_EQ(map["labels"]["bed"]["colour"], "#4f46e5");
+  EXPECT_EQ(map["grid"]["columns"], 80);
+  EXPECT_EQ(map["revision"], 1);
+  EXPECT_EQ(map.count("map"), 0U) << "paths of this machine are not for pages";
+  EXPECT_EQ(json::parse(served.answer(get("/api/trajectory")).body), (json{{0.5, 0.5}, {1, 1}}));
+  EXPECT_EQ(served.answer(get("/api/grid")).body.substr(1, 3), "PNG");
+  EXPECT_EQ(served.answer(get("/api/picture?id=0:1")).body, "a picture");
+}
+
+TEST_F(MapSiteTest, NoPathFromOutsideBecomesAFileName) {
+  auto served = site();
+  for (const char* target :
+       {"/secret.txt", "/../map.omnimap", "/%2e%2e/map.omnimap", "/page/index.html", "//index.html", "/api/picture",
+        "/api/picture?id=secret", "/api/picture?id=../rooms", "/api/picture?id=0:2", "/api/picture?id=0-1", "/nothing"})
+    EXPECT_EQ(served.answer(get(target)).status, 404) << target;
+}
+
+TEST_F(MapSiteTest, QuestionsAreAnsweredAsOnTheCommandLine) {
+  auto served = site();
+  const auto asked = [&](const std::string& question) { return served.answer(get("/api/query?q=" + question)); };
+  const auto found = json::parse(asked("118").body);
+  EXPECT_TRUE(found["is_found"]);
+  EXPECT_EQ(found["answer"]["matches"][0]["id"], "0:0") << found.dump(1);
+  EXPECT_EQ(found.dump().find(folder_.path()), std::string::npos) << "paths of this machine are not for pages";
+  EXPECT_EQ(json::parse(asked("path+kitchen+to+118").body)["answer"]["verb"], "path");
+  EXPECT_FALSE(json::parse(asked("nothing+like+this").body)["is_found"]);
+  EXPECT_EQ(asked("").status, 400);
+  EXPECT_EQ(asked("near+1").status, 400);
+  EXPECT_EQ(asked("%FF%FE").status, 400) << "no UTF-8";
+}
+
+TEST_F(MapSiteTest, ARoomIsRenamedInFilesAndMapAndAllPagesAreTold) {
+  auto served = site();
+  std::string warning;
+  EXPECT_EQ(served.update(warning), "");
+  const auto done = served.answer(edit({"rename", "room 1", "caf\xC3\xA9 <b>"}));
+  EXPECT_EQ(done.status, 200) << done.body;
+  EXPECT_EQ(json::parse(served.answer(get("/api/map")).body)["rooms"][0]["name"], "caf\xC3\xA9 <b>");
+  EXPECT_EQ(json::parse(served.update(warning))["revision"], 2);
+  EXPECT_EQ(served.update(warning), "");
+  EXPECT_EQ(query::openMap(folder_.path()).rooms->rooms[0].name, "caf\xC3\xA9 <b>");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "edits.json"));
+}
+
+TEST_F(MapSiteTest, ChangesThatAreNoneChangeNothing) {
+  auto served = site();
+  for (const auto& words : {json{"rename", "room 9", "x"}, json{"rename", "room 1", ""}, json{"burn"}, json::array(),
+                            json{"rename", 1, "x"}, json("rename")})
+    EXPECT_EQ(served.answer(edit(words)).status, 400) << words;
+  HttpRequest request = edit({"rename", "room 1", "x"});
+  for (const char* body : {"", "{", "[]", "null", "{\"words\": {}}"}) {
+    request.body = body;
+    EXPECT_EQ(served.answer(request).status, 400) << body;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "edits.json"));
+}
+
+TEST_F(MapSiteTest, OthersMayNotChangeTheMap) {
+  auto served = site();
+  const HttpRequest good = edit({"rename", "room 1", "mine"});
+  const auto refusedWith = [&](int status, void (*spoil)(HttpRequest&)) {
+    HttpRequest request = good;
+    spoil(request);
+    EXPECT_EQ(served.answer(request).status, status);
+  };
+  refusedWith(421, [](HttpRequest& request) { request.host = "evil.example:8080"; });  // DNS rebinding
+  refusedWith(403, [](HttpRequest& request) { request.origin = "http://evil.example"; });
+  refusedWith(403, [](HttpRequest& request) { request.origin = ""; });
+  refusedWith(403, [](HttpRequest& request) { request.origin = "null"; });
+  refusedWith(415, [](HttpRequest& request) { request.content_type = "text/plain"; });  // what a form can send
+  refusedWith(401, [](HttpRequest& request) { request.cookie = ""; });
+  refusedWith(401, [](HttpRequest& request) { request.cookie = "omnimapper_token=0123456789abcdee"; });
+  refusedWith(405, [](HttpRequest& request) { request.method = "DELETE"; });
+  refusedWith(404, [](HttpRequest& request) { request.path = "/api/map"; });
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "edits.json"));
+  HttpRequest elsewhere = get("/api/map");
+  elsewhere.host = "evil.example:8080";
+  EXPECT_EQ(served.answer(elsewhere).status, 421) << "nor read it";
+}
+
+TEST_F(MapSiteTest, TheTokenBecomesACookieThatNoScriptReads) {
+  auto served = site();
+  EXPECT_EQ(served.answer(get("/enter?token=wrong")).status, 401);
+  EXPECT_EQ(served.answer(get("/enter")).status, 401);
+  const auto entered = served.answer(get(std::string("/enter?token=") + kToken));
+  EXPECT_EQ(entered.status, 303);
+  std::string cookie;
+  for (const auto& [name, value] : entered.fields)
+    if (name == "Set-Cookie") cookie = value;
+  EXPECT_EQ(cookie, std::string("omnimapper_token=") + kToken + "; HttpOnly; SameSite=Strict; Path=/");
+  HttpRequest me = get("/api/me");
+  EXPECT_FALSE(json::parse(served.answer(me).body)["may_change"]);
+  me.cookie = std::string("omnimapper_token=") + kToken;
+  EXPECT_TRUE(json::parse(served.answer(me).body)["may_change"]);
+}
+
+TEST_F(MapSiteTest, EveryAnswerForbidsFramesScriptsFromElsewhereAndGuessing) {
+  auto served = site();
+  HttpRequest elsewhere = get("/");
+  elsewhere.host = "evil.example";
+  for (const auto& response : {served.answer(get("/")), served.answer(get("/nothing")), served.answer(elsewhere)}) {
+    std::string all;
+    for (const auto& [name, value] : response.fields) all += name + ": " + value + "\n";
+    for (const char* part : {"default-src 'none'", "frame-ancestors 'none'", "X-Content-Type-Options: nosniff",
+                             "Referrer-Policy: no-referrer"})
+      EXPECT_NE(all.find(part), std::string::npos) << part;
+  }
+}
+
+TEST_F(MapSiteTest, AMapThatIsReplacedIsReadAgainAndADamagedOneIsNot) {
+  auto served = site();
+  std::string warning;
+  map_.places.places.pop_back();
+  map::MapFile file;
+  file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(map_.places)));
+  file.write(map_.file);
+  EXPECT_EQ(json::parse(served.update(warning))["revision"], 2);
+  EXPECT_EQ(json::parse(served.answer(get("/api/map")).body)["places"].size(), 5U);
+  EXPECT_EQ(warning, "");
+  query::putFile(map_.file, "damaged");
+  EXPECT_EQ(served.update(warning), "");
+  EXPECT_NE(warning.find(map_.file), std::string::npos) << warning;
+  EXPECT_EQ(json::parse(served.answer(get("/api/map")).body)["places"].size(), 5U);
+  warning.clear();
+  EXPECT_EQ(served.update(warning), "");
+  EXPECT_EQ(warning, "") << "said once";
+}
+
+TEST(Access, TokensAreRandomAndCompared) {
+  EXPECT_EQ(randomToken().size(), 32U);
+  EXPECT_NE(randomToken(), randomToken());
+  EXPECT_TRUE(areSame("abc", "abc") && !areSame("abc", "abd") && !areSame("abc", "ab") && !areSame("", "a"));
+}
+
+}  // namespace
+}  // namespace omnimapper::server::map_site_test

@@ -1,0 +1,91 @@
+// The page of a map: plan, search, what is touched, and changes of rooms.
+import { Panel } from './panel.js';
+import { Plan } from './plan.js';
+import { paintLayers } from './layers.js';
+import { listOf } from './list.js';
+import * as server from './server.js';
+
+const byId = (id) => document.getElementById(id);
+const state = byId('state');
+let map = null;
+
+const plan = new Plan(byId('plan'), (touched, point) => choose(touched, point));
+const panel = new Panel(byId('panel'), {
+  choose: (chosen) => choose(chosen, null, true),
+  change: async (words) => {
+    const done = await server.edit(words);
+    await load();
+    say(done);
+  },
+  showPath: (walk) => {
+    plan.path = walk;
+    plan.draw();
+  },
+});
+
+function say(sentence, isBad = false) {
+  state.textContent = sentence;
+  state.classList.toggle('bad', isBad);
+}
+
+function choose(chosen, point, isToLookAt = false) {
+  plan.choose(chosen);
+  panel.show(chosen, point);
+  if (chosen && isToLookAt) plan.lookAt(middleOf(chosen));
+}
+
+function middleOf({ kind, item }) {
+  if (kind === 'room') return item.centre_m;
+  if (kind === 'door') return [(item.from_m[0] + item.to_m[0]) / 2, (item.from_m[1] + item.to_m[1]) / 2];
+  return item.position_m;
+}
+
+// The same thing in the map that was read again.
+function again(chosen) {
+  if (!chosen) return null;
+  const lists = { room: map.rooms, door: map.doors, place: map.places };
+  const item = lists[chosen.kind].find((each) => each.id === chosen.item.id);
+  return item ? { kind: chosen.kind, item } : null;
+}
+
+async function load() {
+  map = await server.mapDocument();
+  const [walk, image, mayChange] = await Promise.all([
+    server.trajectory(), map.grid ? server.gridImage(map.revision) : null, server.mayChange()]);
+  plan.show(map, image, walk);
+  panel.take(map, mayChange);
+  paintLayers(byId('toggles'), map, plan);
+  byId('list').replaceChildren(listOf(map, (chosen) => choose(chosen, null, true)));
+  if (!panel.pending) choose(again(plan.chosen), null);
+  const time = map.map_time ? new Date(map.map_time).toLocaleString() : 'an unknown time';
+  say(`${map.rooms.length} rooms, ${map.places.length} landmarks, as of ${time}`);
+}
+
+async function find(text) {
+  if (!text) return;
+  try {
+    panel.answer(text, await server.question(text));
+  } catch (error) {
+    panel.answer(text, { is_found: false, text: error.message, answer: {} });
+  }
+}
+
+byId('search').addEventListener('submit', (event) => {
+  event.preventDefault();
+  find(byId('question').value.trim());
+});
+byId('closer').addEventListener('click', () => plan.zoom(1.4));
+byId('farther').addEventListener('click', () => plan.zoom(1 / 1.4));
+byId('all').addEventListener('click', () => plan.showAll());
+
+server.listen(
+  async (revision) => {
+    if (map && map.revision === revision && !state.classList.contains('bad')) return;
+    try {
+      await load();
+      document.documentElement.dataset.revision = revision;
+    } catch (error) {
+      say(error.message, true);
+    }
+  },
+  () => say('The server is not reached; the map is as it was last.', true));
