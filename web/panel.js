@@ -116,11 +116,13 @@ export class Panel {
       ['height', `${place.extent.bottom_m.toFixed(2)} to ${place.extent.top_m.toFixed(2)} m`],
       ['state', place.state], ['seen', seen || `${place.measurements} times`],
       ['last seen', place.last_seen ? new Date(place.last_seen).toLocaleString() : 'not known'], ...properties]);
-    const picture = element('img');
-    picture.alt = 'Picture of it';
-    picture.addEventListener('error', () => picture.remove());
-    picture.src = pictureAddress(place.id);
-    const parts = [picture, facts];
+    const parts = [facts];
+    if (place.has_picture) {
+      const picture = element('img');
+      picture.alt = 'Picture of it';
+      picture.src = pictureAddress(place.id);
+      parts.unshift(picture);
+    }
     const room = place.room && this.map.rooms.find((each) => each.id === place.room.id);
     if (room) {
       const list = element('ul');

@@ -65,6 +65,8 @@ TEST_F(MapSiteTest, ThePageAndTheMapAreServed) {
   EXPECT_EQ(map["places"].size(), 6U);
   EXPECT_EQ(map["places"][1]["room"]["name"], "kitchen");
   EXPECT_EQ(map["places"][5]["room"], nullptr);
+  EXPECT_TRUE(map["places"][1]["has_picture"]);
+  EXPECT_FALSE(map["places"][2]["has_picture"]);
   EXPECT_EQ(map["labels"]["bed"]["colour"], "#4f46e5");
   EXPECT_EQ(map["grid"]["columns"], 80);
   EXPECT_EQ(map["revision"], 1);

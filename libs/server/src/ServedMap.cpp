@@ -56,6 +56,14 @@ std::optional<query::GridMap> gridOf(const std::string& folder) {
   }
 }
 
+/// The file of the picture of an object, by the id of its landmark; none if there is none.
+std::optional<std::string> pictureFile(const std::string& folder, std::string id) {
+  std::replace(id.begin(), id.end(), ':', '-');
+  const fs::path file = fs::path(folder) / "objects" / (id + ".png");
+  std::error_code none;
+  return fs::is_regular_file(file, none) ? std::optional(file.string()) : std::nullopt;
+}
+
 // Lines of the TUM format: stamp x y z and a quaternion.
 Json trajectoryOf(const std::string& folder) {
   const std::string file = (fs::path(folder) / "trajectory.tum").string();
@@ -101,6 +109,8 @@ void ServedMap::load() {
   Json document = Json::parse(query::mapDocument(map));
   document["revision"] = revision_ + 1;
   document["grid"] = grid ? placeOf(*grid) : Json(nullptr);
+  for (auto& place : document["places"])
+    place["has_picture"] = pictureFile(map.folder, place["id"].get<std::string>()).has_value();
   std::string trajectory = trajectoryOf(map.folder).dump() + "\n";
   std::string png = grid ? pngOf(*grid) : std::string();
   map_ = std::move(map);
@@ -116,12 +126,8 @@ std::optional<std::string> ServedMap::pictureOf(const std::string& id) const {
   const auto place =
       std::find_if(places.begin(), places.end(), [&](const auto& each) { return toString(each.id) == id; });
   if (place == places.end()) return std::nullopt;
-  std::string name = toString(place->id);
-  std::replace(name.begin(), name.end(), ':', '-');
-  const fs::path file = fs::path(map_.folder) / "objects" / (name + ".png");
-  std::error_code none;
-  if (!fs::is_regular_file(file, none)) return std::nullopt;
-  return base::readInput(file.string(), "picture");
+  const auto file = pictureFile(map_.folder, toString(place->id));
+  return file ? std::optional(base::readInput(*file, "picture")) : std::nullopt;
 }
 
 }  // namespace omnimapper::server

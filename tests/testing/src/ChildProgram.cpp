@@ -111,6 +111,10 @@ std::string Program::saidSoFar() const {
   return contentOf(err_);
 }
 
+std::string Program::printedSoFar() const {
+  return contentOf(out_);
+}
+
 bool Program::hasOpen(const std::string& path) const {
   namespace fs = std::filesystem;
   std::error_code error;

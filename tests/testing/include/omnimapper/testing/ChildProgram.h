@@ -39,6 +39,8 @@ class Program {
   bool isRunning();
   /// What the program has written to its standard error until now.
   std::string saidSoFar() const;
+  /// What it has written to its standard output until now.
+  std::string printedSoFar() const;
   /// Whether the program has that file open now.
   bool hasOpen(const std::string& path) const;
   /// Waits until neither the program nor one that it started has had anything to do for half a second. Returns false if
