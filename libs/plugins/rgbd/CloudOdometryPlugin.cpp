@@ -1,9 +1,9 @@
 #include "CloudOdometryPlugin.h"
 
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/FeatureLibraries.h>
 
 #include "openDirections.h"
-#include "pclMatcher.h"
 
 namespace omnimapper::plugins {
 
@@ -19,8 +19,11 @@ namespace {
 
 std::unique_ptr<const matching::CloudMatcher> matcherOf(const CloudLibraryOptions& by,
                                                         const matching::CloudMatcherOptions& matching) {
-  if (by.library == CloudLibraryOptions::Library::pcl) return pclMatcher(matching);
-  return std::make_unique<matching::IteratedClosestPoints>(matching);
+  if (by.library == CloudLibraryOptions::Library::omnimapper)
+    return std::make_unique<matching::IteratedClosestPoints>(matching);
+  const auto make = reinterpret_cast<matching::CloudMatcher* (*)(const matching::CloudMatcherOptions&)>(
+      base::functionOfFeature("omnimapperPclMatcher", "PCL cannot match clouds", "set library = omnimapper"));
+  return std::unique_ptr<const matching::CloudMatcher>(make(matching));
 }
 
 }  // namespace

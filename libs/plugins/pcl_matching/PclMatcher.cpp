@@ -1,11 +1,11 @@
-#include "pclMatcher.h"
+#include "PclMatcher.h"
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/gicp.h>
 #include <pcl/registration/icp.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::pcl_matching {
 
 namespace {
 
@@ -54,51 +54,43 @@ std::optional<Se3> align(Registration& registration, const CloudMatcherOptions& 
              found.topRightCorner<3, 1>()};
 }
 
-class PclMatcher : public matching::CloudMatcher {
- public:
-  explicit PclMatcher(const CloudMatcherOptions& options) : options_(options), judge_(options) {}
-
-  CloudMatch match(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const override {
-    const auto found = registered(target, source, guess);
-    if (found) return judge_.judged(target, source, guess, *found);
-    CloudMatch match;
-    match.target_from_source = guess;
-    return match;
-  }
-
- private:
-  std::optional<Se3> registered(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
-    using Point = pcl::PointNormal;
-    // PCL's ICP compares its epsilon with the square of a step, its GICP with the step itself [m] [rad].
-    const double square = options_.tolerance * options_.tolerance;
-    switch (options_.method) {
-      case CloudMethod::point_to_plane: {
-        pcl::IterativeClosestPointWithNormals<Point, Point> icp;
-        icp.setTransformationEpsilon(square);
-        return align(icp, options_, true, target, source, guess);
-      }
-      case CloudMethod::gicp: {
-        pcl::GeneralizedIterativeClosestPoint<Point, Point> gicp;
-        gicp.setTransformationEpsilon(options_.tolerance);
-        gicp.setRotationEpsilon(options_.tolerance);
-        return align(gicp, options_, false, target, source, guess);
-      }
-      case CloudMethod::point_to_point:
-        break;
-    }
-    pcl::IterativeClosestPoint<Point, Point> icp;
-    icp.setTransformationEpsilon(square);
-    return align(icp, options_, false, target, source, guess);
-  }
-
-  CloudMatcherOptions options_;
-  matching::IteratedClosestPoints judge_;
-};
-
 }  // namespace
 
-std::unique_ptr<const matching::CloudMatcher> pclMatcher(const CloudMatcherOptions& options) {
-  return std::make_unique<PclMatcher>(options);
+CloudMatch PclMatcher::match(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
+  const auto found = registered(target, source, guess);
+  if (found) return judge_.judged(target, source, guess, *found);
+  CloudMatch match;
+  match.target_from_source = guess;
+  return match;
 }
 
-}  // namespace omnimapper::plugins
+std::optional<Se3> PclMatcher::registered(const MatchCloud& target, const MatchCloud& source, const Se3& guess) const {
+  using Point = pcl::PointNormal;
+  // PCL's ICP compares its epsilon with the square of a step, its GICP with the step itself [m] [rad].
+  const double square = options_.tolerance * options_.tolerance;
+  switch (options_.method) {
+    case CloudMethod::point_to_plane: {
+      pcl::IterativeClosestPointWithNormals<Point, Point> icp;
+      icp.setTransformationEpsilon(square);
+      return align(icp, options_, true, target, source, guess);
+    }
+    case CloudMethod::gicp: {
+      pcl::GeneralizedIterativeClosestPoint<Point, Point> gicp;
+      gicp.setTransformationEpsilon(options_.tolerance);
+      gicp.setRotationEpsilon(options_.tolerance);
+      return align(gicp, options_, false, target, source, guess);
+    }
+    case CloudMethod::point_to_point:
+      break;
+  }
+  pcl::IterativeClosestPoint<Point, Point> icp;
+  icp.setTransformationEpsilon(square);
+  return align(icp, options_, false, target, source, guess);
+}
+
+}  // namespace omnimapper::pcl_matching
+
+extern "C" omnimapper::matching::CloudMatcher* omnimapperPclMatcher(
+    const omnimapper::matching::CloudMatcherOptions& options) {
+  return new omnimapper::pcl_matching::PclMatcher(options);
+}
