@@ -115,14 +115,35 @@ function(omnimapper_optimize target how)
   endif()
 endfunction()
 
-# omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [WITHOUT <files...>] PUBLIC <targets...> PRIVATE <targets...>)
+# omnimapper_needs(VARIABLE (<target> <text>)...): why a part that needs these targets is left out, with the remedy;
+# empty if all of them are there.
+function(omnimapper_needs variable)
+  set(${variable} "" PARENT_SCOPE)
+  set(needs ${ARGN})
+  while(needs)
+    list(POP_FRONT needs needed text)
+    if(NOT TARGET ${needed})
+      set(${variable} "it had no ${text}; install that, and configure and build again" PARENT_SCOPE)
+      return()
+    endif()
+  endwhile()
+endfunction()
+
+# omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [NEEDS (<target> <text>)...] [WITHOUT <files...>]
+#   PUBLIC <targets...> PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for
 # libraries in whose loops mapping spends its time (-O3), LIGHT for those that compute little (-O1); all others have
 # -O2. Under a sanitizer only KERNELS and OPTIMIZED libraries are optimized; the rest compile in half the time, and
 # their tests take hardly longer. OPTIMIZED is for libraries that render images, whose tests would run for minutes.
+# If a target that it NEEDS is missing, the library is left out, and so are the features and programs that need it.
 # WITHOUT names files to leave out.
 function(omnimapper_library name)
-  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "WITHOUT;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "NEEDS;WITHOUT;PUBLIC;PRIVATE" ${ARGN})
+  omnimapper_needs(left_out ${ARG_NEEDS})
+  if(left_out)
+    message(STATUS "Left out: library ${name}, because ${left_out}")
+    return()
+  endif()
   omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
   foreach(each ${ARG_WITHOUT})
     list(FILTER sources EXCLUDE REGEX "/${each}\\.cpp$")
@@ -149,27 +170,27 @@ function(omnimapper_library name)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "${absent}^$" EXCLUDE)
 endfunction()
 
-# omnimapper_feature(NAME [PLUGINS <classes...>] [FORMATS <names...>] [FUNCTIONS <names...>] [NEEDS (<target> <text>)...]
-#   LINKS <targets...>)
+# omnimapper_feature(NAME [KERNELS] [PLUGINS <classes...>] [FORMATS <names...>] 
+#   [FUNCTIONS <names...>] [NEEDS (<target> <text>)...] LINKS <targets...>)
 # A feature: the shared library omnimapper-NAME from the folder's sources, in the folder omnimapper/ beside the other
 # libraries, where programs find it. PLUGINS are the classes that it registers, as an INI writes them, FORMATS the
-# formats of logs, and FUNCTIONS the functions that it exports; a feature of functions alone is loaded when one is
-# called. If a target that it NEEDS is missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the feature is left out, and
-# whoever names something of it gets an error with the reason.
+# formats of logs, and FUNCTIONS the functions that it exports; a feature of
+# functions alone is loaded when one is called. KERNELS is as in omnimapper_library(). If a target that it NEEDS is
+# missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the feature is left out, and whoever names something of it gets an
+# error with the reason.
 function(omnimapper_feature name)
-  cmake_parse_arguments(ARG "" "" "PLUGINS;FORMATS;FUNCTIONS;NEEDS;LINKS" ${ARGN})
-  option(OMNIMAPPER_FEATURE_${name} "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}${ARG_FUNCTIONS}" ON)
+  cmake_parse_arguments(ARG "KERNELS" "" "PLUGINS;FORMATS;FUNCTIONS;NEEDS;LINKS" ${ARGN})
+  option(OMNIMAPPER_FEATURE_${name}
+    "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}${ARG_FUNCTIONS}" ON)
   set_property(GLOBAL APPEND PROPERTY omnimapper_declared_features ${name})
-  set(left_out "")
+  omnimapper_needs(left_out ${ARG_NEEDS})
   if(NOT OMNIMAPPER_FEATURE_${name})
     set(left_out "it was configured with -DOMNIMAPPER_FEATURE_${name}=OFF; configure it with ON")
-  endif()
-  while(ARG_NEEDS AND NOT left_out)
-    list(POP_FRONT ARG_NEEDS needed text)
-    if(NOT TARGET ${needed})
-      set(left_out "it had no ${text}; install that, and configure and build again")
+    if(ARG_NEEDS)
+      list(GET ARG_NEEDS 1 text)
+      string(APPEND left_out ", which needs ${text}")
     endif()
-  endwhile()
+  endif()
   foreach(kind PLUGIN FORMAT FUNCTION)
     string(TOLOWER ${kind} registered)
     foreach(each ${ARG_${kind}S})
@@ -190,7 +211,11 @@ function(omnimapper_feature name)
   set_target_properties(${target} PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/omnimapper" INSTALL_RPATH "$ORIGIN/..")
   omnimapper_compile_options(${target})
-  omnimapper_optimize(${target} OFF)
+  if(ARG_KERNELS)
+    omnimapper_optimize(${target} KERNELS)
+  else()
+    omnimapper_optimize(${target} OFF)
+  endif()
   install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/omnimapper")
 endfunction()
 
@@ -207,13 +232,19 @@ function(omnimapper_has_features variable who)
   endif()
 endfunction()
 
-# omnimapper_app(NAME <targets...>): program NAME from the folder's sources, target app-NAME (a library may be called
-# NAME too).
+# omnimapper_app(NAME <targets...> [NEEDS (<target> <text>)...]): program NAME from the folder's sources, target app-NAME
+# (a library may be called NAME too). If a target that it NEEDS is missing, the program is left out.
 function(omnimapper_app name)
+  cmake_parse_arguments(ARG "" "" "NEEDS" ${ARGN})
+  omnimapper_needs(left_out ${ARG_NEEDS})
+  if(left_out)
+    message(STATUS "Left out: ${name}, because ${left_out}")
+    return()
+  endif()
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   add_executable(app-${name} ${sources})
   set_target_properties(app-${name} PROPERTIES OUTPUT_NAME ${name})
-  target_link_libraries(app-${name} PRIVATE ${ARGN})
+  target_link_libraries(app-${name} PRIVATE ${ARG_UNPARSED_ARGUMENTS})
   omnimapper_compile_options(app-${name})
   # An app compiles only the reading of its command line.
   omnimapper_optimize(app-${name} LIGHT)

@@ -1,6 +1,5 @@
 // omnimapper-train-doorsigns: trains the model that distinguishes door signs from other regions of images.
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/signs/TrainingRun.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "program/Program.h"
+#include "salient_signs/TrainingRun.h"
 
 namespace {
 

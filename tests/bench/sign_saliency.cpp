@@ -6,7 +6,6 @@
 // A folder has JPEG or PNG pictures. Times are processor times of one thread, the shortest of three.
 
 #include <omnimapper/base/Error.h>
-#include <omnimapper/signs/SalientSignDetector.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,6 +16,8 @@
 #include <opencv2/core.hpp>
 
 #include "Timing.h"
+#include "salient_signs/Pixels.h"
+#include "salient_signs/SalientSignDetector.h"
 
 namespace fs = std::filesystem;
 using namespace omnimapper;

@@ -1,6 +1,7 @@
 #include <omnimapper/base/AtLoad.h>
-#include <omnimapper/perception/ArucoMarkerExtractor.h>
 #include <omnimapper/plugin/FactoryOf.h>
+
+#include "ArucoMarkerExtractor.h"
 
 namespace omnimapper::plugins {
 

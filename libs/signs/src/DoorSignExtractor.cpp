@@ -5,9 +5,6 @@
 #include <omnimapper/camera/PictureView.h>
 #include <omnimapper/net/Network.h>
 #include <omnimapper/signs/DoorSignExtractor.h>
-#ifdef OMNIMAPPER_HAS_SALIENCY
-#include <omnimapper/signs/SalientSignDetector.h>
-#endif
 #include <omnimapper/signs/SignDetector.h>
 
 #include <algorithm>
@@ -216,16 +213,9 @@ class DoorSignExtractor::Finder {
 
   std::unique_ptr<const SignDetector> salientDetector() const {
     if (options_.detector == DoorSignOptions::Detector::text) return nullptr;
-#ifdef OMNIMAPPER_HAS_SALIENCY
-    SalientSignOptions salient;
-    salient.model = options_.model;
-    salient.min_score = options_.min_score;
-    return std::make_unique<SalientSignDetector>(salient);
-#else
-    throw base::Error(base::ExitCode::plugin_library,
-                      "door signs cannot be found by saliency: this build had no OpenCV module saliency. Install "
-                      "libopencv-contrib-dev, and configure and build again, or leave detector = saliency out.");
-#endif
+    const auto make = reinterpret_cast<SignDetector* (*)(const std::string&, double)>(base::functionOfFeature(
+        "omnimapperSalientSignDetector", "door signs cannot be found by saliency", "leave detector = saliency out"));
+    return std::unique_ptr<const SignDetector>(make(options_.model, options_.min_score));
   }
 
   DoorSignOptions options_;

@@ -1,11 +1,12 @@
 // Training and detection on pictures of simulated buildings: the shipped model is tested on other pictures than it was
 // trained on, and a new model is trained.
 #include <gtest/gtest.h>
-#include <omnimapper/signs/SalientSignDetector.h>
-#include <omnimapper/signs/TrainingRun.h>
 #include <omnimapper/testing/SignPictures.h>
 
 #include <cstring>
+
+#include "salient_signs/SalientSignDetector.h"
+#include "salient_signs/TrainingRun.h"
 
 namespace omnimapper::signs::simulated_test {
 namespace {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <mrpt/img/CImage.h>
 #include <omnimapper/camera/ColourImage.h>
 
 #include <Eigen/Core>
@@ -27,10 +26,5 @@ class SignDetector {
   /// of the picture is invalid: a size below 0, rows longer than their stride, or no memory.
   virtual std::vector<SignRegion> detect(const camera::ColourImage& picture) const = 0;
 };
-
-/// A view of the pixels of `picture`, which must outlive the view. Throws Error(unreadable_input) if the picture does
-/// not have 8 bits and one or three channels, and Error(missing_images) if the picture is in a file that was not loaded
-/// and is missing.
-camera::ColourImage pixelsOf(const mrpt::img::CImage& picture);
 
 }  // namespace omnimapper::signs

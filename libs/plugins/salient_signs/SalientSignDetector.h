@@ -1,7 +1,7 @@
 #pragma once
 
-#include <omnimapper/signs/SaliencyProposer.h>
-#include <omnimapper/signs/SignClassifier.h>
+#include "SaliencyProposer.h"
+#include "SignClassifier.h"
 
 namespace omnimapper::signs {
 

@@ -1,7 +1,8 @@
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/signs/SignTraining.h>
 
 #include <algorithm>
+
+#include "SignTraining.h"
 
 namespace omnimapper::signs {
 

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/SplitMix.h>
-#include <omnimapper/signs/SignTraining.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "Machine.h"
-#include "PlattScaling.h"
+#include "salient_signs/Machine.h"
+#include "salient_signs/PlattScaling.h"
+#include "salient_signs/SignTraining.h"
 
 namespace omnimapper::signs::training_test {
 namespace {

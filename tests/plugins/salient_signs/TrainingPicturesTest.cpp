@@ -2,12 +2,13 @@
 #include <mrpt/img/CImage.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/signs/TrainingPictures.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <ostream>
+
+#include "salient_signs/TrainingPictures.h"
 
 namespace omnimapper::signs::pictures_test {
 namespace {

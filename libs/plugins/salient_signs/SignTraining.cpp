@@ -1,10 +1,12 @@
+#include "SignTraining.h"
+
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/SplitMix.h>
-#include <omnimapper/signs/SignTraining.h>
 
 #include <algorithm>
 
 #include "Machine.h"
+#include "Pixels.h"
 #include "Plate.h"
 
 namespace omnimapper::signs {

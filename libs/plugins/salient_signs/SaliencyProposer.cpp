@@ -1,4 +1,4 @@
-#include <omnimapper/signs/SaliencyProposer.h>
+#include "SaliencyProposer.h"
 
 #include <algorithm>
 #include <cmath>

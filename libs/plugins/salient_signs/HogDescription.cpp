@@ -1,5 +1,3 @@
-#include <omnimapper/signs/SignClassifier.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -8,6 +6,7 @@
 #include "FeatureScale.h"
 #include "Pixels.h"
 #include "Plate.h"
+#include "SignClassifier.h"
 
 namespace omnimapper::signs {
 

@@ -1,6 +1,7 @@
+#include "TrainingPictures.h"
+
 #include <omnimapper/base/CsvTable.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/signs/TrainingPictures.h>
 
 #include <algorithm>
 #include <filesystem>

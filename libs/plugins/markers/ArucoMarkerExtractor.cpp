@@ -1,15 +1,16 @@
+#include "ArucoMarkerExtractor.h"
+
 #include <omnimapper/base/Error.h>
 #include <omnimapper/camera/PictureView.h>
 #include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
-#include <omnimapper/perception/ArucoMarkerExtractor.h>
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "markers/MarkerFinder.h"
-#include "markers/MarkerPose.h"
+#include "MarkerFinder.h"
+#include "MarkerPose.h"
 
 namespace omnimapper::perception {
 

@@ -2,9 +2,10 @@
 
 #include <mrpt/img/CImage.h>
 #include <omnimapper/camera/LensModel.h>
-#include <omnimapper/perception/ArucoMarkerExtractor.h>
 
 #include <vector>
+
+#include "ArucoMarkerExtractor.h"
 
 namespace omnimapper::perception::markers {
 

@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/signs/SaliencyProposer.h>
 
 #include <opencv2/core.hpp>
 
-#include "Drawn.h"
+#include "../../signs/Drawn.h"
+#include "salient_signs/Pixels.h"
+#include "salient_signs/SaliencyProposer.h"
 
 namespace omnimapper::signs::saliency_test {
 namespace {

@@ -2,14 +2,15 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Progress.h>
-#include <omnimapper/signs/SaliencyProposer.h>
-#include <omnimapper/signs/SignClassifier.h>
-#include <omnimapper/signs/TrainingPictures.h>
 
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "SaliencyProposer.h"
+#include "SignClassifier.h"
+#include "TrainingPictures.h"
 
 namespace omnimapper::signs {
 

@@ -1,15 +1,15 @@
 #include <gtest/gtest.h>
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/signs/SalientSignDetector.h>
-#include <omnimapper/signs/SignClassifier.h>
 #include <omnimapper/testing/Fixtures.h>
 
 #include <cmath>
 #include <future>
 #include <ostream>
 
-#include "Drawn.h"
+#include "../../signs/Drawn.h"
+#include "salient_signs/SalientSignDetector.h"
+#include "salient_signs/SignClassifier.h"
 
 namespace omnimapper::signs::classifier_test {
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <omnimapper/signs/SignTraining.h>
-
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "SignTraining.h"
 
 namespace omnimapper::signs {
 

@@ -2,7 +2,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/perception/ArucoMarkerExtractor.h>
 #include <omnimapper/testing/MarkerPicture.h>
 #include <omnimapper/testing/SimulatedLog.h>
 
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "markers/ArucoMarkerExtractor.h"
 #include "markers/MarkerPose.h"
 
 namespace omnimapper::perception::aruco_marker_extractor_test {

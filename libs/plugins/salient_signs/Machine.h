@@ -1,8 +1,8 @@
 #pragma once
 
-#include <omnimapper/signs/SignTraining.h>
-
 #include <vector>
+
+#include "SignTraining.h"
 
 namespace omnimapper::signs {
 

@@ -1,4 +1,4 @@
-#include <omnimapper/signs/SalientSignDetector.h>
+#include "SalientSignDetector.h"
 
 #include <algorithm>
 #include <utility>
@@ -44,3 +44,10 @@ std::vector<SignRegion> SalientSignDetector::detect(const camera::ColourImage& p
 }
 
 }  // namespace omnimapper::signs
+
+extern "C" omnimapper::signs::SignDetector* omnimapperSalientSignDetector(const std::string& model, double min_score) {
+  omnimapper::signs::SalientSignOptions options;
+  options.model = model;
+  options.min_score = min_score;
+  return new omnimapper::signs::SalientSignDetector(options);
+}

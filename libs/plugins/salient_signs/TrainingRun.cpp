@@ -1,11 +1,13 @@
+#include "TrainingRun.h"
+
 #include <omnimapper/base/Numbers.h>
-#include <omnimapper/signs/SalientSignDetector.h>
-#include <omnimapper/signs/TrainingRun.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "Pixels.h"
 #include "Plate.h"
+#include "SalientSignDetector.h"
 
 namespace omnimapper::signs {
 

@@ -1,4 +1,4 @@
-#include <omnimapper/signs/SignClassifier.h>
+#include "SignClassifier.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "Pixels.h"
 
 #include <omnimapper/base/Error.h>
-#include <omnimapper/signs/SignDetector.h>
 
 #include <opencv2/imgproc.hpp>
 #include <string>

@@ -1,13 +1,13 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/base/Bytes.h>
 #include <omnimapper/base/InputFile.h>
-#include <omnimapper/signs/SignClassifier.h>
 #include <zlib.h>
 
 #include <ostream>
 #include <stdexcept>
 
 #include "KnownModel.h"
+#include "SignClassifier.h"
 
 namespace omnimapper::signs {
 
