@@ -129,25 +129,21 @@ function(omnimapper_needs variable)
   endwhile()
 endfunction()
 
-# omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [NEEDS (<target> <text>)...] [WITHOUT <files...>]
-#   PUBLIC <targets...> PRIVATE <targets...>)
+# omnimapper_library(NAME [KERNELS | OPTIMIZED | LIGHT] [NEEDS (<target> <text>)...] PUBLIC <targets...>
+#   PRIVATE <targets...>)
 # Shared library omnimapper-NAME from libs/NAME/src, one folder deep, exported as omnimapper::NAME. KERNELS is for
 # libraries in whose loops mapping spends its time (-O3), LIGHT for those that compute little (-O1); all others have
 # -O2. Under a sanitizer only KERNELS and OPTIMIZED libraries are optimized; the rest compile in half the time, and
 # their tests take hardly longer. OPTIMIZED is for libraries that render images, whose tests would run for minutes.
 # If a target that it NEEDS is missing, the library is left out, and so are the features and programs that need it.
-# WITHOUT names files to leave out.
 function(omnimapper_library name)
-  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "NEEDS;WITHOUT;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "KERNELS;OPTIMIZED;LIGHT" "" "NEEDS;PUBLIC;PRIVATE" ${ARGN})
   omnimapper_needs(left_out ${ARG_NEEDS})
   if(left_out)
     message(STATUS "Left out: library ${name}, because ${left_out}")
     return()
   endif()
   omnimapper_sources(sources "${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp" "${CMAKE_CURRENT_SOURCE_DIR}/src/*/*.cpp")
-  foreach(each ${ARG_WITHOUT})
-    list(FILTER sources EXCLUDE REGEX "/${each}\\.cpp$")
-  endforeach()
   set(target omnimapper-${name})
   add_library(${target} SHARED ${sources})
   add_library(omnimapper::${name} ALIAS ${target})
@@ -165,23 +161,21 @@ function(omnimapper_library name)
     omnimapper_optimize(${target} "${ARG_OPTIMIZED}")
   endif()
   install(TARGETS ${target} EXPORT omnimapperTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  list(TRANSFORM ARG_WITHOUT REPLACE "(.+)" "/\\1[.]h$|" OUTPUT_VARIABLE absent)
-  list(JOIN absent "" absent)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "${absent}^$" EXCLUDE)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# omnimapper_feature(NAME [KERNELS] [PLUGINS <classes...>] [FORMATS <names...>] 
+# omnimapper_feature(NAME [KERNELS] [PLUGINS <classes...>] [FORMATS <names...>] [DRIVERS <classes...>]
 #   [FUNCTIONS <names...>] [NEEDS (<target> <text>)...] LINKS <targets...>)
 # A feature: the shared library omnimapper-NAME from the folder's sources, in the folder omnimapper/ beside the other
 # libraries, where programs find it. PLUGINS are the classes that it registers, as an INI writes them, FORMATS the
-# formats of logs, and FUNCTIONS the functions that it exports; a feature of
+# formats of logs, DRIVERS the classes of live sensors, and FUNCTIONS the functions that it exports; a feature of
 # functions alone is loaded when one is called. KERNELS is as in omnimapper_library(). If a target that it NEEDS is
 # missing, or with -DOMNIMAPPER_FEATURE_NAME=OFF, the feature is left out, and whoever names something of it gets an
 # error with the reason.
 function(omnimapper_feature name)
-  cmake_parse_arguments(ARG "KERNELS" "" "PLUGINS;FORMATS;FUNCTIONS;NEEDS;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "KERNELS" "" "PLUGINS;FORMATS;DRIVERS;FUNCTIONS;NEEDS;LINKS" ${ARGN})
   option(OMNIMAPPER_FEATURE_${name}
-    "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}${ARG_FUNCTIONS}" ON)
+    "Build the feature ${name}: ${ARG_PLUGINS}${ARG_FORMATS}${ARG_DRIVERS}${ARG_FUNCTIONS}" ON)
   set_property(GLOBAL APPEND PROPERTY omnimapper_declared_features ${name})
   omnimapper_needs(left_out ${ARG_NEEDS})
   if(NOT OMNIMAPPER_FEATURE_${name})
@@ -191,7 +185,7 @@ function(omnimapper_feature name)
       string(APPEND left_out ", which needs ${text}")
     endif()
   endif()
-  foreach(kind PLUGIN FORMAT FUNCTION)
+  foreach(kind PLUGIN FORMAT DRIVER FUNCTION)
     string(TOLOWER ${kind} registered)
     foreach(each ${ARG_${kind}S})
       set_property(GLOBAL APPEND_STRING PROPERTY omnimapper_feature_index

@@ -223,29 +223,5 @@ TEST_F(KinectSensorTest, withoutAKinectItCannotBeOpened) {
   }
 }
 
-TEST_F(KinectSensorTest, aWrongKeyIsRefusedWhereTheSensorIsMade) {
-  const auto config = base::Config::fromText(kSection + "max_range_m = 20\n", "robot.ini");
-  const auto options = config.section("live").read<LiveOptions>();
-  try {
-    makeDriver(readSensors(options, config).at(0));
-    ADD_FAILURE();
-  } catch (const base::Error& error) {
-    EXPECT_EQ(error.code(), base::ExitCode::out_of_range);
-    EXPECT_NE(std::string(error.what()).find("[kinect]: max_range_m = 20"), std::string::npos) << error.what();
-  }
-}
-
-TEST(KinectWithoutLibfreenect, theErrorNamesThePackageToInstall) {
-  if (!kFakenect.empty()) GTEST_SKIP() << "this was built with libfreenect; a build without it runs this test";
-  const auto config = base::Config::fromText(kSection, "robot.ini");
-  try {
-    makeDriver(readSensors(config.section("live").read<LiveOptions>(), config).at(0));
-    ADD_FAILURE();
-  } catch (const base::Error& error) {
-    EXPECT_EQ(error.code(), base::ExitCode::unknown_plugin);
-    EXPECT_NE(std::string(error.what()).find("libfreenect-dev"), std::string::npos) << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace omnimapper::drivers::kinect_sensor_test

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
+#include <omnimapper/drivers/FramePairing.h>
+#include <omnimapper/drivers/TickClock.h>
 
 #include "../live/Observations.h"
-#include "kinect/FramePairing.h"
-#include "kinect/TickClock.h"
 
 namespace omnimapper::drivers::kinect_time_test {
 namespace {

@@ -1,6 +1,5 @@
-#include "readDriverSection.h"
-
 #include <omnimapper/base/Config.h>
+#include <omnimapper/drivers/readDriverSection.h>
 #include <omnimapper/live/SensorSection.h>
 
 #include <algorithm>

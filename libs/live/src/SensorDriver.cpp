@@ -1,4 +1,4 @@
-#include <omnimapper/base/LibraryBeside.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/live/SensorDriver.h>
 
 namespace omnimapper::live {
@@ -9,8 +9,7 @@ using MakeDriver = decltype(&omnimapperMakeDriver);
 
 MakeDriver loaded() {
   static const auto make = reinterpret_cast<MakeDriver>(
-      base::functionOfLibrary("libomnimapper-drivers.so", "omnimapperMakeDriver", "the sensors cannot be read",
-                              "Install it, or map a log with -r."));
+      base::functionOfFeature("omnimapperMakeDriver", "the sensors cannot be read", "map a log with -r"));
   return make;
 }
 

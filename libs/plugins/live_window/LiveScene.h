@@ -9,9 +9,9 @@
 
 namespace omnimapper::plugins {
 
-/// An open window on the screen that draws a map. It is implemented by libomnimapper-live-scene, which LiveWindow loads
-/// at run time: MRPT's windows need many libraries, which would slow down the start of every program for a rarely used
-/// feature.
+/// An open window on the screen that draws a map. It is implemented by a feature of its own, live_scene, which
+/// LiveWindow loads when a window opens: MRPT's windows need many libraries, which would slow down the start of every
+/// program for a rarely used feature.
 class LiveScene {
  public:
   virtual ~LiveScene() = default;
@@ -23,7 +23,7 @@ class LiveScene {
 
 }  // namespace omnimapper::plugins
 
-/// The function that libomnimapper-live-scene exports. The caller owns the scene. Throws Error(command_line) if there
+/// The function that the feature live_scene exports. The caller owns the scene. Throws Error(command_line) if there
 /// is no display.
 extern "C" omnimapper::plugins::LiveScene* omnimapperOpenLiveScene(
     const omnimapper::plugins::LiveWindowOptions& options, const std::string& title);

@@ -1,6 +1,6 @@
 #include "LiveWindow.h"
 
-#include <omnimapper/base/LibraryBeside.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/map/DenseTrajectory.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ namespace {
 
 // The library is never unloaded, because MRPT's thread may paint until the program ends.
 std::unique_ptr<LiveScene> openScene(const LiveWindowOptions& options, const std::string& title) {
-  void* open = base::functionOfLibrary("libomnimapper-live-scene.so", "omnimapperOpenLiveScene",
-                                       "the live window cannot be opened", "Install it, or leave out --gui.");
+  void* open =
+      base::functionOfFeature("omnimapperOpenLiveScene", "the live window cannot be opened", "leave out --gui");
   return std::unique_ptr<LiveScene>(reinterpret_cast<decltype(&omnimapperOpenLiveScene)>(open)(options, title));
 }
 

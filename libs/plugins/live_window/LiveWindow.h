@@ -30,8 +30,7 @@ class LiveWindow : public mapper::OutputPlugin {
   static constexpr const char* kName = "LiveWindow";
   static constexpr const char* kSummary = "Shows the map in a 3D window while it grows (--gui).";
 
-  /// Throws Error(command_line) if there is no display, and Error(plugin_library) if libomnimapper-live-scene is
-  /// missing.
+  /// Throws Error(command_line) if there is no display, and Error(plugin_library) if the feature live_scene is missing.
   LiveWindow(const LiveWindowOptions& options, const mapper::PluginContext& context);
   ~LiveWindow() override;
   void update(const mapper::View& view) override;

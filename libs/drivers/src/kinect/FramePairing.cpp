@@ -1,4 +1,4 @@
-#include "kinect/FramePairing.h"
+#include <omnimapper/drivers/FramePairing.h>
 
 #include <algorithm>
 #include <cmath>

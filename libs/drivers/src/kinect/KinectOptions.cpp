@@ -1,10 +1,9 @@
 #include <mrpt/core/bits_math.h>
 #include <omnimapper/camera/cameraOptions.h>
 #include <omnimapper/drivers/KinectOptions.h>
+#include <omnimapper/drivers/readDriverSection.h>
 
 #include <algorithm>
-
-#include "readDriverSection.h"
 
 namespace omnimapper::drivers {
 

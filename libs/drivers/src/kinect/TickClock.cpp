@@ -1,4 +1,4 @@
-#include "kinect/TickClock.h"
+#include <omnimapper/drivers/TickClock.h>
 
 #include <cmath>
 

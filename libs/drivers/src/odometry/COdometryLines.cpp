@@ -1,9 +1,9 @@
 #include <omnimapper/drivers/COdometryLines.h>
+#include <omnimapper/drivers/readDriverSection.h>
 
 #include <utility>
 
 #include "odometry/OdometryReceiver.h"
-#include "readDriverSection.h"
 
 IMPLEMENTS_GENERIC_SENSOR(COdometryLines, omnimapper::drivers)
 

@@ -10,6 +10,7 @@ namespace omnimapper::base {
 enum class Registered {
   plugin,    ///< a class that an INI names
   format,    ///< a format of logs
+  driver,    ///< a class of live sensors
   function,  ///< nothing: it exports the function
 };
 
@@ -28,15 +29,15 @@ void loadFeaturesOf(Registered kind);
 /// can be done without it ("leave reader = tesseract out").
 void* functionOfFeature(const std::string& function, const std::string& what, const std::string& instead);
 
-/// The feature of the project that a plugin class or a format belongs to, whether it is available or not; empty if it
-/// belongs to none.
+/// The feature of the project that a plugin class, a format, a driver or a function belongs to, whether it is available
+/// or not; empty if it belongs to none.
 std::string_view featureOf(std::string_view name);
 
 /// Everything of that kind that the project's features register, available or not.
 std::vector<std::string> namesOfFeatures(Registered kind);
 
-/// A clause that says why a plugin class or a format of the project is not registered and how to get it. Empty for one
-/// that is registered, and for one that does not belong to the project.
+/// A clause that says why a plugin class, a format, a driver or a function of the project is not there, and how to get
+/// it. Empty for one whose library is loaded, and for one that does not belong to the project.
 std::string whyUnavailable(std::string_view name);
 
 }  // namespace omnimapper::base

@@ -11,8 +11,8 @@
 namespace omnimapper::live {
 
 /// A driver of MRPT (mrpt::hwdrivers::CGenericSensor) as a live run uses it, in one thread. Implemented by
-/// libomnimapper-drivers, which only makeDriver() and loadDrivers() load: MRPT's drivers depend on wxWidgets and GTK,
-/// and a program that is linked with these takes half a second to start.
+/// the feature mrpt_drivers, which only makeDriver() and loadDrivers() load: MRPT's drivers depend on wxWidgets and
+/// GTK, and a program that is linked with these takes half a second to start.
 class SensorDriver {
  public:
   virtual ~SensorDriver() = default;
@@ -41,16 +41,16 @@ class SensorDriver {
   virtual bool waitsForOthers() const = 0;
 };
 
-/// Loads libomnimapper-drivers, once. Throws Error(plugin_library) if that library is not in the folder of the other
-/// libraries.
+/// Loads the feature mrpt_drivers, once. Throws Error(plugin_library) if it is not available.
 void loadDrivers();
 
 /// Makes the driver that a section names and passes it the section's keys, but does not open it. Throws
-/// Error(plugin_library) as loadDrivers() does, Error(unknown_plugin) for a class that is not registered, and
-/// Error(out_of_range) with the driver's own message if the keys are invalid.
+/// Error(plugin_library) as loadDrivers() does, Error(unknown_plugin) for a class that is not registered, which says
+/// how to get it if a feature of the project has it, and Error(out_of_range) with the driver's own message if the keys
+/// are invalid.
 std::unique_ptr<SensorDriver> makeDriver(const SensorSection& section);
 
 }  // namespace omnimapper::live
 
-/// The function of libomnimapper-drivers that makeDriver() calls. The caller owns the driver.
+/// The function of the feature mrpt_drivers that makeDriver() calls. The caller owns the driver.
 extern "C" omnimapper::live::SensorDriver* omnimapperMakeDriver(const omnimapper::live::SensorSection& section);

@@ -2,6 +2,7 @@
 #include <mrpt/system/COutputLogger.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Exceptions.h>
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/drivers/CheckedSensor.h>
 #include <omnimapper/live/SensorDriver.h>
@@ -60,23 +61,17 @@ std::string checkedDriver(const std::string& driver) {
   return driver == "COpenNI2Sensor" ? "CCheckedOpenNI2" : driver;
 }
 
-// The package that was not installed if a driver was left out of the build; empty for other drivers.
-std::string packageOf(const std::string& driver) {
-  if (driver == "KinectSensor") return "libfreenect-dev";
-  return driver == "COpenNI2Sensor" ? "libopenni2-dev" : "";
-}
-
 base::Error noDriver(const std::string& where, const std::string& driver) {
-  using base::ExitCode;
-  if (const std::string package = packageOf(driver); !package.empty())
-    return base::Error(ExitCode::unknown_plugin, where + "omnimapper was built without the library that " + driver +
-                                                     " needs; install " + package + ", and configure and build again");
-  return base::Error(ExitCode::unknown_plugin, where + "there is no driver " + driver +
-                                                   "; it is a class of mrpt::hwdrivers, such as CHokuyoURG, or of a "
-                                                   "library that [live] libraries names");
+  const std::string why = base::whyUnavailable(driver);
+  return base::Error(base::ExitCode::unknown_plugin,
+                     where + "there is no driver " + driver + "; " +
+                         (why.empty() ? "it is a class of mrpt::hwdrivers, such as CHokuyoURG, or of a library that "
+                                        "[live] libraries names"
+                                      : why));
 }
 
 std::unique_ptr<live::SensorDriver> makeDriver(const live::SensorSection& section) {
+  base::loadFeaturesOf(base::Registered::driver);
   const std::string where = section.file + ": sensor [" + section.name + "]: ";
   if (const char* instead = insteadOf(section.driver))
     throw base::Error(base::ExitCode::unknown_plugin, where + "MRPT was built without the library that " +

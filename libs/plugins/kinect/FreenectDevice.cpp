@@ -1,4 +1,4 @@
-#include "kinect/FreenectDevice.h"
+#include "FreenectDevice.h"
 
 #include <omnimapper/live/HostClock.h>
 #include <sys/time.h>

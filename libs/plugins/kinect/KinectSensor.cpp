@@ -1,16 +1,17 @@
+#include "KinectSensor.h"
+
 #include <mrpt/obs/CObservationIMU.h>
 #include <omnimapper/base/AtLoad.h>
+#include <omnimapper/drivers/FramePairing.h>
 #include <omnimapper/drivers/KinectConversion.h>
-#include <omnimapper/drivers/KinectSensor.h>
+#include <omnimapper/drivers/TickClock.h>
+#include <omnimapper/drivers/readDriverSection.h>
 
 #include <chrono>
 #include <cstdio>
 #include <utility>
 
-#include "kinect/FramePairing.h"
-#include "kinect/FreenectDevice.h"
-#include "kinect/TickClock.h"
-#include "readDriverSection.h"
+#include "FreenectDevice.h"
 
 namespace omnimapper::drivers {
 

@@ -1,8 +1,9 @@
+#include "CCheckedOpenNI2.h"
+
 #include <OpenNI.h>
 #include <mrpt/config/CConfigFileMemory.h>
 #include <omnimapper/base/AtLoad.h>
 #include <omnimapper/base/Error.h>
-#include <omnimapper/drivers/CCheckedOpenNI2.h>
 
 #include <algorithm>
 #include <array>
