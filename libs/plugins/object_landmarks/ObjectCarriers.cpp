@@ -43,14 +43,14 @@ ObjectCarriers::ObjectCarriers(const ObjectIndex& objects, const mapper::State& 
   for (const auto& [id, landmark] : state.map.landmarks) {
     if (landmark.state != map::Landmark::State::active || landmark.owner == objects.owner()) continue;
     const auto shape = mapper::shapeOf(landmark, state);
-    Surface surface{id, {}, false};
+    Surface surface{id, {}, false, shape.label == "floor"};
     for (const auto& outline : shape.surfaces)
       if (!shape.is_candidate && isLevel(outline)) surface.outlines.push_back(outline);
     if (!surface.outlines.empty()) surfaces_.push_back(std::move(surface));
   }
   for (const auto& [id, object] : objects.all()) {
     const auto top = topOf(object.geometry(state.map.key_frames).box);
-    if (object.payload->isDrawn() && isLevel(top)) surfaces_.push_back({id, {top}, true});
+    if (object.payload->isDrawn() && isLevel(top)) surfaces_.push_back({id, {top}, true, false});
   }
 }
 
@@ -72,6 +72,34 @@ std::optional<base::LandmarkId> ObjectCarriers::under(base::LandmarkId object, c
     }
   }
   return nearest;
+}
+
+std::optional<double> ObjectCarriers::heightOf(const map::Box& box) const {
+  const Eigen::Vector3d foot = box.middle - 0.5 * box.size.z() * (box.map_from_box * Eigen::Vector3d::UnitZ());
+  std::optional<double> least;
+  for (const auto& surface : surfaces_) {
+    if (surface.is_object) continue;
+    for (const auto& outline : surface.outlines) {
+      const double height = up_.dot(foot - outline.vertices.front());
+      const Eigen::Vector3d below = foot - height * up_;
+      if (height < -kMostGapBelow || (least && height >= *least) || distanceBeside(outline, below) >= kMostBeside)
+        continue;
+      least = height <= kMostGapBelow ? 0 : height;
+    }
+  }
+  return least;
+}
+
+bool ObjectCarriers::bear(const map::Box& box) const {
+  constexpr double kNearly = 0.1;  // [m]
+  const Eigen::Vector3d foot = box.middle - 0.5 * box.size.z() * (box.map_from_box * Eigen::Vector3d::UnitZ());
+  return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& surface) {
+    if (surface.is_object || surface.is_floor) return false;
+    return std::any_of(surface.outlines.begin(), surface.outlines.end(), [&](const geometry::Polygon3& outline) {
+      return std::abs(up_.dot(foot - outline.vertices.front())) <= kMostGapBelow &&
+             distanceBeside(outline, foot) <= kNearly;
+    });
+  });
 }
 
 std::optional<base::LandmarkId> ObjectCarriers::heldUpBy(const map::Box& box) const {

@@ -22,6 +22,11 @@ const base::OptionTable<ObjectLandmarksOptions>& ObjectLandmarksOptions::table()
                 "merge_overlap", &Options::merge_overlap, Range{0.01, 1},
                 "Two objects of the map are one if this share of the points of both lies near the other's, or of one "
                 "if no image shows both.")
+            .flag("on_surfaces_only", &Options::on_surfaces_only,
+                  "Keeps objects as candidates at the end of a run that stand neither on a surface which their images "
+                  "show "
+                  "nor on a table or another surface of the map. With on_surfaces_only = false in the section of the "
+                  "extractor, things on tables that images show only edge-on are found, too.")
             .integer("max_per_image", &Options::max_per_image, Range{1, 10000},
                      "Largest number of objects of an image that are used; the largest are taken.")
             .integer("max_candidates", &Options::max_candidates, Range{1, 1e6},

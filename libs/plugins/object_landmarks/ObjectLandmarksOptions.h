@@ -11,6 +11,7 @@ struct ObjectLandmarksOptions : mapper::AssociationOptions {
   double size_share = 0.15;            ///< [-] standard deviation of the middle of a box, as a share of its sides
   double min_overlap = 0.3;            ///< [-] share of points by which an object may be one of the map
   double merge_overlap = 0.5;          ///< [-] share of points by which two objects are one
+  bool on_surfaces_only = false;       ///< whether what stands on no known surface stays a candidate
   int max_per_image = 50;              ///< objects of an image that are used, the largest
   int max_candidates = 300;            ///< objects that are not confirmed
   double look_every = 0.2;             ///< [s] between two images in which the objects of the map are looked for

@@ -7,7 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -15,6 +15,7 @@
 #include "ObjectCarriers.h"
 #include "ObjectMerging.h"
 #include "ObjectPictures.h"
+#include "ObjectPieces.h"
 
 namespace omnimapper::plugins {
 
@@ -26,26 +27,48 @@ struct PreparedObjects : mapper::Prepared {
   std::vector<std::optional<ObjectPicture>> pictures;  // of the observation's objects, in its order
 };
 
-// [m^2] Largest variance of a point in any direction that comes from that of a pose of its frame.
-double varianceOfPoint(const Eigen::Vector3d& point, const geometry::Matrix6d& covariance) {
+// [m^2] Covariance of a point that comes from that of the pose of its frame, in that frame.
+Eigen::Matrix3d covarianceOfPoint(const Eigen::Vector3d& point, const geometry::Matrix6d& covariance) {
   Eigen::Matrix<double, 3, 6> by_pose;
   by_pose << Eigen::Matrix3d::Identity(), -geometry::skew(point);
-  const Eigen::Matrix3d of_point = by_pose * covariance * by_pose.transpose();
-  return std::max(
-      0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(of_point, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  return by_pose * covariance * by_pose.transpose();
 }
 
-// Standard deviation of the place of an object relative to the camera [m]; none if the map does not know it.
-std::optional<double> sigmaOfPlace(const ObjectGeometry& object, const mapper::WatchedPose& pose,
-                                   const mapper::View& view) {
+// [m^2] Covariance of the place of an object relative to the camera, in the optical frame; none if the map does not
+// know it.
+std::optional<Eigen::Matrix3d> covarianceOfPlace(const ObjectGeometry& object, const LookingCamera& camera,
+                                                 const mapper::WatchedPose& pose, const mapper::View& view) {
   const auto between = view.covarianceBetween(object.anchor, pose.frame);
   if (!between) return std::nullopt;
   const geometry::Se3 map_from_base = geometry::fromMrpt(pose.map_from_base);
+  const geometry::Se3 frame_from_base = geometry::fromMrpt(pose.frame_from_base.begin_from_end);
   const Eigen::Vector3d in_base = geometry::inverse(map_from_base) * object.box.middle;
-  const Eigen::Vector3d in_frame = geometry::fromMrpt(pose.frame_from_base.begin_from_end) * in_base;
-  const double variance =
-      varianceOfPoint(in_frame, *between) + varianceOfPoint(in_base, pose.frame_from_base.covariance);
-  return std::isfinite(variance) ? std::optional(std::sqrt(variance)) : std::nullopt;
+  const Eigen::Matrix3d base_from_frame = frame_from_base.rotation.conjugate().toRotationMatrix();
+  const Eigen::Matrix3d optical_from_base =
+      (camera.optical_from_map.rotation * map_from_base.rotation).toRotationMatrix();
+  const Eigen::Matrix3d of_place =
+      base_from_frame * covarianceOfPoint(frame_from_base * in_base, *between) * base_from_frame.transpose() +
+      covarianceOfPoint(in_base, pose.frame_from_base.covariance);
+  if (!of_place.allFinite()) return std::nullopt;
+  return optical_from_base * of_place * optical_from_base.transpose();
+}
+
+// Of objects that were found in pieces, the largest piece gets the points of all, and the others are part of it.
+void joinPieces(const std::map<base::LandmarkId, std::shared_ptr<ObjectPayload>>& payloads,
+                const ObjectCarriers& carriers, const map::KeyFrames& key_frames, const ModelLimits& limits) {
+  std::vector<PieceCandidate> drawn;
+  for (const auto& [id, payload] : payloads) {
+    if (!payload->isDrawn() || payload->model->empty()) continue;
+    ObjectGeometry geometry(*payload->model, key_frames);
+    const auto height = carriers.heightOf(geometry.box);
+    drawn.push_back({id, std::move(geometry), height});
+  }
+  for (const auto& [piece, whole] : findPieces(drawn)) {
+    payloads.at(piece)->part_of = whole;
+    ObjectModel model = *payloads.at(whole)->model;
+    for (const auto& view : payloads.at(piece)->model->views()) model = model.with(view, key_frames, limits);
+    payloads.at(whole)->model = std::make_shared<const ObjectModel>(std::move(model));
+  }
 }
 
 }  // namespace
@@ -148,9 +171,12 @@ Sight ObjectLandmarksPlugin::lookAt(const KnownObject& object, const LookingCame
   const Sight sight = lookFor(geometry, camera).sight();
   if (sight != Sight::absent) return sight;
   constexpr double kSigmas = 3, kMostReach = 0.4;  // [-], [m] a pose that is less certain says nothing
-  const auto sigma = sigmaOfPlace(geometry, pose, view);
-  const double reach = sigma ? kSigmas * options_.look_inflation * *sigma : 2 * kMostReach;
-  return reach > kMostReach || mayBeBeside(geometry, camera, reach) ? Sight::unknown : Sight::absent;
+  const auto covariance = covarianceOfPlace(geometry, camera, pose, view);
+  if (!covariance) return Sight::unknown;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(*covariance);
+  const Eigen::Vector3d reach = kSigmas * options_.look_inflation * axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (!(reach.maxCoeff() <= kMostReach)) return Sight::unknown;
+  return mayBeBeside(geometry, camera, axes.eigenvectors() * reach.asDiagonal()) ? Sight::unknown : Sight::absent;
 }
 
 void ObjectLandmarksPlugin::retireIfGone(KnownObject& object, base::Stamp stamp, const mapper::WatchedPose& pose,
@@ -161,10 +187,9 @@ void ObjectLandmarksPlugin::retireIfGone(KnownObject& object, base::Stamp stamp,
   if (!(is_confirmed ? evidence.saysGone(options_.gone_after, options_.gone_after_time)
                      : evidence.saysGone(std::min(kCandidateGone, options_.gone_after), 0)))
     return;
-  auto payload = std::make_shared<ObjectPayload>(*object.payload);
+  auto payload = is_confirmed ? std::make_shared<ObjectPayload>(*object.payload) : object.payload->withoutModel();
   payload->evidence = evidence;
   object.looks.clear();
-  if (!is_confirmed) payload = std::make_shared<ObjectPayload>(*payload->withoutModel());
   batch.describeLandmark(object.id, std::move(payload));
   batch.retireLandmark(object.id);
   mapper::Decision decision;
@@ -188,6 +213,7 @@ mapper::Batch ObjectLandmarksPlugin::merge(const mapper::View& view) {
 mapper::Batch ObjectLandmarksPlugin::finish(const mapper::View& view) {
   auto merging = mergeObjects(known(), options_, known().owner(), view);
   const ObjectCarriers carriers(known(), view);
+  std::map<base::LandmarkId, std::shared_ptr<ObjectPayload>> payloads;
   for (const auto& [id, object] : known().all()) {
     if (merging.isGone(id)) continue;
     auto payload = std::make_shared<ObjectPayload>(merging.payloadOf(id));
@@ -197,10 +223,33 @@ mapper::Batch ObjectLandmarksPlugin::finish(const mapper::View& view) {
     const auto box = payload->model->box(view.map.key_frames);
     payload->on = box ? carriers.under(id, *box) : std::nullopt;
     payload->part_of = box ? carriers.heldUpBy(*box) : std::nullopt;
-    merging.describe(id, std::move(payload));
+    if (isAfloat(*payload, box, carriers)) payload->is_confirmed = false;
+    payloads[id] = std::move(payload);
   }
+  joinPieces(payloads, carriers, view.map.key_frames, options_.limits());
+  for (auto& [id, payload] : payloads) merging.describe(id, std::move(payload));
   for (const auto& [id, object] : known().all()) known().at(id).looks.clear();
+  placeGone(carriers, view, merging.batch());
   return merging.take();
+}
+
+bool ObjectLandmarksPlugin::isAfloat(const ObjectPayload& payload, const std::optional<map::Box>& box,
+                                     const ObjectCarriers& carriers) const {
+  return options_.on_surfaces_only && !payload.model->standsOnSurface() && !(box && carriers.bear(*box));
+}
+
+void ObjectLandmarksPlugin::placeGone(const ObjectCarriers& carriers, const mapper::View& view,
+                                      mapper::Batch& batch) const {
+  for (const auto& [id, landmark] : view.map.landmarks) {
+    if (landmark.owner != known().owner() || landmark.state != map::Landmark::State::retired) continue;
+    const auto* before = dynamic_cast<const ObjectPayload*>(landmark.payload.get());
+    const auto box = before != nullptr ? before->model->box(view.map.key_frames) : std::nullopt;
+    if (!box) continue;
+    auto payload = std::make_shared<ObjectPayload>(*before);
+    payload->on = carriers.under(id, *box);
+    if (isAfloat(*payload, box, carriers)) payload->is_confirmed = false;
+    batch.describeLandmark(id, std::move(payload));
+  }
 }
 
 void ObjectLandmarksPlugin::registerKinds(mapper::Kinds& kinds) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "KnownObject.h"
+#include "ObjectCarriers.h"
 #include "ObjectLandmarksOptions.h"
 #include "ObjectLook.h"
 
@@ -46,6 +47,10 @@ class ObjectLandmarksPlugin : public landmarks::LandmarkPlugin<ObjectIndex>, pub
   // Ends the life of an object that is gone; null if the evidence does not say so.
   void retireIfGone(KnownObject& object, base::Stamp stamp, const mapper::WatchedPose& pose,
                     mapper::Batch& batch) const;
+  // Whether it stands on nothing and the options want only what stands.
+  bool isAfloat(const ObjectPayload& payload, const std::optional<map::Box>& box, const ObjectCarriers& carriers) const;
+  // Says of each object that is gone on which surface it stood, of those which the map has now.
+  void placeGone(const ObjectCarriers& carriers, const mapper::View& view, mapper::Batch& batch) const;
   // Adds what was seen between key frames to the payloads that `batch` does not change.
   void describeLooks(mapper::Batch& batch);
 

@@ -82,12 +82,14 @@ struct DepthsAround {
   int measured = 0, all = 0;
   bool agrees = false;  // one of them is that of the point
 
-  DepthsAround(const camera::DepthImage& image, int x, int y, int reach, double depth, double tolerance) {
+  DepthsAround(const LookingCamera& camera, int x, int y, int reach, double depth, double tolerance) {
+    const camera::DepthImage& image = camera.image;
+    constexpr double kNearest = 0.1;  // [m] no camera measures less
     for (int row = std::max(0, y - reach); row <= std::min(image.height() - 1, y + reach); ++row) {
       for (int column = std::max(0, x - reach); column <= std::min(image.width() - 1, x + reach); ++column) {
         ++all;
         const double there = image.at(static_cast<std::size_t>(row) * image.width() + column);
-        if (!(there > 0) || !std::isfinite(there)) continue;
+        if (!(there > kNearest && there < camera.farthest_depth)) continue;
         ++measured;
         least = std::min(least, there);
         most = std::max(most, there);
@@ -105,6 +107,35 @@ double depthBehind(const Projected& point, const ObjectGeometry& object, const E
   if (descent >= 0) return kFree;  // the ray does not meet the surface
   const double share = object.up.dot(*object.foot - camera_in_map) / descent;
   return std::max(0.0, (share - 1) * point.in_optical.z());
+}
+
+// Whether the image would show by its depth that the point is not there.
+bool showsAbsence(const Projected& point, const ObjectGeometry& object, const Eigen::Vector3d& camera_in_map) {
+  return depthBehind(point, object, camera_in_map) > 2 * toleranceAt(point.in_optical.z());
+}
+
+// Places in an ellipsoid, whose half axes are the columns of `reach` [m]: along each axis at most kMostSteps to each
+// side, and none but the middle if it is shorter than half of the finest step.
+struct Shifts {
+  double step = 0;  // [m] between neighbours
+  std::vector<Eigen::Vector3d> all;
+};
+
+Shifts shiftsWithin(const Eigen::Matrix3d& reach) {
+  constexpr double kFinest = 0.02, kMostSteps = 6;  // [m], [-]
+  const Eigen::Vector3d lengths = reach.colwise().norm();
+  Shifts shifts;
+  shifts.step = std::max(kFinest, lengths.maxCoeff() / kMostSteps);
+  const Eigen::Array3i steps = (lengths.array() / shifts.step + 0.5).floor().cast<int>();
+  for (int x = -steps[0]; x <= steps[0]; ++x) {
+    for (int y = -steps[1]; y <= steps[1]; ++y) {
+      for (int z = -steps[2]; z <= steps[2]; ++z) {
+        const Eigen::Array3d share = Eigen::Array3d(x, y, z) / steps.cast<double>().max(1);
+        if (share.matrix().norm() <= 1) shifts.all.emplace_back(reach * share.matrix());
+      }
+    }
+  }
+  return shifts;
 }
 
 }  // namespace
@@ -143,9 +174,9 @@ LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera) {
       ++counts.outside;
       continue;
     }
-    const DepthsAround around(image, static_cast<int>(std::lround(point.x)), static_cast<int>(std::lround(point.y)),
+    const DepthsAround around(camera, static_cast<int>(std::lround(point.x)), static_cast<int>(std::lround(point.y)),
                               kReach, depth, tolerance);
-    const bool shows_absence = depthBehind(point, object, camera_in_map) > 2 * tolerance;
+    const bool shows_absence = showsAbsence(point, object, camera_in_map);
     if (2 * around.measured < around.all) {
       ++counts.unmeasured;
     } else if (around.agrees) {
@@ -159,38 +190,33 @@ LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera) {
   return counts;
 }
 
-bool mayBeBeside(const ObjectGeometry& object, const LookingCamera& camera, double reach) {
-  constexpr double kFinest = 0.02;  // [m]
-  constexpr int kMostSteps = 6;     // to each side
+bool mayBeBeside(const ObjectGeometry& object, const LookingCamera& camera, const Eigen::Matrix3d& reach) {
   constexpr std::size_t kCompared = 100;
-  const double step = std::max(kFinest, reach / kMostSteps);
-  const int steps = static_cast<int>(std::ceil(reach / step));
-  const auto front = FrontOfObject(object, camera).points();
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < std::min(front.size(), kCompared); ++i)
-    points.push_back(front[i * front.size() / std::min(front.size(), kCompared)].in_optical);
+  const auto shifts = shiftsWithin(reach);
+  auto front = FrontOfObject(object, camera).points();
+  const geometry::Se3 map_from_optical = geometry::inverse(camera.optical_from_map);
+  const Eigen::Vector3d camera_in_map = map_from_optical.translation;
+  front.erase(std::remove_if(front.begin(), front.end(),
+                             [&](const auto& point) { return !showsAbsence(point, object, camera_in_map); }),
+              front.end());
+  const std::size_t compared = std::min(front.size(), kCompared);
   const camera::DepthImage& image = camera.image;
   const camera::Pinhole& pinhole = image.camera();
-  const auto agrees = [&](const Eigen::Vector3d& point) {
-    if (!(point.z() > camera.min_depth)) return false;
-    const double x = pinhole.fx * point.x() / point.z() + pinhole.cx;
-    const double y = pinhole.fy * point.y() / point.z() + pinhole.cy;
+  const auto agrees = [&](const Projected& point, const Eigen::Vector3d& shift) {
+    const Eigen::Vector3d at = point.in_optical + shift;
+    if (!(at.z() > camera.min_depth)) return false;
+    const double x = pinhole.fx * at.x() / at.z() + pinhole.cx, y = pinhole.fy * at.y() / at.z() + pinhole.cy;
     if (!(x >= 0 && x < image.width() - 1 && y >= 0 && y < image.height() - 1)) return false;
     const double there = image.at(static_cast<std::size_t>(std::lround(y)) * image.width() + std::lround(x));
-    return there > 0 && std::abs(there - point.z()) <= toleranceAt(point.z()) + 0.5 * step;
+    if (!(there > 0 && std::abs(there - at.z()) <= toleranceAt(at.z()) + 0.5 * shifts.step)) return false;
+    // What the image shows there may be the surface itself.
+    return showsAbsence({at, point.in_map + map_from_optical.rotation * shift, x, y}, object, camera_in_map);
   };
-  for (int x = -steps; x <= steps; ++x) {
-    for (int y = -steps; y <= steps; ++y) {
-      for (int z = -steps; z <= steps; ++z) {
-        const Eigen::Vector3d shift = step * Eigen::Vector3d(x, y, z);
-        if (shift.norm() > reach + step) continue;
-        const auto agreeing =
-            std::count_if(points.begin(), points.end(), [&](const auto& point) { return agrees(point + shift); });
-        if (2 * static_cast<std::size_t>(agreeing) >= points.size()) return true;
-      }
-    }
-  }
-  return false;
+  return std::any_of(shifts.all.begin(), shifts.all.end(), [&](const Eigen::Vector3d& shift) {
+    std::size_t agreeing = 0;
+    for (std::size_t i = 0; i < compared; ++i) agreeing += agrees(front[i * front.size() / compared], shift);
+    return 2 * agreeing >= compared;
+  });
 }
 
 }  // namespace omnimapper::plugins

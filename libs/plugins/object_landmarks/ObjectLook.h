@@ -12,6 +12,7 @@ struct LookingCamera {
   const camera::DepthImage& image;
   geometry::Se3 optical_from_map;  ///< x right, y down, z forward
   double min_depth = 0.4;          ///< [m] nearer points are not measured
+  double farthest_depth = 50;      ///< [m] larger depths are none that a camera measures, as those in a wrong unit
   double max_depth = 3.5;          ///< [m] farther objects are not looked for
 };
 
@@ -37,8 +38,9 @@ bool isInView(const ObjectGeometry& object, const LookingCamera& camera);
 LookCounts lookFor(const ObjectGeometry& object, const LookingCamera& camera);
 
 /// Whether an object that seems to be absent may be in the image after all, because its place relative to the camera is
-/// not known well: moved by at most `reach` [m] in some direction, at least half of its points that face the camera
-/// agree with the depths.
-bool mayBeBeside(const ObjectGeometry& object, const LookingCamera& camera, double reach);
+/// not known well: moved to some place within an ellipsoid, at least half of its points that face the camera, and
+/// whose absence the image would show, agree with the depths. `reach`: the half axes of the ellipsoid in the optical
+/// frame, one in each column [m]; they are orthogonal.
+bool mayBeBeside(const ObjectGeometry& object, const LookingCamera& camera, const Eigen::Matrix3d& reach);
 
 }  // namespace omnimapper::plugins

@@ -82,6 +82,10 @@ std::size_t ObjectModel::size() const {
                          [](std::size_t sum, const ObjectView& view) { return sum + view.points.size(); });
 }
 
+bool ObjectModel::standsOnSurface() const {
+  return std::any_of(views_.begin(), views_.end(), [](const ObjectView& view) { return view.foot.has_value(); });
+}
+
 ObjectModel ObjectModel::with(ObjectView view, const map::KeyFrames& key_frames, const ModelLimits& limits) const {
   std::vector<ObjectView> views = views_;
   views.push_back(std::move(view));

@@ -43,6 +43,8 @@ class ObjectModel {
   const std::vector<ObjectView>& views() const { return views_; }
   std::size_t size() const;
   bool empty() const { return size() == 0; }
+  /// Whether some view shows the surface on which the object stands.
+  bool standsOnSurface() const;
 
   /// The model with one more view. Of two points at one place, that of the nearer view stays, because the error of a
   /// depth grows with its square. Beyond the limits, the farthest views are left out and points are thinned evenly.

@@ -29,7 +29,7 @@ std::shared_ptr<ObjectPayload> ObjectPayload::with(const ObjectPayload& other, c
   return both;
 }
 
-std::shared_ptr<const ObjectPayload> ObjectPayload::withoutModel() const {
+std::shared_ptr<ObjectPayload> ObjectPayload::withoutModel() const {
   auto rest = std::make_shared<ObjectPayload>(*this);
   rest->model = std::make_shared<const ObjectModel>();
   rest->picture.reset();

@@ -29,8 +29,8 @@ struct ObjectPayload : map::LandmarkPayload {
   std::map<std::string, double> classes;         ///< class labels, with the sums of their scores
   std::map<std::string, std::uint32_t> seen_by;  ///< sensor label: number of measurements
   std::optional<ObjectPicture> picture;
-  /// The surface that carries it, and the piece of furniture that it belongs to, such as the table whose leg it is.
-  /// Both may have been merged into another landmark since.
+  /// The surface that carries it, and what it is a part of: the table whose leg it is, or the object of which an image
+  /// shows it as a piece of its own. Both may have been merged into another landmark since.
   std::optional<base::LandmarkId> on, part_of;
 
   std::string_view kind() const override { return "object"; }
@@ -46,7 +46,7 @@ struct ObjectPayload : map::LandmarkPayload {
   /// The class with the largest sum, or "object" if none is known.
   std::string label() const;
   /// A copy without points and picture, which a candidate that was given up need not keep.
-  std::shared_ptr<const ObjectPayload> withoutModel() const;
+  std::shared_ptr<ObjectPayload> withoutModel() const;
   /// A copy with the measurements of another landmark. The points of both models are fused at the poses of the key
   /// frames.
   std::shared_ptr<ObjectPayload> with(const ObjectPayload& other, const map::KeyFrames& key_frames,

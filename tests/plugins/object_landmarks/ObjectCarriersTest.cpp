@@ -28,6 +28,22 @@ TEST(ObjectCarriers, AreBeneathTheMiddleOfTheBase) {
   EXPECT_EQ(under(9, 9, 0), std::nullopt) << "beyond the floor";
 }
 
+TEST(ObjectCarriers, ATableBearsWhatNoImageShowsOnIt) {
+  const auto run = shapedRun();
+  const auto view = run.view();
+  const ObjectCarriers carriers(ObjectIndex("objects"), view);
+  const auto bear = [&](double x, double y, double bottom) {
+    map::Box box;
+    box.size = {0.1, 0.1, 0.2};
+    box.middle = {x, y, bottom + 0.1};
+    return carriers.bear(box);
+  };
+  EXPECT_TRUE(bear(0.3, -0.2, 0.71));
+  EXPECT_FALSE(bear(0.3, -0.2, 0.8)) << "above it";
+  EXPECT_FALSE(bear(1.4, 0.8, 0.7)) << "beside it";
+  EXPECT_FALSE(bear(0.3, -0.2, 0.01)) << "on the floor";
+}
+
 // A leg of the table of 0:2, which ends at its top, and a lamp beside the table, which does not.
 TEST(ObjectCarriers, KnowLegs) {
   const auto run = shapedRun();

@@ -115,6 +115,17 @@ TEST(ObjectLandmarksPlugin, WhatIsTakenAwayMeanwhileIsGoneAndTheImagesAreNamed) 
   EXPECT_LT(base::secondsBetween(evidence.absent_at.front(), said->stamp), 3);
 }
 
+TEST(ObjectLandmarksPlugin, WhatIsGoneIsKnownToHaveStoodOnAnother) {
+  TableWorld world;
+  world.things = {onTable(0.3, 1.2, {0.2, 0.2, 0.2}), {{0.3, 1.2, 0.95}, kMug, 0, 8}};
+  Drive drive;
+  drive.seconds = 20;
+  const Mapped mapped(world, drive);
+  ASSERT_EQ(mapped.present().size(), 1U);
+  ASSERT_EQ(mapped.gone().size(), 1U);
+  EXPECT_EQ(Mapped::payloadOf(*mapped.gone().front()).on, mapped.present().front()->id);
+}
+
 TEST(ObjectLandmarksPlugin, WhatIsHiddenBySomebodyIsNeverGone) {
   auto world = fiveThings();
   Thing person{{1.4, 0.75, 0.9}, {0.6, 0.2, 1.8}, 8, 60};
@@ -200,6 +211,84 @@ TEST(ObjectLandmarksPlugin, ObjectsWithoutPlaceSizeOrPointsAreRefused) {
   EXPECT_GE(refused, 7U);
   for (const auto& [id, landmark] : view.map.landmarks)
     EXPECT_TRUE(view.graph.value(landmark.variables.front()).allFinite());
+}
+
+TEST(ObjectLandmarksPlugin, DepthsInAWrongUnitMakeNothingGone) {
+  for (const float factor : {1000.F, 0.001F}) {  // millimetres as metres, metres as millimetres
+    auto log = logOf(fiveThings(), {0.3, 3, 30, 2.5});
+    for (auto& observation : log) {
+      if (base::secondsBetween(at(10), observation->timestamp) < 0) continue;
+      if (auto* scan = dynamic_cast<mrpt::obs::CObservation3DRangeScan*>(observation.get())) scan->rangeUnits *= factor;
+      if (auto* objects = dynamic_cast<obs::CObservationObjects*>(observation.get())) objects->objects.clear();
+    }
+    const auto engine = testing::makeEngine(kIni);
+    testing::run(*engine, log);
+    const auto view = engine->view();
+    std::size_t present = 0;
+    for (const auto& [id, landmark] : view.map.landmarks) {
+      EXPECT_NE(landmark.state, map::Landmark::State::retired) << factor;
+      present += Mapped::payloadOf(landmark).is_confirmed;
+      EXPECT_EQ(Mapped::payloadOf(landmark).evidence.absent_in, 0U) << factor;
+    }
+    EXPECT_EQ(present, 5U);
+  }
+}
+
+TEST(ObjectLandmarksPlugin, WhatFillsTheViewIsBoundedAndHidesTheRest) {
+  auto world = fiveThings();
+  world.things.push_back({{1.5, 0.5, 1.2}, {8, 0.02, 2.4}, 8, 12});
+  Drive drive;
+  drive.seconds = 20;
+  const Mapped mapped(world, drive);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(mapped.countAt(world.things[i], mapped.present()), 1U) << i;
+  const auto view = mapped.engine->view();
+  for (const auto& [id, landmark] : view.map.landmarks)
+    EXPECT_LE(Mapped::payloadOf(landmark).model->size(), static_cast<std::size_t>(ModelLimits().max_points));
+}
+
+// Takes the surface and the direction up from all objects.
+std::vector<CObservation::Ptr> withoutLevel(std::vector<CObservation::Ptr> log) {
+  for (auto& observation : log) {
+    auto* objects = dynamic_cast<obs::CObservationObjects*>(observation.get());
+    if (objects == nullptr) continue;
+    for (auto& object : objects->objects) {
+      object.supporting_plane.reset();  // z of its box is then any direction
+      object.sensor_from_box.rotation = object.sensor_from_box.rotation * Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5);
+      object.box_size = Vector3d(object.box_size.y(), object.box_size.z(), object.box_size.x());
+    }
+  }
+  return log;
+}
+
+TEST(ObjectLandmarksPlugin, WithoutALevelObjectsAreFoundAndGoneAsWell) {
+  auto world = fiveThings();
+  world.things[0].until = 8;
+  const auto engine = testing::makeEngine(kIni);
+  testing::run(*engine, withoutLevel(logOf(world, {0.3, 3, 20, 2.5})));
+  std::size_t present = 0, gone = 0;
+  const auto view = engine->view();
+  for (const auto& [id, landmark] : view.map.landmarks) {
+    if (!Mapped::payloadOf(landmark).is_confirmed) continue;
+    present += landmark.state == map::Landmark::State::active;
+    gone += landmark.state == map::Landmark::State::retired;
+    EXPECT_EQ(Mapped::payloadOf(landmark).on, std::nullopt);
+  }
+  EXPECT_EQ(present, 4U);
+  EXPECT_EQ(gone, 1U);
+}
+
+TEST(ObjectLandmarksPlugin, WhatStandsOnNothingStaysACandidateIfAskedFor) {
+  auto world = fiveThings();
+  world.things[0].until = 8;
+  const auto log = logOf(world, {0.3, 3, 20, 2.5});
+  for (const bool has_surface : {true, false}) {
+    const auto engine = testing::makeEngine(kIni, {"objects.on_surfaces_only=true"});
+    testing::run(*engine, has_surface ? log : withoutLevel(log));
+    std::size_t drawn = 0;
+    const auto view = engine->view();
+    for (const auto& [id, landmark] : view.map.landmarks) drawn += Mapped::payloadOf(landmark).isDrawn();
+    EXPECT_EQ(drawn, has_surface ? 5U : 0U);
+  }
 }
 
 TEST(ObjectLandmarksPlugin, AMapIsContinuedWithItsObjects) {

@@ -39,7 +39,7 @@ class ObjectLook : public ::testing::Test {
     const auto map_from_optical = geometry::fromMrpt(believed.value_or(map_from_base)) *
                                   geometry::fromMrpt(world.base_from_camera) * geometry::sensorFromOptical();
     const LookingCamera camera{depth.image(), geometry::inverse(map_from_optical)};
-    may_be_beside_ = reach > 0 && mayBeBeside(*object_, camera, reach);
+    may_be_beside_ = reach > 0 && mayBeBeside(*object_, camera, reach * Eigen::Matrix3d::Identity());
     return isInView(*object_, camera) ? lookFor(*object_, camera) : LookCounts();
   }
   Sight sight(const std::vector<Thing>& things, const mrpt::poses::CPose3D& map_from_base = {}) const {
