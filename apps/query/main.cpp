@@ -12,7 +12,6 @@
 namespace {
 
 using namespace omnimapper;
-
 struct Arguments {
   bool json = false, brief = false;
   std::string map;
@@ -62,8 +61,7 @@ void addOptions(CLI::App& app, Arguments& arguments) {
       "  omnimapper-query out/map 213                        where the sign 213 is\n"
       "  omnimapper-query out/map goal kitchen --from 0 0    a free pose in front of it, facing it\n"
       "  omnimapper-query out/map path here to 213           the way there, with its rooms and doors\n"
-      "Options of one verb: omnimapper-query out/map goal --help. A text that is a verb: omnimapper-query out/map find "
-      "list.\n"
+      "Options of a verb: omnimapper-query MAP goal --help. A text that is a verb: omnimapper-query MAP find list.\n"
       "Exit codes: doc/exit_codes.md (20: the map has no answer). More: doc/query.md.");
 }
 
