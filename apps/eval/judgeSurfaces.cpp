@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtomicFile.h>
 #include <omnimapper/eval/MapQuality.h>
+#include <omnimapper/eval/ThingQuality.h>
 #include <omnimapper/eval/TumFile.h>
 #include <omnimapper/eval/ViewAgreement.h>
 #include <unistd.h>
@@ -44,7 +45,9 @@ void reportSurfaces(const Arguments& arguments, const Result& result, const Sets
 int judgeMap(const Arguments& arguments) {
   const auto map = inTrueFrame(arguments, besideSurfaces(arguments.reference, "truth.tum"));
   const auto truth = surfaces::readSurfaces(surfacesFile(arguments.reference));
-  reportSurfaces(arguments, eval::judgeMap(map, truth), map, truth);
+  const auto quality = eval::judgeMap(map, truth);
+  reportSurfaces(arguments, quality, map, truth);
+  std::cout << eval::table(eval::judgeThings(quality, map, truth));
   return 0;
 }
 

@@ -48,6 +48,13 @@ TEST(Find, WhereNothingIsNearTheClosestNamesAreSuggested) {
   EXPECT_TRUE(find({}, "x").closest.empty());
 }
 
+TEST(Find, TheFacesOfAThingAreFoundByTheirIdsAlone) {
+  auto places = kPlaces;
+  places.places[5].properties = {{map::kParts, std::string("0:5, 0:12")}};
+  EXPECT_EQ(idsOf(find(places.places, "0:12")), (std::vector<std::uint32_t>{5}));
+  EXPECT_TRUE(find(places.places, "12").places.empty());
+}
+
 TEST(Find, MeasuresAreNoNames) {
   map::Place wall = wallFrom(0, 0, 5, 0);
   wall.properties = {{"length", map::Measure{5, "m"}}, {"repeated_elsewhere", true}, {"number", "12"}};

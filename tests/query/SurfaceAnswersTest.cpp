@@ -45,6 +45,13 @@ class SurfaceAnswers : public ::testing::Test {
   MapToAsk map_;
 };
 
+TEST_F(SurfaceAnswers, WhatStandsOnAFaceOfAThingStandsOnTheThing) {
+  map_.places.places[1].properties = {{map::kParts, std::string("0:1, 0:17")}};
+  map_.places.places[4].properties.back().value = std::string("0:17");
+  EXPECT_TRUE(says(ask("looked", {{"0:1"}, {}}).text, "mug"));
+  EXPECT_EQ(ask("find", objectsOn("0:1", "mug")).code, ExitCode::ok);
+}
+
 TEST_F(SurfaceAnswers, LookedSaysWhatWasSeenWhatIsGoneAndWhenItWasLookedAt) {
   const Answer answer = ask("looked", {{"0:0"}, {}});
   EXPECT_EQ(answer.code, ExitCode::ok);

@@ -1,6 +1,7 @@
 #include <omnimapper/derived/LandmarkShapes.h>
 #include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/derived/PlanShape.h>
+#include <omnimapper/derived/ThingsOfMap.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -150,10 +151,12 @@ map::Places placesOf(const mapper::State& state) {
   FramesByPose frames;
   for (const auto& frame : state.map.key_frames) frames[frame.pose] = &frame;
   map::Places places;
-  for (const auto& shaped : shapesOf(state))
+  const auto shapes = shapesOf(state);
+  for (const auto& shaped : shapes)
     if (shaped.isSomewhere() && isAligned(shaped.landmark->id.session, state.map))
       places.places.push_back(placeOf(shaped, state, frames));
   addLabels(state.map, places.places);
+  joinFaces(thingsOf(shapes, state.map), shapes, places.places);
   places.last_pose = lastPoseOf(state.map);
   return places;
 }

@@ -1,6 +1,7 @@
 #include "SceneGraph.h"
 
 #include <omnimapper/derived/LandmarkShapes.h>
+#include <omnimapper/derived/ThingsOfMap.h>
 #include <omnimapper/geometry/Polygon3.h>
 
 #include <algorithm>
@@ -151,6 +152,25 @@ void addSupports(const std::vector<derived::ShapedLandmark>& landmarks, Graph& g
   }
 }
 
+// The things of several faces, each with its faces.
+void addThings(const std::vector<derived::ShapedLandmark>& landmarks, const map::Map& map, const Storey& storey,
+               const std::string& storey_id, Graph& graph) {
+  for (const auto& thing : derived::thingsOf(landmarks, map)) {
+    if (thing.faces.size() < 2) continue;
+    const std::string id = "thing " + toString(landmarks[thing.faces.front()].landmark->id);
+    const Vector3d middle(thing.middle.x(), thing.middle.y(), (thing.bottom + thing.top) / 2);
+    graph.nodes.push_back({{"id", id},
+                           {"kind", "thing"},
+                           {"label", toString(thing.is)},
+                           {"position_m", pointJson(middle)},
+                           {"size_m", pointJson(Vector3d(thing.length, thing.width, thing.top - thing.bottom))},
+                           {"direction_rad", rounded(thing.direction)}});
+    const Room* room = building::roomOfThing(storey, thing.middle, std::nullopt);
+    graph.relate("contains", room ? idOf(*room) : storey_id, id);
+    for (const std::size_t face : thing.faces) graph.relate("contains", id, toString(landmarks[face].landmark->id));
+  }
+}
+
 // Places are key frames that are apart from each other; those between which the base drove are next to each other.
 void addPlaces(const map::KeyFrames& key_frames, const Storey& storey, const std::string& storey_id, Graph& graph) {
   constexpr double kApart = 1.5, kStep = 3;  // [m]
@@ -196,6 +216,7 @@ std::string encodeSceneGraph(const mapper::State& state, const Storey& storey, c
   for (auto& shaped : derived::shapesOf(state))
     if (!shaped.moved && shaped.isSomewhere()) landmarks.push_back(std::move(shaped));
   addLandmarks(landmarks, storey, storey_id, graph);
+  addThings(landmarks, state.map, storey, storey_id, graph);
   addSupports(landmarks, graph);
   addPlaces(state.map.key_frames, storey, storey_id, graph);
   Json document{{"schema", "omnimapper-scene-graph"}, {"version", 1}, {"frame", "map"}, {"unit", "m"}};

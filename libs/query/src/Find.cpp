@@ -93,13 +93,23 @@ std::vector<std::string> closestNames(const std::string& text, std::vector<Found
 
 }  // namespace
 
+bool hasId(const map::Place& place, const std::string& id) {
+  return toString(place.id) == id ||
+         std::any_of(place.properties.begin(), place.properties.end(), [&](const map::Property& property) {
+           const auto* text = std::get_if<std::string>(&property.value);
+           if (property.name != map::kParts || !text) return false;
+           const auto ids = partsOf(*text);
+           return std::find(ids.begin(), ids.end(), id) != ids.end();
+         });
+}
+
 std::vector<std::string> namesOf(const map::Place& place) {
   std::vector<std::string> names;
   for (const auto& name : {place.caption, place.label})
     if (!name.empty()) names.push_back(name);
   for (const auto& property : place.properties) {
     const auto* text = std::get_if<std::string>(&property.value);  // counts, measures and times are no names
-    if (!text || text->empty()) continue;
+    if (!text || text->empty() || property.name == map::kParts) continue;
     names.push_back(*text);
     const auto parts = partsOf(*text);
     if (parts.size() > 1) names.insert(names.end(), parts.begin(), parts.end());
@@ -112,7 +122,7 @@ Found find(const std::vector<map::Place>& places, const std::string& text) {
   expectText(text);
   std::vector<FoundPlace> all;
   for (const auto& place : places)
-    if (toString(place.id) == text) return {{{&place, {MatchGrade::exact, 0, text}}}, {}};
+    if (hasId(place, text)) return {{{&place, {MatchGrade::exact, 0, text}}}, {}};
   const AskedText asked(text);
   std::vector<AskedText> others;
   for (const auto& word : otherWordsFor(text)) others.emplace_back(word);

@@ -3,9 +3,11 @@
 #include <mrpt/system/datetime.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/geometry/ConvexPolygon2.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "Letters.h"
@@ -22,18 +24,32 @@ std::string positionText(const Eigen::Vector3d& at) {
   return fixed(at.x(), 2) + " " + fixed(at.y(), 2) + " " + fixed(at.z(), 2);
 }
 
+// Sides of the smallest rectangle around the points, which has a side along their convex hull; the longer one first.
+Eigen::Vector2d leastSides(const std::vector<Eigen::Vector2d>& points) {
+  const auto hull = geometry::convexHull(points);
+  Eigen::Vector2d best(0, 0);
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; hull.size() > 1 && i < hull.size(); ++i) {
+    const Eigen::Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized(), across(-along.y(), along.x());
+    Eigen::AlignedBox2d box;
+    for (const auto& corner : hull) box.extend(Eigen::Vector2d(along.dot(corner), across.dot(corner)));
+    if (box.volume() >= least) continue;
+    least = box.volume();
+    best = {box.sizes().maxCoeff(), box.sizes().minCoeff()};
+  }
+  return best;
+}
+
 std::string extentText(const map::Place& place) {
   const map::Extent& extent = place.extent;
-  Eigen::AlignedBox2d box;
-  for (const auto& point : extent.points) box.extend(point);
-  for (const auto& [from, to] : extent.lines) box.extend(from).extend(to);
-  for (const auto& outline : extent.outlines)
-    for (const auto& corner : outline) box.extend(corner);
-  const Eigen::Vector2d sides = box.isEmpty() ? Eigen::Vector2d(0, 0) : Eigen::Vector2d(box.sizes());
+  std::vector<Eigen::Vector2d> all = extent.points;
+  for (const auto& [from, to] : extent.lines) all.insert(all.end(), {from, to});
+  for (const auto& outline : extent.outlines) all.insert(all.end(), outline.begin(), outline.end());
+  const Eigen::Vector2d sides = leastSides(all);
   const std::string heights =
       "z " + fixed(extent.bottom, 2) + (extent.top - extent.bottom < 0.01 ? "" : " to " + fixed(extent.top, 2));
   if (!extent.outlines.empty()) return fixed(sides.x(), 1) + " x " + fixed(sides.y(), 1) + " m, " + heights;
-  if (!extent.lines.empty()) return fixed(sides.norm(), 1) + " m long, " + heights;
+  if (!extent.lines.empty()) return fixed(sides.x(), 1) + " m long, " + heights;
   return extent.points.size() > 1 ? base::counted(extent.points.size(), "point") : "point";
 }
 

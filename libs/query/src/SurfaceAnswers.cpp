@@ -4,7 +4,6 @@
 #include <omnimapper/query/Find.h>
 
 #include <algorithm>
-#include <set>
 
 #include "Answers.h"
 #include "FoundText.h"
@@ -43,7 +42,7 @@ base::Stamp lastLooked(const map::Place& place) {
 std::vector<const map::Place*> thingsOn(const map::Place& surface, const MapToAsk& map) {
   std::vector<const map::Place*> things;
   for (const auto& place : map.places.places)
-    if (carrierOf(place) == toString(surface.id)) things.push_back(&place);
+    if (hasId(surface, carrierOf(place))) things.push_back(&place);
   return things;
 }
 
@@ -99,11 +98,11 @@ Answer answerLooked(const MapToAsk& map, const Request& request) {
 Answer answerFindOn(const MapToAsk& map, const Request& request, const std::string& on) {
   const std::string text = textOf(request);
   const Found surfaces = find(map.places.places, on);
-  std::set<std::string> carriers;
-  for (const auto& each : surfaces.places) carriers.insert(toString(each.place->id));
   std::vector<map::Place> there;
   for (const auto& place : map.places.places)
-    if (!place.moved && carriers.count(carrierOf(place)) > 0) there.push_back(place);
+    if (!place.moved && std::any_of(surfaces.places.begin(), surfaces.places.end(),
+                                    [&](const FoundPlace& each) { return hasId(*each.place, carrierOf(place)); }))
+      there.push_back(place);
   const Found found = find(there, text);
   Json document = answerTo("find", map);
   document["text"] = text;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "SurfaceContext.h"
+
 namespace omnimapper::surfaces {
 
 namespace {
@@ -119,13 +121,15 @@ std::vector<Judgement> classify(const std::vector<Surface>& surfaces, double flo
   if (&examples != &knownExamples()) of_others.emplace(examples);
   const Voters& voters = of_others ? *of_others : of_known;
   std::vector<Judgement> judgements;
-  for (const auto& facts : factsOf(surfaces, floor)) {
+  const auto all = factsOf(surfaces, floor);
+  for (const auto& facts : all) {
     Judgement& judgement = judgements.emplace_back();
     if (facts.plan.empty()) continue;
     const Votes votes = voters.votesOn(facts);
     judgement.reason = textOf(facts, votes);
     if (!votes.empty() && votes.front().first >= kHalf) judgement.is = votes.front().second;
   }
+  judgeInContext(surfaces, all, judgements);
   return judgements;
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "SurfaceCells.h"
+#include "Touching.h"
+
 namespace omnimapper::surfaces {
 
 namespace {
@@ -16,52 +19,6 @@ Lie lieOf(const geometry::Plane3& plane) {
   constexpr double kLevel = 0.95, kUpright = 0.2;  // z of the normal
   const double up = plane.normal.z();
   return up > kLevel ? Lie::up : up < -kLevel ? Lie::down : std::abs(up) < kUpright ? Lie::upright : Lie::leaning;
-}
-
-Vector2d alongFloor(const geometry::Plane3& plane) {
-  return Vector2d(-plane.normal.y(), plane.normal.x()).normalized();
-}
-
-// Range of the values without one in thirty at either end, extended by what an even distribution has there. A corner
-// that sticks out, for example where a view mixed two surfaces, has little area and does not change it.
-constexpr double kOutlying = 1.0 / 30;
-Vector2d quantiles(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  const double low = values[static_cast<std::size_t>(kOutlying * last)],
-               high = values[static_cast<std::size_t>((1 - kOutlying) * last)];
-  const double beyond = (high - low) * kOutlying / (1 - 2 * kOutlying);  // length that an even distribution has there
-  return {low - beyond, high + beyond};
-}
-
-struct FilledCells {
-  std::vector<Vector3d> middles;
-  double area = 0;  // [m^2] of all
-};
-
-FilledCells cellsOf(const Surface& surface) {
-  constexpr double kCell = 0.05, kMostCells = 500;  // [m], along a side
-  const auto corners = cornersOf(surface);
-  Eigen::AlignedBox3d box;
-  for (const auto& corner : corners) box.extend(corner);
-  auto grid = CellGrid::around(surface.plane, corners, std::max(kCell, box.diagonal().norm() / kMostCells));
-  for (const auto& part : surface.parts) grid.fill(part.outline, part.holes);
-  FilledCells cells{{}, grid.area()};
-  for (int row = 0; row < grid.rows(); ++row)
-    for (int column = 0; column < grid.columns(); ++column)
-      if (grid.isSet({column, row})) cells.middles.push_back(grid.middleOf({column, row}));
-  if (cells.middles.empty()) cells.middles = corners;
-  return cells;
-}
-
-Vector2d rangeAlong(const std::vector<Vector3d>& cells, const Vector3d& along) {
-  std::vector<double> values;
-  for (const auto& cell : cells) values.push_back(along.dot(cell));
-  return quantiles(std::move(values));
-}
-
-Vector3d onFloor(const Vector2d& direction) {
-  return {direction.x(), direction.y(), 0};
 }
 
 // Sides of the smallest rectangle around the cells as seen from above, longer side first.
@@ -129,21 +86,6 @@ bool isBed(const SurfaceFacts& facts) {
   return isLow(facts) && facts.longer > 1.75 && facts.shorter > 0.75;
 }
 
-constexpr double kTouch = 0.12;  // [m] largest distance at which edges of touching surfaces are seen
-
-bool overlapInHeight(const SurfaceFacts& a, const SurfaceFacts& b) {
-  return a.bottom < b.top + kTouch && b.bottom < a.top + kTouch;
-}
-
-// Whether upright `side` meets the upright surface at one of its ends.
-bool meetAtEnd(const Surface& surface, const SurfaceFacts& facts, const Surface& side, const SurfaceFacts& of_side) {
-  constexpr double kAcross = 0.3;  // largest cosine of the angle between their normals
-  if (of_side.lie != Lie::upright || std::abs(side.plane.normal.dot(surface.plane.normal)) > kAcross) return false;
-  const Vector2d along = alongFloor(surface.plane);
-  const double at = along.dot(of_side.middle.head<2>());  // as it is nearly at right angles, all of it is there
-  return std::min(std::abs(at - facts.along.x()), std::abs(at - facts.along.y())) < 2 * kTouch;
-}
-
 // Adds the facts about a surface that touches it.
 void addTouching(const Surface& surface, const Surface& other, const SurfaceFacts& of_other, SurfaceFacts& facts) {
   constexpr double kHighestSeat = 0.53;  // [m]
@@ -161,8 +103,7 @@ void addTouching(const Surface& surface, const Surface& other, const SurfaceFact
     facts.top_shorter = of_other.shorter;
   }
   if (!meetAtEnd(surface, facts, other, of_other)) return;
-  const bool is_behind = signedDistance(surface.plane, of_other.middle) < 0;
-  const bool is_seen_behind = signedDistance(other.plane, facts.middle) < 0;
+  const bool is_behind = liesBehind(surface, of_other), is_seen_behind = liesBehind(other, facts);
   facts.has_outer_corner = facts.has_outer_corner || (is_behind && is_seen_behind);
   facts.has_inner_corner = facts.has_inner_corner || (!is_behind && !is_seen_behind);
 }

@@ -44,6 +44,9 @@ struct Place {
   bool sigma_is_along_normal = false;  ///< true for a plane or wall: `sigma` is that of its distance along the normal
 };
 
+/// The property of a place that stands for several landmarks, the faces of a thing: their ids, as in "0:12, 0:15".
+inline constexpr char kParts[] = "parts";
+
 /// Where the base was when the map was written. Frame of the map [m] [rad].
 struct LastPose {
   double x = 0, y = 0, yaw = 0;

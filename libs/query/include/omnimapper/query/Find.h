@@ -27,10 +27,12 @@ struct Found {
 /// and not measures.
 std::vector<std::string> namesOf(const map::Place& place);
 
-/// The places called `text`: the one of that id ("0:111"), or all places with a name that fits, or if there are none,
-/// those with a similar name. The
-/// result points into `places`. Throws Error(command_line) for a text that is empty, too long or not UTF-8, or has
-/// control characters.
+/// Whether an id, as it is printed ("0:111"), is that of the place or of a face of the thing that it stands for.
+bool hasId(const map::Place& place, const std::string& id);
+
+/// The places called `text`: the one of that id ("0:111"), which may be that of a face of a thing, or all places with a
+/// name that fits, or if there are none, those with a similar name. The result points into `places`. Throws
+/// Error(command_line) for a text that is empty, too long or not UTF-8, or has control characters.
 Found find(const std::vector<map::Place>& places, const std::string& text);
 
 }  // namespace omnimapper::query

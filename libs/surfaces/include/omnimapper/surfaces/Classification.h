@@ -17,8 +17,9 @@ struct Judgement {
 /// Classifies surfaces by their orientation, height, size, upper and lower edge, and by the surfaces behind and beside
 /// them. The examples most similar to a surface vote on its class (k nearest neighbours, weighted by the inverse of the
 /// squared distance; Dudani: The distance-weighted k-nearest-neighbor rule, IEEE Transactions on Systems, Man, and
-/// Cybernetics 6, 1976). The class is "surface" if no class has half of the votes or no example is similar. The z of
-/// the map is up, and `floor` [m] is the height of the floor.
+/// Cybernetics 6, 1976). The class is "surface" if no class has half of the votes or no example is similar. What is
+/// around a surface then corrects its class: a door leaf has two faces, furniture has sides, a wall is not narrow. The
+/// z of the map is up, and `floor` [m] is the height of the floor.
 std::vector<Judgement> classify(const std::vector<Surface>& surfaces, double floor,
                                 const std::vector<Example>& examples = knownExamples());
 
