@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "LevelSurfaces.h"
+#include "LineSupport.h"
 
 namespace omnimapper::plugins {
 
@@ -20,6 +21,7 @@ struct DrawnLandmark {
   base::LandmarkId id;
   std::shared_ptr<PlanePayload> payload;
   surfaces::Surface surface;
+  map::LandmarkShape line;  ///< of the whole line, if only lines measured it
 };
 
 std::vector<DrawnLandmark> drawnOf(const PlanePayloads& payloads, const PlaneLandmarkIndex& known,
@@ -27,12 +29,14 @@ std::vector<DrawnLandmark> drawnOf(const PlanePayloads& payloads, const PlaneLan
   std::vector<DrawnLandmark> all;
   for (const auto& [id, payload] : payloads) {
     const auto& surface = known.all().at(id);
-    const auto shape = payload->shape({view.graph.value(surface.variable)}, view.map.key_frames);
     DrawnLandmark& drawn = all.emplace_back();
     drawn.id = id;
     drawn.payload = std::make_shared<PlanePayload>(*payload);
+    drawn.payload->stretches.reset();
+    auto shape = drawn.payload->shape({view.graph.value(surface.variable)}, view.map.key_frames);
     drawn.surface.plane = surface.plane;
     drawn.surface.parts = partsOf(shape);
+    if (drawn.surface.parts.empty()) drawn.line = std::move(shape);
   }
   return all;
 }
@@ -72,21 +76,40 @@ std::optional<std::size_t> measurementsToDraw(const geometry::Plane3& plane, dou
   return height < kUpright && rough <= kRough ? std::optional(by_length) : std::nullopt;
 }
 
+// Judges a landmark that only laser lines measured.
+void judgeLine(const LineSupport* support, const map::LandmarkShape& shape, PlanePayload& payload) {
+  constexpr std::size_t kFewestLines = 3;
+  payload.is_candidate = payload.measurements() < kFewestLines;
+  payload.judgement.reset();
+  if (!support || shape.lines.empty()) return;
+  const auto& [from, to] = shape.lines.front();
+  const auto stretches = support->stretchesOf({from.head<2>(), to.head<2>()});
+  if (!stretches) return;
+  if (!stretches->empty()) {
+    payload.stretches = *stretches;
+    return;
+  }
+  payload.is_candidate = true;
+  payload.judgement = {surfaces::SurfaceClass::surface, "things in one line, between which beams passed"};
+}
+
 }  // namespace
 
 PlanePayloads judged(const PlanePayloads& payloads, const PlaneLandmarkIndex& known, const mapper::View& view) {
   const auto all = drawnOf(payloads, known, view);
-  constexpr std::size_t kFewestLines = 3;
   LevelSurfaces level(view.map.layers.find<map::Level>());
   for (const auto& one : all) level.add(one.surface);
   const auto judgements = level.judged(known.emptyPayload().ground, view.map.key_frames);
   const double usual = usualRoughness(all);
+  const auto grid = derived::scanGridOf(view, {});
+  std::optional<LineSupport> support;
+  if (*grid) support.emplace(**grid, view.map.key_frames);
   PlanePayloads results;
   for (std::size_t i = 0; i < all.size(); ++i) {
     PlanePayload& payload = *all[i].payload;
     results[all[i].id] = all[i].payload;
     if (all[i].surface.parts.empty()) {
-      payload.is_candidate = payload.measurements() < kFewestLines;
+      judgeLine(support ? &*support : nullptr, all[i].line, payload);
       continue;
     }
     const double rough = usual > 0 ? payload.roughness.mean() / usual : 1;

@@ -15,8 +15,9 @@ namespace omnimapper::plugins {
 
 namespace {
 
-// Version 2 added the ground; 3 the boundary; 4 holes; 5 the judgement; 6 whether patches are well seen, and roughness.
-constexpr std::uint64_t kVersion = 6;
+// Version 2 added the ground; 3 the boundary; 4 holes; 5 the judgement; 6 whether patches are well seen, and roughness;
+// 7 the stretches of a line.
+constexpr std::uint64_t kVersion = 7;
 
 // The class of a surface by itself, without what stands beside it.
 surfaces::Judgement judgedAlone(const map::LandmarkShape& shape, const geometry::Plane3& plane, double ground) {
@@ -127,6 +128,7 @@ std::shared_ptr<const PlanePayload> PlanePayload::with(const PlanePayload& other
 }
 
 void PlanePayload::resetJudgement() {
+  stretches.reset();
   if (isAccepted()) return;
   judgement.reset();
   is_candidate = false;
@@ -187,8 +189,17 @@ map::LandmarkShape PlanePayload::shape(const std::vector<Eigen::VectorXd>& value
   } else if (hull.size() > 1) {
     const auto [low, high] =
         std::minmax_element(hull.begin(), hull.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
-    shape.lines.emplace_back(axes.inSpace(*low), axes.inSpace(*high));
-    shape.properties.push_back({"length", map::Measure{(*high - *low).norm(), "m"}});
+    const Eigen::Vector2d begin = *low, step = *high - *low;
+    const double whole = step.norm();
+    double length = 0;
+    for (const auto& [from, to] : stretches.value_or(Stretches{{0, whole}})) {
+      const auto at = [&](double distance) {
+        return axes.inSpace(whole > 0 ? Eigen::Vector2d(begin + distance / whole * step) : begin);
+      };
+      shape.lines.emplace_back(at(from), at(to));
+      length += to - from;
+    }
+    shape.properties.push_back({"length", map::Measure{length, "m"}});
   }
   const auto judged = judgement          ? *judgement
                       : wasSeenAsPlane() ? judgedAlone(shape, plane, groundIn(key_frames))
@@ -236,6 +247,11 @@ void PlanePayload::write(std::ostream& out) const {
   graph::writeUint(out, is_candidate ? 1 : 0, 1);
   graph::writeDouble(out, roughness.sum);
   graph::writeUint(out, roughness.count, 4);
+  graph::writeUint(out, stretches ? 1 + stretches->size() : 0, 4);
+  for (const auto& [from, to] : stretches.value_or(Stretches())) {
+    graph::writeDouble(out, from);
+    graph::writeDouble(out, to);
+  }
 }
 
 void PlanePayload::addTo(map::PayloadRegistry& registry) {
@@ -274,6 +290,13 @@ void PlanePayload::addTo(map::PayloadRegistry& registry) {
     if (version > 5) {
       payload->roughness.sum = graph::readDouble(in);
       payload->roughness.count = static_cast<std::uint32_t>(graph::readUint(in, 4));
+    }
+    if (const auto count = version > 6 ? graph::readUint(in, 4) : 0; count > 0) {
+      payload->stretches.emplace();
+      for (auto left = count - 1; left > 0; --left) {
+        const double from = graph::readDouble(in), to = graph::readDouble(in);
+        payload->stretches->emplace_back(from, to);
+      }
     }
     return payload;
   });

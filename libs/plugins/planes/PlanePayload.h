@@ -61,6 +61,9 @@ struct Roughness {
   double mean() const { return count == 0 ? 0 : sum / count; }
 };
 
+/// Parts of a line by the distances of their ends from its begin [m], in order.
+using Stretches = std::vector<std::pair<double, double>>;
+
 /// A cache of the area that the patches of a payload cover together. If a copy of the payload gets more patches,
 /// `frames` shows that the copied entry no longer holds.
 class CoveredMemo {
@@ -100,6 +103,10 @@ struct PlanePayload : map::LandmarkPayload {
   /// The class of the surface in the whole map, which is determined at the end of a run; none before.
   std::optional<surfaces::Judgement> judgement;
   bool is_candidate = false;  ///< measured too rarely or too roughly to be drawn
+  /// Of a surface that only laser lines measured: the stretches of its hull along which something stands, by their
+  /// distances from its lower end along the first of the PlaneAxes [m], which is determined at the end of a run. None:
+  /// all of it.
+  std::optional<Stretches> stretches;
 
   std::string_view kind() const override { return "plane"; }
   void write(std::ostream& out) const override;
