@@ -48,6 +48,14 @@ void Svg::polyline(const std::vector<Eigen::Vector2d>& points, const std::string
   out_ << "\"/>\n";
 }
 
+void Svg::polygon(const std::vector<Eigen::Vector2d>& corners, const std::string& fill, const std::string& border,
+                  double width) {
+  out_ << "<polygon fill=\"" << fill << "\" stroke=\"" << border << "\" stroke-width=\"" << pixels(width)
+       << "\" points=\"";
+  for (const auto& corner : corners) out_ << pixels(corner.x()) << "," << pixels(corner.y()) << " ";
+  out_ << "\"/>\n";
+}
+
 void Svg::box(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const std::string& fill) {
   out_ << "<rect x=\"" << pixels(corner.x()) << "\" y=\"" << pixels(corner.y()) << "\" width=\"" << pixels(size.x())
        << "\" height=\"" << pixels(size.y()) << "\" fill=\"" << fill << "\"/>\n";

@@ -19,6 +19,9 @@ class Svg {
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const std::string& colour, double width);
   /// A point less than a third of a pixel from the last drawn one is left out, unless it is the last point.
   void polyline(const std::vector<Eigen::Vector2d>& points, const std::string& colour, double width);
+  /// An area with a border of that width, half of it inside, and pointed corners; 0 for none.
+  void polygon(const std::vector<Eigen::Vector2d>& corners, const std::string& fill, const std::string& border,
+               double width);
   void box(const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const std::string& fill);
   void dot(const Eigen::Vector2d& centre, double radius, const std::string& fill);
   enum class Anchor { start, middle, end };
