@@ -1,5 +1,6 @@
 // Questions about two rooms that are made by hand.
 #include <gtest/gtest.h>
+#include <omnimapper/map/Labels.h>
 
 #include "TwoRooms.h"
 
@@ -72,6 +73,31 @@ TEST_F(RoomAnswers, GoalOfARoomIsItsCentreMovedToWhereTheRobotFits) {
   EXPECT_TRUE(says(ask("goal", {"room", "2"}).text, "moved by"));
   EXPECT_EQ(asked("goal", {"bed"})["target"]["label"], "bed") << "landmarks are targets as before";
   EXPECT_EQ(asked("goal", {"118"})["target"]["caption"], "118") << "the room was not seen, its sign was";
+}
+
+TEST_F(RoomAnswers, GoalOfARegionIsItsMiddleMovedToWhereTheRobotFitsInIt) {
+  map::Place region = thingAt(6, 2, "reading corner");
+  region.kind = map::Labels::kRegion;
+  region.id = {0, 4294967295U};
+  region.extent.points.clear();
+  region.extent.outlines = {{{5, 1}, {7, 1}, {7, 3}, {5, 3}}};
+  map_.places.places.push_back(region);
+  const auto json = asked("goal", {"reading corner"});
+  EXPECT_EQ(json["target"]["label"], "reading corner");
+  const double x = json["goal"]["x_m"], y = json["goal"]["y_m"], moved = json["goal"]["moved_m"];
+  EXPECT_TRUE(x > 5 && x < 7 && y > 1 && y < 3) << x << " " << y;
+  EXPECT_NEAR(moved, std::hypot(x - 6, y - 2), 1e-9);
+  EXPECT_GT(moved, 0.5) << "the column is in its middle";
+  EXPECT_EQ(json["goal"]["connected"], true);
+  EXPECT_TRUE(says(ask("goal", {"reading corner"}).text, "the centre of the region, moved by"));
+  EXPECT_EQ(asked("goal", {"0:4294967295"})["target"]["label"], "reading corner");
+  const auto path = asked("path", {"here", "to", "reading corner"});
+  EXPECT_GT(path["length_m"].get<double>(), 4);
+  // Two tables without free space between them are approached from outside.
+  map_.places.places.back().extent.outlines = {{{5.7, 1.7}, {6.3, 1.7}, {6.3, 2.3}, {5.7, 2.3}}};
+  const auto before = asked("goal", {"reading corner"})["goal"];
+  EXPECT_EQ(before.count("moved_m"), 0U);
+  EXPECT_NEAR(before["distance_m"].get<double>(), 1, 0.3);
 }
 
 TEST_F(RoomAnswers, PathHasItsLengthAndTheRoomsAndDoorsOnIt) {

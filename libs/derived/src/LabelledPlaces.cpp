@@ -2,6 +2,7 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
+#include <omnimapper/geometry/centroid.h>
 
 #include <algorithm>
 #include <limits>
@@ -22,10 +23,15 @@ void addPoints(const map::Extent& extent, std::vector<Vector2d>& points) {
   for (const auto& outline : extent.outlines) points.insert(points.end(), outline.begin(), outline.end());
 }
 
-map::Place regionOf(const std::string& text, const std::vector<const map::Place*>& parts) {
+// Landmarks are numbered from 0 on, so the places that are none are numbered from the largest number down.
+base::LandmarkId idOfNone(std::uint16_t session, std::size_t number) {
+  return {session, std::numeric_limits<std::uint32_t>::max() - static_cast<std::uint32_t>(number)};
+}
+
+map::Place regionOf(const std::string& text, const std::vector<const map::Place*>& parts, std::size_t number) {
   map::Place region;
-  region.id = parts.front()->id;
-  region.kind = "region";
+  region.id = idOfNone(parts.front()->id.session, number);
+  region.kind = map::Labels::kRegion;
   region.label = text;
   region.extent.bottom = std::numeric_limits<double>::infinity();
   region.extent.top = -region.extent.bottom;
@@ -40,18 +46,17 @@ map::Place regionOf(const std::string& text, const std::vector<const map::Place*
     region.last_seen = std::max(region.last_seen, part->last_seen);
   }
   const auto hull = geometry::convexHull(points);
-  Vector2d middle = Vector2d::Zero();
-  for (const Vector2d& corner : hull) middle += corner / static_cast<double>(hull.size());
+  const Vector2d middle = geometry::centroid(hull).value_or(hull.front());
   region.extent.outlines = {hull};
   region.position << middle, 0.5 * (region.extent.bottom + region.extent.top);
   return region;
 }
 
-map::Place pointOf(const map::Label& label, const map::Map& map, std::uint32_t number) {
+map::Place pointOf(const map::Label& label, const map::Map& map, std::size_t number) {
   const Vector3d at = geometry::fromMrpt(map.keyFrame(label.frame).map_from_base) * label.in_frame;
   map::Place place;
-  place.id = {label.frame.session, std::numeric_limits<std::uint32_t>::max() - number};
-  place.kind = "place";
+  place.id = idOfNone(label.frame.session, number);
+  place.kind = map::Labels::kPlace;
   place.label = label.text;
   place.position = at;
   place.extent.points = {at.head<2>()};
@@ -76,7 +81,7 @@ void addLabels(const map::Map& map, std::vector<map::Place>& places) {
     if (id && placeOf(*id) != places.end())
       named[label.text].insert(*id);
     else
-      added.push_back(pointOf(label, map, static_cast<std::uint32_t>(added.size())));
+      added.push_back(pointOf(label, map, added.size()));
   }
   for (const auto& [text, landmarks] : named) {
     if (landmarks.size() == 1) {
@@ -85,7 +90,7 @@ void addLabels(const map::Map& map, std::vector<map::Place>& places) {
     }
     std::vector<const map::Place*> parts;
     for (const auto id : landmarks) parts.push_back(&*placeOf(id));
-    added.push_back(regionOf(text, parts));
+    added.push_back(regionOf(text, parts, added.size()));
   }
   places.insert(places.end(), added.begin(), added.end());
 }

@@ -110,7 +110,7 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   if (const auto of_room = goalRoom(map, text)) {
     const GridMap grid = readGrid(map.folder);
     const RoomToMove room(grid, options.radius, start);
-    if (auto answer = answerGoalOfRoom(*of_room->room, room, grid, *map.rooms, options.radius, document))
+    if (auto answer = answerGoalOfRoom(*of_room->room, {room, grid, options.radius}, *map.rooms, document))
       return *answer;
     if (found.places.empty())
       return nothing("a robot of " + base::brief(options.radius) + " m radius fits nowhere in " + titleOf(*of_room) +
@@ -122,14 +122,17 @@ Answer answerGoal(const MapToAsk& map, const Request& request) {
   const GridMap grid = readGrid(map.folder);
   const RoomToMove room(grid, options.radius, start);
   for (std::size_t i = 0; i < targets.size(); ++i) {
+    document["target"] = jsonOf(*targets[i].place, request.brief);
+    // A region in which the robot fits nowhere, such as that of two tables, is approached as a landmark is.
+    if (auto answer = answerGoalOfRegion(*targets[i].place, {room, grid, options.radius}, document)) return *answer;
     const auto goal = goalBefore(*targets[i].place, start, room, grid, options);
     if (!goal) continue;
-    document["target"] = jsonOf(*targets[i].place, request.brief);
     document["goal"] = goalJson(*goal, options, room);
     const std::string said = (found.isOnlyNear() ? foundLine(text, found) : "") + whichText(targets, i, start) +
                              goalText(*goal, options, room) + alignedTable({placeHeads(), cellsOf(*targets[i].place)});
     return {said, textOf(document), base::ExitCode::ok};
   }
+  document["target"] = nullptr;
   const auto isInGrid = [&](const NearPlace& target) {
     const auto rim = rimOf(target.place->extent, grid.resolution);
     return std::any_of(rim.begin(), rim.end(), [&](const Vector2d& edge) { return grid.contains(grid.cellOf(edge)); });

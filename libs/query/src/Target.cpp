@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "Answers.h"
+#include "GoalOfRoom.h"
 #include "PlaceText.h"
 
 namespace omnimapper::query {
@@ -82,6 +83,8 @@ std::optional<Vector2d> standAt(const Target& target, const Vector2d& from, cons
                                 const GridMap& grid) {
   if (target.room) return freeCentre(*target.room, room, grid);
   if (!target.place) return target.position;
+  if (const auto region = roomOfRegion(*target.place))
+    if (const auto centre = freeCentre(*region, room, grid)) return centre;
   const auto goal = goalBefore(*target.place, from, room, grid, {});
   if (!goal) return std::nullopt;
   return Vector2d(goal->x, goal->y);

@@ -32,8 +32,8 @@ std::optional<Target> targetCalled(const MapToAsk& map, const std::string& text)
 std::string titleOf(const building::Room& room);
 std::string titleOf(const FoundRoom& found);
 
-/// A point of the target at which a robot can stand: of a room its centre, of a landmark the goal before it, of a point
-/// itself. None if there is none.
+/// A point of the target at which a robot can stand: of a room its centre, of a region of labels the middle of it, of
+/// a landmark the goal before it, of a point itself. None if there is none.
 std::optional<Eigen::Vector2d> standAt(const Target& target, const Eigen::Vector2d& from, const RoomToMove& room,
                                        const GridMap& grid);
 

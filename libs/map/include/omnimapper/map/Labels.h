@@ -45,6 +45,8 @@ struct LabelQuestion {
 struct Labels {
   static constexpr char kLayer[] = "labels";
   static constexpr std::uint32_t kLayerVersion = 1;
+  /// The kinds of the places (map::Place) that are several landmarks of one label, and of those that have no landmark.
+  static constexpr char kRegion[] = "region", kPlace[] = "place";
 
   std::vector<Label> labels;
   std::optional<LabelQuestion> question;
