@@ -152,6 +152,21 @@ TEST_F(RoomEditsOfPlan, EditsFindTheirRoomsInAMapWithAnotherFrame) {
   EXPECT_EQ(nameOf(*roomAt(again.storey, now_from_then * Eigen::Vector2d(2, 4))), "Library");
 }
 
+// The rooms that the edits remember are those after the edits, and a new map has the rooms that were before them.
+TEST_F(RoomEditsOfPlan, EditsThatChangedTheRoomsFindTheirPlaceToo) {
+  plan_.room(4.05, 2.1, 7.95, 9).free(5, 2, 5.9, 2.1);
+  rooms_ = segmentRooms(plan_.grid());
+  const std::vector<RoomEdit> made{{Kind::split, "", {{7, 0}, {7, 2}}}, {Kind::remove, "", {{2, 4}}}};
+  for (const RoomEdit& edit : made) ASSERT_EQ(apply(edit), "");
+  const RoomEdits edits = anchoredTo({made, {}, {}}, rooms_.storey, {});
+  const geometry::Se2 now_from_then{-12, 5, -0.7};
+  grid::GridMap grid = plan_.grid();
+  grid.map_from_grid = now_from_then * grid.map_from_grid;
+  const auto found = alignEdits(edits, segmentRooms(grid).storey, {});
+  ASSERT_TRUE(found);
+  EXPECT_LT(minus(*found, now_from_then).norm(), 0.1);
+}
+
 TEST_F(RoomEditsOfPlan, TwoSignsAreEnoughAndAnotherPlaceIsRefused) {
   RoomEdits edits = anchoredTo({{{Kind::rename, "Library", {{2, 4}}}}, {}, {}}, rooms_.storey,
                                {{"213", {2.1, 2}}, {"215", {4.7, 2}}});

@@ -48,6 +48,38 @@ RoomEdit editOf(const Json& json) {
   throw std::out_of_range("'" + base::printable(name.substr(0, 40)) + "' is no edit");
 }
 
+// Edits with what their place looked like, without those elsewhere.
+Json setJson(const RoomEdits& edits) {
+  Json json;
+  json["edits"] = json["rooms"] = json["signs"] = Json::array();
+  for (const auto& edit : edits.edits) {
+    Json each{{"edit", toString(edit.kind)}};
+    if (edit.kind == Kind::rename) each["name"] = edit.name;
+    each["points"] = Json::array();
+    for (const auto& point : edit.points) each["points"].push_back(placeJson(point));
+    json["edits"].push_back(std::move(each));
+  }
+  for (const auto& outline : edits.outlines) {
+    Json loop = Json::array();
+    for (const auto& corner : outline) loop.push_back(placeJson(corner));
+    json["rooms"].push_back(std::move(loop));
+  }
+  for (const auto& [text, place] : edits.signs)
+    json["signs"].push_back({{"text", text}, {"position", placeJson(place)}});
+  return json;
+}
+
+RoomEdits setOf(const Json& json) {
+  RoomEdits edits;
+  for (const auto& edit : json.at("edits")) edits.edits.push_back(editOf(edit));
+  for (const auto& outline : json.at("rooms")) {
+    auto& loop = edits.outlines.emplace_back();
+    for (const auto& corner : outline) loop.push_back(placeOf(corner));
+  }
+  for (const auto& sign : json.at("signs")) edits.signs[sign.at("text")] = placeOf(sign.at("position"));
+  return edits;
+}
+
 }  // namespace
 
 std::string toString(Kind kind) {
@@ -77,22 +109,9 @@ std::string toString(const RoomEdit& edit) {
 
 std::string encodeEdits(const RoomEdits& edits) {
   Json json{{"schema", kEditsSchema}, {"version", kEditsVersion}, {"frame", "map"}, {"unit", "m"}};
-  json["edits"] = json["rooms"] = Json::array();
-  for (const auto& edit : edits.edits) {
-    Json each{{"edit", toString(edit.kind)}};
-    if (edit.kind == Kind::rename) each["name"] = edit.name;
-    each["points"] = Json::array();
-    for (const auto& point : edit.points) each["points"].push_back(placeJson(point));
-    json["edits"].push_back(std::move(each));
-  }
-  for (const auto& outline : edits.outlines) {
-    Json loop = Json::array();
-    for (const auto& corner : outline) loop.push_back(placeJson(corner));
-    json["rooms"].push_back(std::move(loop));
-  }
-  json["signs"] = Json::array();
-  for (const auto& [text, place] : edits.signs)
-    json["signs"].push_back({{"text", text}, {"position", placeJson(place)}});
+  json.update(setJson(edits));
+  if (!edits.elsewhere.empty()) json["elsewhere"] = Json::array();
+  for (const auto& others : edits.elsewhere) json["elsewhere"].push_back(setJson(others));
   return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
@@ -108,12 +127,8 @@ RoomEdits decodeEdits(const std::string& text, const std::string& what) {
     refuse("has another version than " + std::to_string(kEditsVersion) + ".");
   RoomEdits edits;
   try {
-    for (const auto& edit : json.at("edits")) edits.edits.push_back(editOf(edit));
-    for (const auto& outline : json.at("rooms")) {
-      auto& loop = edits.outlines.emplace_back();
-      for (const auto& corner : outline) loop.push_back(placeOf(corner));
-    }
-    for (const auto& sign : json.at("signs")) edits.signs[sign.at("text")] = placeOf(sign.at("position"));
+    edits = setOf(json);
+    for (const auto& others : json.value("elsewhere", Json::array())) edits.elsewhere.push_back(setOf(others));
   } catch (const std::exception& error) {
     refuse(std::string("is damaged: ") + error.what() + ".");
   }

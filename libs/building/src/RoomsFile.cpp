@@ -220,7 +220,7 @@ std::string encodeRooms(const RoomsDocument& document) {
     storeys.push_back(std::move(each));
   }
   json["gone_rooms"] = document.gone;
-  if (!document.edits.edits.empty() || !document.edits.signs.empty())
+  if (!document.edits.edits.empty() || !document.edits.signs.empty() || !document.edits.elsewhere.empty())
     json["edits"] = Json::parse(encodeEdits(document.edits));
   // Names from a map may not be valid UTF-8: invalid bytes are replaced.
   return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";

@@ -41,6 +41,7 @@ std::map<int, int> newIds(const std::vector<Overlap>& overlaps, Storey& now, int
 
 void noteSplits(const std::vector<Overlap>& overlaps, const std::map<int, int>& ids, double cell, Storey& now) {
   for (Room& room : now.rooms) {
+    if (room.split_from && ids.count(*room.split_from) > 0) room.split_from = ids.at(*room.split_from);
     const auto largest =
         std::find_if(overlaps.begin(), overlaps.end(), [&](const Overlap& overlap) { return overlap.now == room.id; });
     if (largest == overlaps.end() || ids.at(room.id) == largest->earlier) continue;
@@ -82,11 +83,11 @@ void renumberDoors(const Storey& earlier, Storey& now) {
   std::sort(now.doors.begin(), now.doors.end(), [](const Door& a, const Door& b) { return a.id < b.id; });
 }
 
-// A room that keeps its id keeps what was known of it, too.
+// A room that keeps its id keeps what was known of it, too, unless a user has named it since.
 void keepNames(const Storey& earlier, Storey& now) {
   for (Room& room : now.rooms) {
     const Room* before = roomOf(earlier, room.id);
-    if (before == nullptr) continue;
+    if (before == nullptr || isNamedByUser(room)) continue;
     room.name = before->name;
     room.name_confidence = before->name_confidence;
     room.kind = before->kind;

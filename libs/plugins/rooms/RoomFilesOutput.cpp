@@ -54,8 +54,8 @@ void RoomFilesOutput::finish(const mapper::View& view) {
   if (!layer) return;
   const building::Storey& storey = layer->rooms.building.storeys.front();
   derived::writeBytes(folder_ + "rooms.json", layer->toBytes());
-  if (!layer->rooms.edits.edits.empty())
-    derived::writeBytes(folder_ + "edits.json", building::encodeEdits(layer->rooms.edits));
+  if (const auto& edits = layer->rooms.edits; !edits.edits.empty() || !edits.elsewhere.empty())
+    derived::writeBytes(folder_ + "edits.json", building::encodeEdits(edits));
   derived::writeBytes(folder_ + "plan.svg", building::encodePlan(storey, contentsOf(view)));
   derived::writeBytes(folder_ + "scene_graph.json", encodeSceneGraph(view, storey, title_));
   const auto shared = derived::scanGridOf(view, {});

@@ -130,38 +130,59 @@ void forgetKnown(PlacedEdits known, PlacedEdits& edits) {
   }
 }
 
-enum class Source { map, file, file_for_now };
+// The edits of the map, or of a file, one set for each place.
+std::vector<building::RoomEdits> setsOf(const building::RoomEdits& edits) {
+  std::vector<building::RoomEdits> sets{edits};
+  sets.front().elsewhere.clear();
+  sets.insert(sets.end(), edits.elsewhere.begin(), edits.elsewhere.end());
+  sets.erase(std::remove_if(sets.begin(), sets.end(), [](const auto& set) { return set.edits.empty(); }), sets.end());
+  return sets;
+}
 
-// Applies the edits that the map has, which it keeps, or those of a file.
-void takeOver(const PlacedEdits& edits, Source source, const grid::GridMap& grid, building::Segmentation& rooms,
+// Applies edits that the map has, which it keeps, or those of a file.
+void takeOver(const PlacedEdits& edits, bool are_of_map, const grid::GridMap& grid, building::Segmentation& rooms,
               EditedRooms& result) {
   if (edits.then.edits.empty()) return;
-  const std::string kept = source == Source::map ? "; kept for a later session" : "",
-                    now_only = source == Source::file_for_now ? ", in this session only" : "";
-  if (!edits.are_placed)
+  const std::string kept = are_of_map ? "; kept for a later session" : "";
+  auto& of_layer = result.layer.rooms.edits;
+  if (!edits.are_placed) {
     result.edits.emplace_back("all " + std::to_string(edits.then.edits.size()) + " edits",
                               "their rooms are not those of this map: they are of another place" + kept);
+    if (are_of_map) of_layer.elsewhere.push_back(edits.then);
+  }
   for (const auto& edit : edits.now.edits) {
     const std::string why_not = building::applyEdit(edit, grid, rooms);
-    result.edits.emplace_back(toString(edit) + now_only, why_not.empty() ? "" : why_not + kept);
-    if (why_not.empty() || source == Source::map) result.layer.rooms.edits.edits.push_back(edit);
+    result.edits.emplace_back(toString(edit), why_not.empty() ? "" : why_not + kept);
+    if (why_not.empty() || are_of_map) of_layer.edits.push_back(edit);
   }
 }
 
-// Applies the edits of the map and those of a file, and sets those of the layer.
-void takeOverAll(const building::RoomEdits& of_map, const building::RoomEdits& of_file, const grid::GridMap& grid,
-                 const std::map<std::string, Eigen::Vector2d>& signs, building::Segmentation& rooms,
-                 EditedRooms& result) {
-  const PlacedEdits own = placed(of_map, rooms.storey, signs);
-  takeOver(own, Source::map, grid, rooms, result);
-  PlacedEdits given = placed(of_file, rooms.storey, signs);
-  forgetKnown(own, given);
-  // Edits without a place stay as they are, with what their place looked like. Others do not go with them.
-  const bool is_lost = !own.are_placed && !of_map.edits.empty();
-  takeOver(given, is_lost ? Source::file_for_now : Source::file, grid, rooms, result);
-  auto& edits = result.layer.rooms.edits;
-  edits = is_lost ? of_map : building::anchoredTo(std::move(edits), rooms.storey, signs);
-  if (edits.edits.empty()) edits.outlines.clear();
+// Applies the edits that the map has. Rooms that they made have the numbers that they had before.
+std::vector<PlacedEdits> takeOverOwn(const RoomsLayer& earlier, const building::Storey& storey,
+                                     const grid::GridMap& grid, const std::map<std::string, Eigen::Vector2d>& signs,
+                                     building::Segmentation& rooms, EditedRooms& result) {
+  const auto continueThem = [&] {
+    auto continued = building::continueRooms(storey, grid, std::move(rooms));
+    rooms = std::move(continued.now);
+    result.layer.rooms.gone = std::move(continued.gone);
+  };
+  continueThem();
+  std::vector<PlacedEdits> own;
+  for (const auto& set : setsOf(earlier.rooms.edits)) own.push_back(placed(set, rooms.storey, signs));
+  for (const auto& set : own) takeOver(set, true, grid, rooms, result);
+  if (!own.empty()) continueThem();
+  return own;
+}
+
+// Applies those edits of a file that the map does not have.
+void takeOverFile(const building::RoomEdits& of_file, const std::vector<PlacedEdits>& own, const grid::GridMap& grid,
+                  const std::map<std::string, Eigen::Vector2d>& signs, building::Segmentation& rooms,
+                  EditedRooms& result) {
+  for (const auto& set : setsOf(of_file)) {
+    PlacedEdits given = placed(set, rooms.storey, signs);
+    for (const auto& known : own) forgetKnown(known, given);
+    takeOver(given, false, grid, rooms, result);
+  }
 }
 
 }  // namespace
@@ -170,17 +191,18 @@ EditedRooms roomsOfMap(const mapper::State& state, const grid::GridMap& grid, co
   EditedRooms result;
   RoomsLayer& layer = result.layer;
   building::Segmentation now = building::segmentRooms(grid);
-  const auto* earlier = state.map.layers.find<RoomsLayer>();
-  if (earlier) {
-    const auto& storey = earlier->rooms.building.storeys.front();
-    auto continued = building::continueRooms(asItIsNow(storey, state.map.key_frames), grid, std::move(now));
-    now = std::move(continued.now);
-    layer.rooms.gone = std::move(continued.gone);
-  }
   const auto landmarks = derived::shapesOf(state);
   const auto signs = signsOf(landmarks);
-  takeOverAll(earlier ? earlier->rooms.edits : building::RoomEdits(), edits, grid, building::uniqueSigns(signs), now,
-              result);
+  const auto by_text = building::uniqueSigns(signs);
+  std::vector<PlacedEdits> own;
+  if (const auto* earlier = state.map.layers.find<RoomsLayer>()) {
+    const auto then = asItIsNow(earlier->rooms.building.storeys.front(), state.map.key_frames);
+    own = takeOverOwn(*earlier, then, grid, by_text, now, result);
+  }
+  takeOverFile(edits, own, grid, by_text, now, result);
+  auto& of_layer = layer.rooms.edits;
+  of_layer = building::anchoredTo(std::move(of_layer), now.storey, by_text);
+  if (of_layer.edits.empty()) of_layer.outlines.clear();
   building::Storey storey = std::move(now.storey);
   building::nameBySigns(storey, signs);
   const auto contents = contentsOf(landmarks, storey);

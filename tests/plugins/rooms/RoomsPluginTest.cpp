@@ -157,10 +157,39 @@ TEST_F(EditsOfRooms, TheMapKeepsThoseThatCannotBeAppliedNow) {
 TEST_F(EditsOfRooms, TheMapKeepsThoseOfAPlaceThatWasNotFoundAsTheyAre) {
   setLayer(elsewhere());
   const mapper::Batch batch = continued(editsHere({renameTo("den")}));
-  EXPECT_EQ(building::encodeEdits(layerOf(batch).rooms.edits), building::encodeEdits(elsewhere()));
+  const auto kept = layerOf(batch).rooms.edits;
+  ASSERT_EQ(kept.elsewhere.size(), 1U);
+  EXPECT_EQ(building::encodeEdits(kept.elsewhere[0]), building::encodeEdits(elsewhere()));
+  ASSERT_EQ(kept.edits.size(), 1U) << "those of the file are of this place, and are kept beside them";
+  EXPECT_EQ(kept.edits[0].name, "den");
   EXPECT_EQ(storeyOf(layerOf(batch)).rooms.front().name, "den");
   EXPECT_NE(saidBy(batch).find("of another place; kept for a later session"), std::string::npos) << saidBy(batch);
-  EXPECT_NE(saidBy(batch).find("in this session only"), std::string::npos) << saidBy(batch);
+}
+
+TEST_F(EditsOfRooms, ThoseThatWereKeptAreAppliedWhenTheirPlaceIsSeenAgain) {
+  building::RoomEdits edits = elsewhere();
+  edits.elsewhere = {editsHere({renameTo("den")})};
+  setLayer(edits);
+  const auto now = layerOf(atEnd(run_));
+  EXPECT_EQ(storeyOf(now).rooms.front().name, "den");
+  ASSERT_EQ(now.rooms.edits.edits.size(), 1U);
+  EXPECT_EQ(now.rooms.edits.edits[0].name, "den");
+  ASSERT_EQ(now.rooms.edits.elsewhere.size(), 1U);
+  EXPECT_EQ(now.rooms.edits.elsewhere[0].edits[0].name, "cellar");
+}
+
+TEST_F(EditsOfRooms, TheRoomsOfASplitKeepTheirNumbersAndTheirDoorOverSessions) {
+  const auto& outline = storeyOf(layer_).rooms.front().outline;
+  double low = outline.front().y(), high = low;
+  for (const auto& corner : outline) low = std::min(low, corner.y()), high = std::max(high, corner.y());
+  const building::RoomEdit split{building::RoomEdit::Kind::split, "", {{0.3, low}, {0.3, high}}};
+  const building::RoomEdit rename{building::RoomEdit::Kind::rename, "nook", {{-0.8, 0}}};
+  setLayer(editsHere({split, rename}));
+  const RoomsLayer first = layerOf(atEnd(run_));
+  ASSERT_EQ(storeyOf(first).rooms.size(), 2U);
+  run_.map.layers.set(first);
+  const RoomsLayer second = layerOf(atEnd(run_));
+  EXPECT_EQ(second.toBytes(), first.toBytes()) << "nothing else was seen";
 }
 
 TEST_F(EditsOfRooms, ThoseOfAFileThatTheMapHasAreNotAppliedAgain) {

@@ -18,7 +18,8 @@ struct Continuation {
 /// the same frame. A room keeps its id if it is the largest part of what the earlier room covered, and the earlier room
 /// the largest part of it that has an id. All others get ids that no room has had; Room::split_from is the earlier room
 /// that covered most of them, if it covered half of them. Doors that join the same rooms keep their ids if their
-/// middles have moved by less than 0.5 m. A room that keeps its id keeps name, kind and their evidence.
+/// middles have moved by less than 0.5 m. A room that keeps its id keeps name, kind and their evidence, unless a user
+/// has named the room of `now`.
 Continuation continueRooms(const Storey& earlier, const grid::GridMap& grid, Segmentation now);
 
 }  // namespace omnimapper::building

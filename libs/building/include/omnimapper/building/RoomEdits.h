@@ -33,6 +33,9 @@ struct RoomEdits {
   std::vector<RoomEdit> edits;
   std::vector<std::vector<Eigen::Vector2d>> outlines;  ///< of the rooms
   std::map<std::string, Eigen::Vector2d> signs;        ///< by texts that only one sign has
+  /// Edits whose place was not found in the map, each with what it looked like, in frames of their own. They have none
+  /// of their own here.
+  std::vector<RoomEdits> elsewhere = {};
 };
 
 /// The JSON document edits.json (doc/rooms.md describes it).
@@ -47,15 +50,16 @@ RoomEdits decodeEdits(const std::string& text, const std::string& what);
 /// was.
 std::string applyEdit(const RoomEdit& edit, const grid::GridMap& grid, Segmentation& rooms);
 
-/// The motion from the frame of the edits to that of `now`: by signs with the same text, if there are two, else by the
-/// rooms. None if less than 70 % of the edits' rooms would be in rooms of now: they are of another place.
+/// The motion from the frame of the edits to that of `now`: by signs with the same text, if there are two, else the
+/// motion by which most borders of rooms coincide. None if less than 70 % of the edits' rooms would be in rooms of now,
+/// or fewer than 65 % of the borders coincide: they are of another place.
 std::optional<geometry::Se2> alignEdits(const RoomEdits& edits, const Storey& now,
                                         const std::map<std::string, Eigen::Vector2d>& signs);
 
-/// The edits in another frame. Coordinates of more than kFarthest become kFarthest.
+/// The edits in another frame; those elsewhere stay as they are. Coordinates of more than kFarthest become kFarthest.
 RoomEdits moved(RoomEdits edits, const geometry::Se2& now_from_then);
 
-/// The edits with the outlines and signs of now.
+/// The edits with the outlines and signs of now; those elsewhere stay as they are.
 RoomEdits anchoredTo(RoomEdits edits, const Storey& now, const std::map<std::string, Eigen::Vector2d>& signs);
 
 /// The places of those signs whose text no other sign has.
