@@ -123,6 +123,28 @@ TEST(PointingTarget, theNearestSurfaceHidesThoseBehind) {
             std::vector<std::size_t>{1});
 }
 
+TEST(PointingTarget, whatIsSeldomMeantCountsLess) {
+  auto seldom = pointAt({1, 0.1, 1});
+  seldom.weight = 0.1;
+  const auto answer = determineTarget(alongX(), {seldom, pointAt({1, -0.1, 1})}, exactPeople(0.1), {});
+  EXPECT_NEAR(answer.probabilities[1] / answer.probabilities[0], 10, 1e-9);
+  const auto both = determineTarget(alongX(), {seldom, seldom}, exactPeople(0.1), {});
+  EXPECT_NEAR(both.probabilities[0], both.probabilities[1], 1e-12);
+}
+
+// The wall was seen from 1.5 m on, and goes on down to the floor; the ray is at 1 m.
+TEST(PointingTarget, aWallThatGoesOnUnseenIsMeantThereButHidesNothing) {
+  auto wall = wallAt(2, 1, 0.5);
+  for (auto& corner : wall.outline.vertices) corner.z() += 1;
+  EXPECT_EQ(determineTarget(alongX(), {wall}, exactPeople(0.05), {}).verdict, TargetVerdict::nothing);
+  wall.reach = wallAt(2, 1, 1).outline;
+  const auto answer = determineTarget(alongX(), {wall}, exactPeople(0.05), {});
+  EXPECT_EQ(answer.verdict, TargetVerdict::this_one);
+  const auto before = determineTarget(alongX(), {wall, wallAt(3, 1, 1)}, exactPeople(0.05), {});
+  ASSERT_EQ(before.verdict, TargetVerdict::this_one);
+  EXPECT_EQ(before.candidates, std::vector<std::size_t>{1}) << "what was seen behind it";
+}
+
 TEST(PointingTarget, aWallHidesTheCupBehindItAndNotTheOneOnIt) {
   const auto cup = [](double x) { return PointedCandidate{canAt({x, 0, 1}), {}, true}; };
   EXPECT_EQ(determineTarget(alongX(), {wallAt(1, 1, 1), cup(1.5)}, exactPeople(0.05), {}).probabilities[1], 0);

@@ -29,6 +29,14 @@ const base::OptionTable<GestureOptions>& GestureOptions::table() {
   return table;
 }
 
+PointingGesture transformed(const geometry::Se3& there_from_here, PointingGesture gesture) {
+  gesture.hand = there_from_here * gesture.hand;
+  gesture.sensor = there_from_here * gesture.sensor;
+  for (auto* joint : {&gesture.elbow, &gesture.head})
+    if (*joint) *joint = there_from_here * **joint;
+  return gesture;
+}
+
 std::optional<PointingGesture> GestureWatch::meanOf(const Arm& arm) const {
   PointingGesture mean;
   mean.begin = arm.samples.front().stamp;

@@ -110,17 +110,19 @@ TargetAnswer determineTarget(const PointingGesture& gesture, const std::vector<P
   const Sight sight(gesture.hand, candidates);
   std::vector<double> likelihoods(candidates.size(), 0.0);
   if (sight.hasSurfaces()) addSurfaces(gesture, likelihood, sight, likelihoods);
-  std::size_t meant = 0;
+  double meant = 0;  // sum of the weights
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!candidates[i].may_be_meant || sight.rangeOf(i) > options.max_range || !sight.isSeen(i)) {
       likelihoods[i] = 0;
       continue;
     }
-    ++meant;
-    if (!candidates[i].points.empty()) likelihoods[i] += ofObject(likelihood, sight, candidates[i], i);
+    meant += candidates[i].weight;
+    likelihoods[i] *= candidates[i].weight;
+    if (!candidates[i].points.empty())
+      likelihoods[i] += candidates[i].weight * ofObject(likelihood, sight, candidates[i], i);
   }
-  if (meant == 0) return answer;
-  const double prior = (1 - options.nothing_prior) / static_cast<double>(meant);
+  if (!(meant > 0)) return answer;
+  const double prior = (1 - options.nothing_prior) / meant;
   const double nothing = options.nothing_prior / kAnywhere;
   const double sum = std::accumulate(likelihoods.begin(), likelihoods.end(), 0.0) * prior + nothing;
   for (std::size_t i = 0; i < candidates.size(); ++i) answer.probabilities[i] = likelihoods[i] * prior / sum;

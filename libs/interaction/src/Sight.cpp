@@ -29,13 +29,16 @@ Sight::Sight(const Vector3d& eye, const std::vector<PointedCandidate>& candidate
     : eye_(eye), candidates_(candidates) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const PointedCandidate& candidate = candidates[i];
-    const Vector3d normal = geometry::areaVector(candidate.outline);
-    if (normal.norm() > 0) {
-      const Vector3d centre = meanOf(candidate.outline.vertices);
+    const auto add = [&](const geometry::Polygon3& outline, std::vector<Surface>& surfaces) {
+      const Vector3d normal = geometry::areaVector(outline);
+      if (!(normal.norm() > 0)) return;
+      const Vector3d centre = meanOf(outline.vertices);
       double radius = 0;
-      for (const Vector3d& v : candidate.outline.vertices) radius = std::max(radius, (v - centre).norm());
-      surfaces_.push_back({i, normal.normalized(), centre, radius});
-    }
+      for (const Vector3d& v : outline.vertices) radius = std::max(radius, (v - centre).norm());
+      surfaces.push_back({i, &outline, normal.normalized(), centre, radius});
+    };
+    add(candidate.outline, surfaces_);
+    add(candidate.reach, unseen_);
     if (candidate.points.empty()) continue;
     Object object;
     object.candidate = i;
@@ -75,7 +78,7 @@ std::optional<double> Sight::distanceTo(const Surface& surface, const Vector3d& 
   if (!(distance > 0)) return std::nullopt;
   const Vector3d hit = eye_ + distance * direction;
   if ((hit - surface.centre).squaredNorm() > surface.radius * surface.radius) return std::nullopt;
-  if (!geometry::contains(candidates_[surface.candidate].outline, hit)) return std::nullopt;
+  if (!geometry::contains(*surface.outline, hit)) return std::nullopt;
   return distance;
 }
 
@@ -90,18 +93,22 @@ bool Sight::covers(const Object& object, const Vector3d& direction) {
   return true;
 }
 
-std::optional<std::size_t> Sight::surfaceAt(const Vector3d& direction) const {
-  std::optional<std::size_t> first;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Surface& surface : surfaces_) {
+std::optional<Sight::Met> Sight::firstOf(const std::vector<Surface>& surfaces, const Vector3d& direction) const {
+  std::optional<Met> first;
+  for (const Surface& surface : surfaces) {
     const auto distance = distanceTo(surface, direction);
-    if (!distance || *distance >= nearest) continue;
-    nearest = *distance;
-    first = surface.candidate;
+    if (distance && (!first || *distance < first->distance)) first = Met{surface.candidate, *distance};
   }
-  for (const Object& object : objects_)
-    if (first && object.distance < nearest && covers(object, direction)) return std::nullopt;
   return first;
+}
+
+std::optional<std::size_t> Sight::surfaceAt(const Vector3d& direction) const {
+  auto first = firstOf(surfaces_, direction);
+  if (!first) first = firstOf(unseen_, direction);
+  if (!first) return std::nullopt;
+  for (const Object& object : objects_)
+    if (object.distance < first->distance && covers(object, direction)) return std::nullopt;
+  return first->candidate;
 }
 
 bool Sight::isHidden(const Vector3d& point, std::size_t own) const {
@@ -121,7 +128,8 @@ bool Sight::isHidden(const Vector3d& point, std::size_t own) const {
 // Van Oosterom and Strackee: The solid angle of a plane triangle, IEEE Trans. Biomedical Engineering 30 (1983). The
 // signed angles of the triangles of a fan add up to that of the polygon, also where it is concave.
 double Sight::solidAngle(std::size_t surface) const {
-  const auto& vertices = candidates_[surface].outline.vertices;
+  const auto& candidate = candidates_[surface];
+  const auto& vertices = (candidate.reach.vertices.empty() ? candidate.outline : candidate.reach).vertices;
   double sum = 0;
   for (std::size_t i = 1; i + 1 < vertices.size(); ++i) {
     const Vector3d a = vertices[0] - eye_, b = vertices[i] - eye_, c = vertices[i + 1] - eye_;

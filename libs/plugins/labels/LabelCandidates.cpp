@@ -31,6 +31,29 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& points) {
   return kept;
 }
 
+// A wall goes on up to the ceiling, also where the camera has not seen it. What is lower may be a piece of furniture.
+geometry::Polygon3 reachOfWall(const geometry::Polygon3& outline) {
+  constexpr double kWall = 1, kCeiling = 2.4, kUpright = 0.2;  // [m], [m], z of the unit normal
+  const Vector3d normal = geometry::areaVector(outline).normalized();
+  if (std::abs(normal.z()) > kUpright) return {};
+  const Vector3d along = Vector3d(-normal.y(), normal.x(), 0).normalized();
+  double low = outline.vertices[0].z(), high = low, from = 0, to = 0;
+  const Vector3d origin = outline.vertices[0];
+  for (const Vector3d& corner : outline.vertices) {
+    low = std::min(low, corner.z());
+    high = std::max(high, corner.z());
+    from = std::min(from, (corner - origin).dot(along));
+    to = std::max(to, (corner - origin).dot(along));
+  }
+  if (high - low < kWall) return {};
+  const double top = std::max(high, low + kCeiling);
+  const auto at = [&](double where, double z) {
+    const Vector3d level = origin + where * along;
+    return Vector3d(level.x(), level.y(), z);
+  };
+  return {{at(from, low), at(to, low), at(to, top), at(from, top)}};
+}
+
 PointedCandidate candidateOf(const map::LandmarkShape& shape) {
   PointedCandidate candidate;
   double largest = 0;
@@ -40,7 +63,13 @@ PointedCandidate candidateOf(const map::LandmarkShape& shape) {
     largest = area;
     candidate.outline = surface;
   }
-  if (largest > 0) return candidate;
+  if (largest > 0) {
+    // Everything stands on the floor: where a thing is not mapped yet, or only a part of it, the ray meets the floor.
+    constexpr double kSeldom = 0.1;
+    if (shape.label == "floor" || shape.label == "ceiling") candidate.weight = kSeldom;
+    if (shape.label == "wall") candidate.reach = reachOfWall(candidate.outline);
+    return candidate;
+  }
   if (shape.mesh)
     candidate.points = thinned(shape.mesh->vertices);
   else if (shape.box)

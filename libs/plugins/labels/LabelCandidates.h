@@ -15,7 +15,8 @@ struct LabelCandidates {
 };
 
 /// A landmark with flat surfaces is the largest of them; one with a mesh, a box or points is an object, of at most
-/// about 100 points. What does not fit the subject of a command may not be meant, but hides what is behind it.
+/// about 100 points. Walls reach up to 2.4 m. Floors and ceilings count a tenth: behind what is not mapped yet there is
+/// mostly one of them. What does not fit the subject of a command may not be meant, but hides what is behind it.
 LabelCandidates labelCandidates(const mapper::State& state, obs::CommandSubject subject);
 
 /// The middle of a candidate [m].

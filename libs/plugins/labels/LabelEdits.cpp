@@ -46,6 +46,12 @@ void LabelEdits::add(map::Label label) {
   labels_.labels.push_back(std::move(label));
 }
 
+bool LabelEdits::has(const map::Label& label) const {
+  return std::any_of(labels_.labels.begin(), labels_.labels.end(), [&](const map::Label& each) {
+    return each.text == label.text && each.landmark == label.landmark;
+  });
+}
+
 void LabelEdits::ask(map::LabelQuestion question) {
   question.text = trimmed(question.text);
   labels_.question = std::move(question);

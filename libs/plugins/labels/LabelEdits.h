@@ -21,6 +21,8 @@ class LabelEdits {
   const map::Labels& now() const { return labels_; }
 
   void add(map::Label label);
+  /// Whether there is a label of that text on that landmark, or if it has none, on none.
+  bool has(const map::Label& label) const;
   void ask(map::LabelQuestion question);
   /// The question has an answer, or nobody gave one.
   void forgetQuestion();

@@ -3,6 +3,8 @@
 #include <mrpt/obs/CObservationSkeleton.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/building/RoomsFile.h>
+#include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/geometry/Conversions.h>
 
 #include "LabelCandidates.h"
@@ -21,8 +23,8 @@ std::string shown(const std::string& text) {
   return "'" + base::printable(text.substr(0, kMost)) + (text.size() > kMost ? "...'" : "'");
 }
 
-Eigen::Vector3d inFrame(const map::KeyFrame& frame, const Eigen::Vector3d& in_map) {
-  return geometry::inverse(geometry::fromMrpt(frame.map_from_base)) * in_map;
+geometry::Se3 poseOf(const map::KeyFrame& frame) {
+  return geometry::fromMrpt(frame.map_from_base);
 }
 
 interaction::PointingModel modelOf(const LabelsOptions& options) {
@@ -42,6 +44,9 @@ const base::OptionTable<LabelsOptions>& LabelsOptions::table() {
           .text("commands", &O::commands, "Sensor label of the commands; empty for all.")
           .text("pointing_errors", &O::pointing_errors,
                 "File pointing.csv of omnimapper-calibrate pointing; empty for the tables of `tracker`.")
+          .text("from", &O::from,
+                "Map of the same place, or its folder, whose labels the map has at the end, too; empty for none. Both "
+                "need rooms, so RoomsPlugin must be listed before.")
           .choice(
               "tracker", &O::tracker,
               {{"openni", interaction::SkeletonSoftware::openni}, {"ms_sdk", interaction::SkeletonSoftware::ms_sdk}},
@@ -61,7 +66,9 @@ LabelsPlugin::LabelsPlugin(const LabelsOptions& options, const interaction::Skel
       targets_(targets),
       model_(modelOf(options)),
       section_(context.section),
-      people_(gestures) {}
+      people_(gestures) {
+  if (!options_.from.empty()) earlier_ = readLabelledMap(options_.from);
+}
 
 bool LabelsPlugin::watches(const mrpt::obs::CObservation& observation) const {
   const auto isFrom = [&](const std::string& label) { return label.empty() || observation.sensorLabel == label; };
@@ -91,32 +98,50 @@ mapper::WatchResult LabelsPlugin::watch(const mapper::Watched& watched, const ma
   const map::Labels before = saved ? *saved : map::Labels();
   edits_.begin(before);
   const base::Stamp stamp = watched.observation.timestamp;
-  if (request_ && base::secondsBetween(request_->command.timestamp, stamp) > request_->patience)
-    giveUp(watched.pose->frame, stamp, result.batch);
+  if (request_ && base::secondsBetween(request_->command.timestamp, stamp) > request_->patience) {
+    lookAgain(view, result.batch);
+    if (request_) giveUp(watched.pose->frame, stamp, result.batch);
+  }
   if (const auto* command = dynamic_cast<const CObservationCommand*>(&watched.observation))
-    take(*command, watched, result.batch);
+    take(*command, watched, view, result.batch);
   else
     look(watched, view, result.batch);
-  if (edits_.now().toBytes() != before.toBytes()) result.batch.setLayer(edits_.now());
+  lookAgain(view, result.batch);
+  keep(before, result.batch);
   return result;
 }
 
-void LabelsPlugin::take(const CObservationCommand& command, const mapper::Watched& watched, mapper::Batch& batch) {
-  if (command.kind == obs::CommandKind::label) return takeLabel(command, watched, batch);
+// A map without labels has no layer.
+void LabelsPlugin::keep(const map::Labels& before, mapper::Batch& batch) const {
+  const map::Labels& now = edits_.now();
+  if (now.toBytes() == before.toBytes()) return;
+  if (now.labels.empty() && !now.question)
+    batch.removeLayer(map::Labels::kLayer);
+  else
+    batch.setLayer(now);
+}
+
+void LabelsPlugin::take(const CObservationCommand& command, const mapper::Watched& watched, const mapper::View& view,
+                        mapper::Batch& batch) {
+  if (command.kind == obs::CommandKind::label) return takeLabel(command, watched, view, batch);
   const bool was_asked = edits_.now().question.has_value();
   const auto outcome = edits_.edit(command.text);
   if (was_asked && !edits_.now().question) request_.reset();  // answered
   log(watched.pose->frame, command.timestamp, outcome.is_done, outcome.text, batch);
 }
 
-void LabelsPlugin::takeLabel(const CObservationCommand& command, const mapper::Watched& watched, mapper::Batch& batch) {
+void LabelsPlugin::takeLabel(const CObservationCommand& command, const mapper::Watched& watched,
+                             const mapper::View& view, mapper::Batch& batch) {
   const base::KeyFrameId frame = watched.pose->frame;
   if (const auto why = whyNoLabel(command.text))
     return log(frame, command.timestamp, false, "the label " + shown(command.text) + " " + *why, batch);
+  if (request_) lookAgain(view, batch);
   if (request_) giveUp(frame, command.timestamp, batch);
   if (command.subject != obs::CommandSubject::place) {
     edits_.forgetQuestion();
-    request_ = Request{command, command.expiry > 0 ? command.expiry : options_.patience, 0, "", {}};
+    request_.emplace();
+    request_->command = command;
+    request_->patience = command.expiry > 0 ? command.expiry : options_.patience;
     return;
   }
   const auto& at = watched.pose->frame_from_base.begin_from_end;
@@ -136,46 +161,63 @@ void LabelsPlugin::look(const mapper::Watched& watched, const mapper::View& view
   if (interaction::looksAway(*reading.body)) request_->why_not = "the person looks away, or the tracker is mirrored";
   const auto body = interaction::transformed(geometry::fromMrpt(watched.pose->map_from_base), *reading.body);
   const auto gestures = people_.add(watched.observation.timestamp, body);
-  if (!gestures.empty()) answer(gestures.front(), *watched.pose, view, batch);
+  // While an arm is held still, it is examined anew when all of its skeletons are new.
+  if (gestures.empty() || gestures.front().begin < request_->examined) return;
+  const PointingGesture& gesture = gestures.front();
+  const base::KeyFrameId frame = watched.pose->frame;
+  request_->frame = frame;
+  request_->gesture = interaction::transformed(inverse(poseOf(view.map.keyFrame(frame))), gesture);
+  request_->examined = gesture.end;
+  if (answer(gesture, frame, view, batch) != TargetVerdict::nothing) people_.understood(gesture);
 }
 
-void LabelsPlugin::answer(const PointingGesture& gesture, const mapper::WatchedPose& pose, const mapper::View& view,
-                          mapper::Batch& batch) {
-  // While an arm is held still, it is examined anew when all of its skeletons are new.
-  if (gesture.begin < request_->examined) return;
-  const CObservationCommand& command = request_->command;
+// What was pointed at may have been mapped since.
+void LabelsPlugin::lookAgain(const mapper::View& view, mapper::Batch& batch) {
+  if (!request_ || !request_->gesture || request_->key_frames == view.map.key_frames.size()) return;
+  const auto& frame = view.map.keyFrame(request_->frame);
+  answer(interaction::transformed(poseOf(frame), *request_->gesture), frame.id, view, batch);
+}
+
+TargetVerdict LabelsPlugin::answer(const PointingGesture& gesture, base::KeyFrameId frame, const mapper::View& view,
+                                   mapper::Batch& batch) {
+  const CObservationCommand command = request_->command;
+  request_->key_frames = view.map.key_frames.size();
   const auto found = labelCandidates(view, command.subject);
   const auto target = interaction::determineTarget(gesture, found.candidates, model_, targets_);
-  if (target.verdict == TargetVerdict::nothing) {
-    request_->examined = gesture.end;  // another gesture may come
-    return;
-  }
-  const map::KeyFrame& frame = view.map.keyFrame(pose.frame);
+  const auto frame_from_map = inverse(poseOf(view.map.keyFrame(frame)));
   const auto choiceOf = [&](std::size_t i) {
-    return map::LabelQuestion::Choice{found.landmarks[i], inFrame(frame, middleOf(found.candidates[i])),
+    return map::LabelQuestion::Choice{found.landmarks[i], frame_from_map * middleOf(found.candidates[i]),
                                       target.probabilities[i]};
   };
-  people_.understood(gesture);
+  const std::string who = base::printable(command.origin);
   if (target.verdict == TargetVerdict::this_one) {
     const auto choice = choiceOf(target.candidates.front());
-    edits_.add({command.text, choice.landmark, pose.frame, choice.in_frame, base::printable(command.origin),
-                command.timestamp, choice.probability});
-    log(pose.frame, gesture.end, true,
+    edits_.add({command.text, choice.landmark, frame, choice.in_frame, who, command.timestamp, choice.probability});
+    log(frame, gesture.end, true,
         shown(command.text) + " is landmark " + toString(choice.landmark) + ", with probability " +
             base::fixed(choice.probability, 3),
         batch);
     request_.reset();
-    return;
+  } else if (target.verdict == TargetVerdict::one_of_these) {
+    map::LabelQuestion question{command.text, who, command.timestamp, frame, {}};
+    for (const std::size_t i : target.candidates) question.choices.push_back(choiceOf(i));
+    ask(std::move(question), gesture.end, batch);
   }
-  map::LabelQuestion question{command.text, base::printable(command.origin), command.timestamp, pose.frame, {}};
-  std::string which;
-  for (const std::size_t i : target.candidates) {
-    question.choices.push_back(choiceOf(i));
-    which += (which.empty() ? "" : ", ") + toString(found.landmarks[i]);
-  }
+  return target.verdict;
+}
+
+void LabelsPlugin::ask(map::LabelQuestion question, base::Stamp stamp, mapper::Batch& batch) {
+  const auto which = [](const map::LabelQuestion& asked) {
+    std::string list;
+    for (const auto& choice : asked.choices) list += (list.empty() ? "" : ", ") + toString(choice.landmark);
+    return list;
+  };
+  const auto& before = edits_.now().question;
+  const bool is_known = before && before->text == question.text && which(*before) == which(question);
+  if (!is_known)
+    log(question.frame, stamp, false,
+        shown(question.text) + " may be each of the landmarks " + which(question) + ": which?", batch);
   edits_.ask(std::move(question));
-  log(pose.frame, gesture.end, false, shown(command.text) + " may be each of the landmarks " + which + ": which?",
-      batch);
 }
 
 void LabelsPlugin::giveUp(base::KeyFrameId frame, base::Stamp stamp, mapper::Batch& batch) {
@@ -187,16 +229,40 @@ void LabelsPlugin::giveUp(base::KeyFrameId frame, base::Stamp stamp, mapper::Bat
   request_.reset();
 }
 
+// The labels of the earlier map that this one does not have yet.
+void LabelsPlugin::carry(const mapper::View& view, mapper::Batch& batch) {
+  const auto& last = view.map.key_frames.back();
+  const std::size_t count = earlier_->labels.labels.size();
+  const auto refuseAll = [&](const std::string& why) {
+    log(last.id, last.stamp, false,
+        "the " + base::counted(count, "label") + " of " + options_.from + " were not taken over: " + why, batch);
+  };
+  if (count == 0) return refuseAll("there are none");
+  LabelledMap now{{}, derived::placesOf(view), std::nullopt};
+  if (const auto layer = view.map.layers.find(building::kRoomsLayer))
+    now.rooms = building::decodeRooms(layer->bytes(), "the rooms of the map").building.storeys.front();
+  const auto motion = motionBetweenMaps(*earlier_, now);
+  if (!motion) return refuseAll("the rooms of both maps are not the same, or one has none");
+  const CarriedLabels carried = carryLabels(*earlier_, now, *motion, view.map.key_frames);
+  for (const map::Label& label : carried.labels)
+    if (!edits_.has(label)) edits_.add(label);
+  for (const auto& [text, why_not] : carried.outcomes)
+    log(last.id, last.stamp, why_not.empty(),
+        shown(text) +
+            (why_not.empty() ? " is taken over from " + options_.from : " could not be taken over: " + why_not),
+        batch);
+}
+
 mapper::Batch LabelsPlugin::atEnd(const mapper::View& view) {
   mapper::Batch batch;
-  if (!request_ || view.map_is_held || view.map.key_frames.size() == 0) return batch;
-  base::KeyFrameId last{};
-  base::Stamp stamp;
-  for (const auto& frame : view.map.key_frames) last = frame.id, stamp = frame.stamp;
+  if (view.map_is_held || view.map.key_frames.size() == 0) return batch;
   const auto* saved = view.map.layers.find<map::Labels>();
-  edits_.begin(saved ? *saved : map::Labels());
-  giveUp(last, stamp, batch);
-  batch.setLayer(edits_.now());
+  const map::Labels before = saved ? *saved : map::Labels();
+  edits_.begin(before);
+  lookAgain(view, batch);
+  if (request_) giveUp(view.map.key_frames.back().id, view.map.key_frames.back().stamp, batch);
+  if (earlier_) carry(view, batch);
+  keep(before, batch);
   return batch;
 }
 

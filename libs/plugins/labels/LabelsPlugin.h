@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "CarriedLabels.h"
 #include "LabelEdits.h"
 #include "PeopleWatch.h"
 
@@ -21,6 +22,7 @@ struct LabelsOptions {
   std::string skeletons;        ///< sensor label of the tracker; empty: every tracker
   std::string commands;         ///< sensor label of the commands; empty: all
   std::string pointing_errors;  ///< file of omnimapper-calibrate pointing; empty: `tracker`
+  std::string from;             ///< earlier map of the place, or its folder, whose labels are taken over; empty: none
   interaction::SkeletonSoftware tracker = interaction::SkeletonSoftware::openni;
 
   static const base::OptionTable<LabelsOptions>& table();
@@ -30,7 +32,8 @@ struct LabelsOptions {
 /// in the skeletons that come within `patience`, determines the landmark that is meant (interaction::determineTarget())
 /// and adds its name to the layer map::Labels. A label for a `place` needs no gesture. If several landmarks may be
 /// meant, the layer gets a question, which the edit "choose N" or another gesture answers. Commands `edit` rename,
-/// delete and undo. Whatever is asked and answered is in the decision log. The map's z must point up.
+/// delete and undo. At the end of the run the labels of an earlier map of the place are carried over (carryLabels()).
+/// Whatever is asked and answered is in the decision log. The map's z must point up.
 class LabelsPlugin : public mapper::MeasurementPlugin, public mapper::WatchesObservations {
  public:
   static constexpr const char* kName = "LabelsPlugin";
@@ -53,16 +56,26 @@ class LabelsPlugin : public mapper::MeasurementPlugin, public mapper::WatchesObs
  private:
   struct Request {
     obs::CObservationCommand command;
-    double patience;            // [s]
+    double patience = 0;        // [s]
     std::size_t skeletons = 0;  // of use while it waits
     std::string why_not;        // of the last skeleton that is of no use
     base::Stamp examined;       // end of the last gesture that meant nothing
+    // The last gesture, in the frame of a key frame: what it means is found anew as the map grows.
+    std::optional<interaction::PointingGesture> gesture;
+    base::KeyFrameId frame;
+    std::size_t key_frames = 0;  // of the map when the gesture was examined
   };
-  void take(const obs::CObservationCommand& command, const mapper::Watched& watched, mapper::Batch& batch);
-  void takeLabel(const obs::CObservationCommand& command, const mapper::Watched& watched, mapper::Batch& batch);
+  void take(const obs::CObservationCommand& command, const mapper::Watched& watched, const mapper::View& view,
+            mapper::Batch& batch);
+  void takeLabel(const obs::CObservationCommand& command, const mapper::Watched& watched, const mapper::View& view,
+                 mapper::Batch& batch);
   void look(const mapper::Watched& watched, const mapper::View& view, mapper::Batch& batch);
-  void answer(const interaction::PointingGesture& gesture, const mapper::WatchedPose& pose, const mapper::View& view,
-              mapper::Batch& batch);
+  void lookAgain(const mapper::View& view, mapper::Batch& batch);
+  interaction::TargetVerdict answer(const interaction::PointingGesture& gesture, base::KeyFrameId frame,
+                                    const mapper::View& view, mapper::Batch& batch);
+  void ask(map::LabelQuestion question, base::Stamp stamp, mapper::Batch& batch);
+  void keep(const map::Labels& before, mapper::Batch& batch) const;
+  void carry(const mapper::View& view, mapper::Batch& batch);
   void giveUp(base::KeyFrameId frame, base::Stamp stamp, mapper::Batch& batch);
   void log(base::KeyFrameId frame, base::Stamp stamp, bool accepted, const std::string& reason,
            mapper::Batch& batch) const;
@@ -72,6 +85,7 @@ class LabelsPlugin : public mapper::MeasurementPlugin, public mapper::WatchesObs
   interaction::TargetOptions targets_;
   interaction::PointingModel model_;
   std::string section_;
+  std::optional<LabelledMap> earlier_;
   PeopleWatch people_;
   LabelEdits edits_;
   std::optional<Request> request_;

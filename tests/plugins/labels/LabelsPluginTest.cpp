@@ -82,6 +82,64 @@ TEST(LabelsPlugin, aRequestThatNobodyAnswersEndsAndSaysWhy) {
   EXPECT_TRUE(nowhere.labels().labels.empty());
 }
 
+TEST(LabelsPlugin, whatIsMappedAfterTheGestureAnswersTheRequestThatWaits) {
+  Tour tour;
+  const Vector3d lamp(-1, -3, 2.5);
+  tour.command("lamp", obs::CommandSubject::map);
+  tour.point(lamp);
+  EXPECT_TRUE(tour.labels().labels.empty()) << "nothing is there yet";
+  const auto id = tour.add(surface("wall", {lamp + Vector3d(-1, 0.5, -0.5), lamp + Vector3d(1, -0.5, -0.5),
+                                            lamp + Vector3d(1, -0.5, 0.5), lamp + Vector3d(-1, 0.5, 0.5)}));
+  tour.run.addFrame({});
+  tour.show(CObservationSkeleton());
+  ASSERT_EQ(tour.labels().labels.size(), 1u) << tour.lastReason();
+  EXPECT_EQ(tour.labels().labels[0].landmark, id);
+}
+
+// The camera has seen the floor under a table, but not the table.
+TEST(LabelsPlugin, theFloorBehindWhatIsNotMappedYetIsNotMeant) {
+  Tour tour;
+  tour.add(surface("floor", {{-1, -3, 0}, {5, -3, 0}, {5, 3, 0}, {-1, 3, 0}}));
+  auto* table = tour.run.map.landmarks.edit(tour.table);
+  const auto payload = table->payload;
+  table->payload = std::make_shared<FixedShape>(surface("table", {{9, 9, 0}, {9.1, 9, 0}, {9.1, 9.1, 0}}));
+  tour.command("kitchen table", obs::CommandSubject::map);
+  tour.point(kTable);
+  EXPECT_TRUE(tour.labels().labels.empty()) << tour.lastReason();
+  tour.run.map.landmarks.edit(tour.table)->payload = payload;
+  tour.run.addFrame({});
+  tour.show(CObservationSkeleton());
+  ASSERT_EQ(tour.labels().labels.size(), 1u) << tour.lastReason();
+  EXPECT_EQ(tour.labels().labels[0].landmark, tour.table);
+}
+
+// The camera sees walls up to 1.2 m; people point at them at the height of their eyes.
+TEST(LabelsPlugin, aWallIsMeantAboveWhatTheCameraSawOfIt) {
+  Tour tour;
+  for (const auto id : {tour.left_wall, tour.back_wall}) {
+    auto* wall = tour.run.map.landmarks.edit(id);
+    wall->payload = std::make_shared<FixedShape>(
+        id == tour.left_wall ? surface("wall", {{-1, 3, 0}, {5, 3, 0}, {5, 3, 1.2}, {-1, 3, 1.2}})
+                             : surface("wall", {{5, -3, 0}, {5, 3, 0}, {5, 3, 1.2}, {5, -3, 1.2}}));
+  }
+  tour.command("west wall", obs::CommandSubject::map);
+  tour.point({2, 3, 1.8}, {1.8, 0.5, 1.4});
+  ASSERT_EQ(tour.labels().labels.size(), 1u) << tour.lastReason();
+  EXPECT_EQ(tour.labels().labels[0].landmark, tour.left_wall);
+}
+
+TEST(LabelsPlugin, aRequestWithoutAnAnswerLeavesNoLayer) {
+  Tour tour;
+  tour.command("table", obs::CommandSubject::map);
+  tour.end();
+  EXPECT_EQ(tour.run.map.layers.find<map::Labels>(), nullptr);
+  tour.command("my cup", obs::CommandSubject::object, 5);
+  tour.point(kCups);
+  ASSERT_TRUE(tour.labels().question);
+  tour.end();
+  EXPECT_EQ(tour.run.map.layers.find<map::Labels>(), nullptr) << "the question was not answered";
+}
+
 TEST(LabelsPlugin, anEditLeavesARequestThatWaits) {
   Tour tour;
   tour.command("charger", obs::CommandSubject::place);
@@ -201,6 +259,11 @@ TEST(LabelsPlugin, severalSurfacesOfOneNameAreARegion) {
   // The hull of the walls along y = 3 and x = 5 is a triangle.
   EXPECT_EQ(hall.extent.outlines[0].size(), 3u);
   EXPECT_EQ(titlesOf(places, "charger"), "charger;");
+  for (const map::Place& place : places.places) {
+    const auto by_id = query::find(places.places, toString(place.id)).places;
+    ASSERT_EQ(by_id.size(), 1u) << toString(place.id);
+    EXPECT_EQ(by_id[0].place, &place) << "an id is that of one place: " << place.label;
+  }
 }
 
 }  // namespace

@@ -128,7 +128,8 @@ class Tour {
     return context;
   }
   void apply(const mapper::Batch& batch) {
-    for (const auto& [name, layer] : batch.layers()) run.map.layers.set(name, layer);
+    for (const auto& [name, layer] : batch.layers())
+      layer ? run.map.layers.set(name, layer) : run.map.layers.remove(name);
     for (const auto& decision : batch.decisions()) reasons.push_back(decision.reason);
   }
   double time_ = 0;

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/OptionTable.h>
 #include <omnimapper/base/Stamp.h>
+#include <omnimapper/geometry/Se3.h>
 #include <omnimapper/interaction/TrackedBody.h>
 
 #include <deque>
@@ -28,6 +29,9 @@ struct PointingGesture {
   int frames = 0;
   int hold = 0;  ///< number of this holding still of that arm: the next one has another
 };
+
+/// The gesture in another frame.
+PointingGesture transformed(const geometry::Se3& there_from_here, PointingGesture gesture);
 
 /// Watches one person for pointing gestures.
 class GestureWatch {

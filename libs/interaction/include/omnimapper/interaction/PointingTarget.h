@@ -17,6 +17,10 @@ struct PointedCandidate {
   std::vector<Eigen::Vector3d> points;  ///< [m]
   geometry::Polygon3 outline;           ///< [m]
   bool may_be_meant = true;             ///< false: it only hides what is behind it
+  double weight = 1;                    ///< how often such a thing is meant, before the gesture, relative to others
+  /// Of a surface, an outline around the other in its plane: up to there it goes on, unseen. It may be aimed at there
+  /// where nothing else is in the way, and hides nothing. Empty: it ends where its outline does.
+  geometry::Polygon3 reach = {};
 };
 
 enum class PointingMethod { elbow_hand, head_hand, both };
