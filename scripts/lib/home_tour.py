@@ -166,7 +166,8 @@ def distance_to_line(point, a, b):
 
 def outcome(programs, truth, frames, request, act, map_folder):
     text = request["text"]
-    given = [p for p in places_called(programs, map_folder, text) if text in (p["properties"].get("name"), p["label"])]
+    given = [p for p in places_called(programs, map_folder, text) if text == p["properties"].get("name") or
+             (text == p["label"] and p["kind"] in ("place", "region"))]
     if act is None:
         return ("right" if given else "nothing"), None
     if given:

@@ -2,7 +2,6 @@
 
 #include <omnimapper/building/RoomEdits.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/geometry/motionBetween.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/query/MapToAsk.h>
 
@@ -10,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "PlaceLikeness.h"
 
@@ -33,44 +31,6 @@ std::map<std::string, Vector2d> signsIn(const map::Places& places) {
 
 bool isLandmark(const map::Place& place) {
   return place.kind != map::Labels::kRegion && place.kind != map::Labels::kPlace;
-}
-
-// Whether its middle says where it is: that of a wall depends on how much of it was seen.
-bool isCompact(const map::Place& place) {
-  constexpr double kWidest = 3;  // [m]
-  return isLandmark(place) && !place.moved && sizeOf(place) < kWidest;
-}
-
-const map::Place* nearestOfKind(const std::vector<map::Place>& places, const map::Place& like, const Vector2d& at,
-                                double within) {
-  const map::Place* nearest = nullptr;
-  for (const auto& place : places) {
-    if (!isCompact(place) || place.kind != like.kind) continue;
-    const double distance = (place.position.head<2>() - at).norm();
-    if (distance > within) continue;
-    within = distance;
-    nearest = &place;
-  }
-  return nearest;
-}
-
-// Each round pairs those that are nearest to one another in both directions.
-Se2 refined(Se2 motion, const map::Places& earlier, const map::Places& now) {
-  constexpr std::size_t kFewest = 4;
-  for (const double within : {0.6, 0.4, 0.3}) {  // [m]
-    std::vector<std::pair<Vector2d, Vector2d>> pairs;
-    for (const auto& place : earlier.places) {
-      if (!isCompact(place)) continue;
-      const Vector2d from = place.position.head<2>();
-      const auto* there = nearestOfKind(now.places, place, motion * from, within);
-      if (!there) continue;
-      const Vector2d to = there->position.head<2>();
-      if (nearestOfKind(earlier.places, *there, inverse(motion) * to, within) == &place) pairs.emplace_back(from, to);
-    }
-    if (pairs.size() < kFewest) return motion;
-    motion = geometry::motionBetween(pairs);
-  }
-  return motion;
 }
 
 // The place that has a label in its map: by the landmark's id, or by its name if the landmark was merged later.
@@ -149,9 +109,7 @@ LabelledMap readLabelledMap(const std::string& path) {
 std::optional<Se2> motionBetweenMaps(const LabelledMap& earlier, const LabelledMap& now) {
   if (!earlier.rooms || !now.rooms) return std::nullopt;
   const auto looks = building::anchoredTo({}, *earlier.rooms, signsIn(earlier.places));
-  const auto motion = building::alignEdits(looks, *now.rooms, signsIn(now.places));
-  if (!motion) return std::nullopt;
-  return refined(*motion, earlier.places, now.places);
+  return building::alignEdits(looks, *now.rooms, signsIn(now.places));
 }
 
 CarriedLabels carryLabels(const LabelledMap& earlier, const LabelledMap& now, const Se2& now_from_earlier,

@@ -33,8 +33,7 @@ struct CarriedLabels {
 };
 
 /// The motion from the frame of the earlier map to that of the new one: that by which edits of rooms are taken over
-/// (building::alignEdits()), refined by compact landmarks of one kind that lie close together. None if the rooms are
-/// not the same, or a map has none.
+/// (building::alignEdits()). None if the rooms are not the same, or a map has none.
 std::optional<geometry::Se2> motionBetweenMaps(const LabelledMap& earlier, const LabelledMap& now);
 
 /// Carries each label to the landmark of the new map that has about the same class, size, heights and free side at
