@@ -181,6 +181,26 @@ TEST(ObjectFinder, NothingMeasuredIsNoObject) {
   EXPECT_TRUE(ObjectFinder({}, {}).find(pixel, PlaneSegmenter({}).segment(pixel), table.up).empty());
 }
 
+TEST(ObjectFinder, DepthsInAWrongUnitAreNoObjects) {
+  const TableScene table = withThreeObjects();
+  for (const float factor : {1000.F, 0.001F}) {  // millimetres as metres, metres as millimetres
+    auto depth = rooms::render(table.scene).depth;
+    for (float& each : depth) each *= factor;
+    EXPECT_TRUE(find(table, depth).objects.empty()) << factor;
+  }
+}
+
+TEST(ObjectFinder, WhatFillsTheViewStandsOnNothing) {
+  std::vector<float> depth(640 * 480);  // a ball that is too near for its border to be in the image
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      const auto squared = static_cast<float>((x - 320) * (x - 320) + (y - 240) * (y - 240));
+      depth[static_cast<std::size_t>(640 * y + x)] = 0.5F + 2e-6F * squared;
+    }
+  }
+  EXPECT_TRUE(find(TableScene(), depth).objects.empty());
+}
+
 TEST(ObjectFinder, RandomBytesGiveASoundResult) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     testing::Dice dice(seed);
