@@ -2,10 +2,10 @@
 
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/Polygon3.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/obs/GivenPose.h>
 #include <omnimapper/surfaces/levelOfSurfaces.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -21,8 +21,7 @@ void setLevel(LevelFacts& facts, const std::optional<Eigen::Vector3d>& up, const
   if (!up) return;
   facts.is_known = true;
   facts.up = *up;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  facts.sigma = std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  facts.sigma = std::sqrt(std::max(0.0, geometry::eigenvaluesOf<3>(covariance).maxCoeff()));
 }
 
 }  // namespace

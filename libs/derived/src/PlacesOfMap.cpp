@@ -2,8 +2,8 @@
 #include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/derived/PlanShape.h>
 #include <omnimapper/derived/ThingsOfMap.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -70,7 +70,7 @@ void addSigma(const map::Landmark& landmark, const mapper::State& state, map::Pl
     variance = (jacobian * *covariance * jacobian.transpose()).value();
   } else {
     const Eigen::MatrixXd of_position = covariance->topLeftCorner(size, size);
-    variance = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(of_position).eigenvalues().maxCoeff();
+    variance = geometry::eigenvaluesOf<Eigen::Dynamic>(of_position).maxCoeff();
   }
   if (!(variance >= 0) || !std::isfinite(variance)) return;
   place.sigma = std::sqrt(variance);

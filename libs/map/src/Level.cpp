@@ -1,6 +1,6 @@
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/map/Level.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,8 +8,7 @@
 namespace omnimapper::map {
 
 double Level::standardDeviation() const {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
+  return std::sqrt(std::max(0.0, geometry::eigenvaluesOf<3>(covariance).maxCoeff()));
 }
 
 Eigen::Quaterniond Level::levelFromMap() const {

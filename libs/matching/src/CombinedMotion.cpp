@@ -2,9 +2,9 @@
 
 #include <mrpt/core/bits_math.h>
 #include <mrpt/math/wrap2pi.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -50,9 +50,9 @@ Distances distances(const Eigen::Vector3d& off, const Eigen::Matrix3d& covarianc
 Eigen::Matrix3d uncertainPart(const Eigen::Matrix3d& covariance) {
   constexpr double kSure = 0.006, kLever = 2;  // [m] standard deviation, [m] by which angles count
   const Eigen::Vector3d scale(1, 1, kLever);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scale.asDiagonal() * covariance * scale.asDiagonal());
-  const Eigen::Vector3d left = (eigen.eigenvalues().array() - mrpt::square(kSure)).max(0.0);
-  const Eigen::Matrix3d part = eigen.eigenvectors() * left.asDiagonal() * eigen.eigenvectors().transpose();
+  const auto eigen = geometry::eigenOf<3>(scale.asDiagonal() * covariance * scale.asDiagonal());
+  const Eigen::Vector3d left = (eigen.values.array() - mrpt::square(kSure)).max(0.0);
+  const Eigen::Matrix3d part = eigen.vectors * left.asDiagonal() * eigen.vectors.transpose();
   return scale.cwiseInverse().asDiagonal() * part * scale.cwiseInverse().asDiagonal();
 }
 

@@ -1,8 +1,8 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/perception/ObjectFinder.h>
 #include <omnimapper/perception/SameLabel.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -198,7 +198,7 @@ Standing surfaceUnder(const std::vector<Eigen::Vector3d>& cluster, const Eigen::
 Eigen::Vector3d leastAxisOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& mean) {
   OuterSum scatter;
   for (const auto& point : points) scatter.add(point - mean);
-  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter.matrix()).eigenvectors().col(0);
+  const Eigen::Vector3d axis = geometry::eigenOf<3>(scatter.matrix()).vectors.col(0);
   return axis.dot(mean) > 0 ? Eigen::Vector3d(-axis) : axis;  // towards the sensor
 }
 

@@ -1,6 +1,5 @@
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/plugin/LocalizationEstimate.h>
-
-#include <Eigen/Eigenvalues>
 
 namespace omnimapper::mapper {
 
@@ -14,8 +13,7 @@ bool LocalizationEstimate::located() const {
   const auto position = positionCovariance();
   if (!aligned || !position) return false;
   const Eigen::Matrix2d on_floor = position->topLeftCorner<2, 2>();
-  const double worst =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(on_floor, Eigen::EigenvaluesOnly).eigenvalues()[1];
+  const double worst = geometry::eigenvaluesOf<2>(on_floor)[1];
   return worst <= kLocatedSigma * kLocatedSigma;
 }
 

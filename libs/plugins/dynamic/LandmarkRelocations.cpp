@@ -1,12 +1,12 @@
 #include "LandmarkRelocations.h"
 
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/graph/ChiSquare.h>
 #include <omnimapper/graph/Linearized.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/landmarks/Fit.h>
 #include <omnimapper/plane_factors/PlaneParametrization.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 
@@ -258,8 +258,7 @@ bool isDetermined(const WeighedLandmark& landmark, const std::vector<base::Facto
     }
     information += jacobian.transpose() * jacobian;
   }
-  const Eigen::VectorXd known =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(information, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd known = geometry::eigenvaluesOf<Eigen::Dynamic>(information);
   return known.minCoeff() > kLeast * known.maxCoeff();
 }
 

@@ -1,6 +1,7 @@
 #include "BrokenMotion.h"
 
-#include <Eigen/Eigenvalues>
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,7 +18,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 // Standard deviations of the position, in the best and the worst direction [m].
 Eigen::Vector2d positionSigmas(const Matrix6d& covariance) {
   const Eigen::Matrix2d position = covariance.topLeftCorner<2, 2>();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues().cwiseMax(0).cwiseSqrt();
+  return geometry::eigenvaluesOf<2>(position).cwiseMax(0).cwiseSqrt();
 }
 
 // Whether the factors between two key frames leave open how the base moved.

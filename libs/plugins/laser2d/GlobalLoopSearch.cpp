@@ -1,6 +1,7 @@
 #include "GlobalLoopSearch.h"
 
-#include <Eigen/Eigenvalues>
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -82,8 +83,7 @@ std::optional<GlobalLoopSearch::Estimate> GlobalLoopSearch::judged(const mapper:
   const auto covariance = state.covarianceBetween(nearest.frame, newest_.back().frame);
   if (!covariance) return std::nullopt;
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
-  const double uncertainty =
-      kSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
+  const double uncertainty = kSigmas * std::sqrt(geometry::eigenvaluesOf<2>(position)[1]);
   decision.numbers.emplace_back("may be off by [m]", uncertainty);
   if (uncertainty > options_.max_window) return Estimate{uncertainty, true};
   const TPose2D place = planar(state.map.keyFrame(nearest.frame).map_from_base);

@@ -1,8 +1,8 @@
 #include "LoopSearch.h"
 
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/matching/CorrelativeSearch.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -155,7 +155,7 @@ LoopSearch::SearchUncertainty LoopSearch::uncertaintyAt(const Place& place, cons
   const auto covariance = state.covarianceBetween(place.centre.frame, newest_.back().frame);
   if (!covariance) return {options_.max_window, options_.max_window_angle};
   const Eigen::Matrix2d position = covariance->topLeftCorner<2, 2>();
-  return {kReachSigmas * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]),
+  return {kReachSigmas * std::sqrt(geometry::eigenvaluesOf<2>(position)[1]),
           kReachSigmas * std::sqrt((*covariance)(5, 5))};
 }
 
@@ -274,8 +274,7 @@ void judgeClosure(const LoopClosureOptions& options, const std::vector<matching:
   // A match that can slide along a corridor does not determine the position along it.
   const double point_sigma = std::max(options.point_sigma, best.point_sigma);
   const Eigen::Matrix2d position = best.unit_covariance.topLeftCorner<2, 2>();
-  const double sigma =
-      point_sigma * std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues()[1]);
+  const double sigma = point_sigma * std::sqrt(geometry::eigenvaluesOf<2>(position)[1]);
   decision.numbers.emplace_back("uncertainty of the match [m]", sigma);
   if (best.degenerate || sigma > options.max_sigma) {
     decision.reason =

@@ -1,6 +1,7 @@
 #include "EdgeRefinement.h"
 
-#include <Eigen/Eigenvalues>
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -64,7 +65,7 @@ std::optional<Line> sideBetween(const camera::ColourImage& picture, const Vector
   }
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const auto& place : places) scatter += (place - mean) * (place - mean).transpose();
-  return Line{mean, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(1)};
+  return Line{mean, geometry::eigenOf<2>(scatter).vectors.col(1)};
 }
 
 std::optional<Vector2d> crossing(const Line& a, const Line& b) {

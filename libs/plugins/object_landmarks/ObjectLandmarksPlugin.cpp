@@ -4,8 +4,8 @@
 #include <omnimapper/camera/RangeScan.h>
 #include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/OpticalFrame.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -173,10 +173,10 @@ Sight ObjectLandmarksPlugin::lookAt(const KnownObject& object, const LookingCame
   constexpr double kSigmas = 3, kMostReach = 0.4;  // [-], [m] a pose that is less certain says nothing
   const auto covariance = covarianceOfPlace(geometry, camera, pose, view);
   if (!covariance) return Sight::unknown;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(*covariance);
-  const Eigen::Vector3d reach = kSigmas * options_.look_inflation * axes.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const auto axes = geometry::eigenOf<3>(*covariance);
+  const Eigen::Vector3d reach = kSigmas * options_.look_inflation * axes.values.cwiseMax(0).cwiseSqrt();
   if (!(reach.maxCoeff() <= kMostReach)) return Sight::unknown;
-  return mayBeBeside(geometry, camera, axes.eigenvectors() * reach.asDiagonal()) ? Sight::unknown : Sight::absent;
+  return mayBeBeside(geometry, camera, axes.vectors * reach.asDiagonal()) ? Sight::unknown : Sight::absent;
 }
 
 void ObjectLandmarksPlugin::retireIfGone(KnownObject& object, base::Stamp stamp, const mapper::WatchedPose& pose,

@@ -1,9 +1,9 @@
 #include "SurfaceAgreement.h"
 
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -72,8 +72,8 @@ SurfaceSample operator*(const Se3& a_from_b, const SurfaceSample& sample) {
 }
 
 double SurfaceAgreement::heldAtLeast(bool planar) const {
-  if (planar) return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(held.topLeftCorner<2, 2>()).eigenvalues()[0];
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(held).eigenvalues()[0];
+  if (planar) return geometry::eigenvaluesOf<2>(held.topLeftCorner<2, 2>())[0];
+  return geometry::eigenvaluesOf<3>(held)[0];
 }
 
 bool Part::wasSeenNear(const Vector3d& point) const {

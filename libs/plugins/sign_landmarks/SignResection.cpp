@@ -1,7 +1,8 @@
 #include "SignResection.h"
 
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -167,8 +168,8 @@ std::optional<SessionFit> resection(const std::vector<KnownSignBearing>& measure
     for (const auto& place : descent.places)
       if (const Candidate other = candidateAt(centred, place); other.isRivalOf(*best)) return std::nullopt;
   const Matrix3d covariance = to_best->information.inverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
-  const double position_sigma = std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
+  const double position_sigma =
+      std::sqrt(std::max(0.0, geometry::eigenvaluesOf<2>(covariance.topLeftCorner<2, 2>())[1]));
   if (!(position_sigma <= kMostSigma)) return std::nullopt;
   const Se3 pivoted{Eigen::Quaterniond::Identity(), -pivot};
   return SessionFit{levelPose(best->place) * pivoted, position_sigma, std::sqrt(covariance(2, 2)), best->fitting};

@@ -1,10 +1,10 @@
 #include "Triangulation.h"
 
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -151,9 +151,7 @@ std::optional<Meeting> refined(const Vector3d& start, const std::vector<const Ra
     meeting.pan_tilt -= step.tail<2>();
   }
   if (!meeting.point.allFinite() || !meeting.pan_tilt.allFinite()) return std::nullopt;
-  meeting.sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix3d>(
-                                Matrix3d(information.inverse().topLeftCorner<3, 3>()), Eigen::EigenvaluesOnly)
-                                .eigenvalues()[2]);
+  meeting.sigma = std::sqrt(geometry::eigenvaluesOf<3>(information.inverse().topLeftCorner<3, 3>())[2]);
   return meeting;
 }
 

@@ -4,13 +4,13 @@
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/obs/CObservationCommand.h>
 #include <omnimapper/obs/CObservationLaserLines.h>
 #include <omnimapper/obs/CObservationPlanes.h>
 #include <omnimapper/obs/CObservationRelativeMotion.h>
 #include <omnimapper/source/ObservationGate.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -53,8 +53,7 @@ bool isCovariance(const Eigen::MatrixXd& matrix) {
   }
   if (!correlations.allFinite()) return false;
   if ((correlations - correlations.transpose()).cwiseAbs().maxCoeff() > kRounding) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(correlations, Eigen::EigenvaluesOnly);
-  return solver.info() == Eigen::Success && solver.eigenvalues().minCoeff() >= -kRounding;
+  return geometry::eigenvaluesOf<Eigen::Dynamic>(correlations)[0] >= -kRounding;
 }
 
 Reason whyNot(const mrpt::img::TCamera& camera) {

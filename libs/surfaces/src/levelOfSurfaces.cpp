@@ -1,6 +1,7 @@
 #include "omnimapper/surfaces/levelOfSurfaces.h"
 
-#include <Eigen/Eigenvalues>
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -245,11 +246,11 @@ void shareSlant(Normal& level, const Eigen::Matrix<double, 3, 2>& tangent) {
 // of the camera's calibration tilt both.
 double contradictionOf(const Normal& level, const Normal& upright) {
   constexpr double kLeastInformation = 1 / (10 * kDegree * 10 * kDegree);  // of a direction that counts as determined
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> directions(upright.information);
+  const auto directions = geometry::eigenOf<2>(upright.information);
   double worst = 1;
   for (int i = 0; i < 2; ++i) {
-    const Vector2d direction = directions.eigenvectors().col(i);
-    const double by_upright = directions.eigenvalues()[i];
+    const Vector2d direction = directions.vectors.col(i);
+    const double by_upright = directions.values[i];
     const double by_level = direction.dot(level.information * direction);
     if (by_upright < kLeastInformation || by_level < kLeastInformation) continue;
     const double difference = direction.dot(level.gradient) / by_level - direction.dot(upright.gradient) / by_upright;
@@ -396,7 +397,7 @@ SurfacesLevel levelOfSurfaces(const std::vector<FlatArea>& all_areas, const std:
   Matrix3d turn;  // maps a change of the axis to a rotation vector
   turn << 0, -best.axis.z(), best.axis.y(), best.axis.z(), 0, -best.axis.x(), -best.axis.y(), best.axis.x(), 0;
   level.covariance = turn * tangent * of_axis * tangent.transpose() * turn.transpose();
-  const double sigma = std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix2d>(of_axis).eigenvalues().maxCoeff());
+  const double sigma = std::sqrt(geometry::eigenvaluesOf<2>(of_axis).maxCoeff());
   double whole = 0;
   for (const auto& area : areas) whole += area.area;
   if (level.margin < kLeastMargin) {

@@ -1,8 +1,8 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/matching/CloudMatcher.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -240,17 +240,17 @@ void conclude(const CloudSearch& search, const CloudMatcherOptions& options, con
   constexpr double kWeakest = 1e4;  // [1/m2], [1/rad2]
   const bool by_surfaces = options.method != CloudMethod::point_to_point;
   const Matrix6d noise = by_surfaces ? search.informationOfNoise(options.normal_noise) : Matrix6d(Matrix6d::Zero());
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes((search.information() - noise) / options.alike);
-  match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
+  const auto axes = geometry::eigenOf<6>((search.information() - noise) / options.alike);
+  match.open_directions = static_cast<int>((axes.values.array() < kWeakest).count());
   const Vector6d variances =
-      axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
-  match.covariance = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+      axes.values.unaryExpr([](double value) { return value < kWeakest ? CloudMatch::kOpen : 1 / value; });
+  match.covariance = axes.vectors * variances.asDiagonal() * axes.vectors.transpose();
   match.fits = true;
   if (match.open_directions > 0) {
     // Along open directions the pairs give no information, so the guess is kept.
-    Vector6d moved = axes.eigenvectors().transpose() * minus(match.target_from_source, guess);
-    for (int i = 0; i < 6; ++i) moved(i) = axes.eigenvalues()(i) < kWeakest ? 0 : moved(i);
-    match.target_from_source = plus(guess, axes.eigenvectors() * moved);
+    Vector6d moved = axes.vectors.transpose() * minus(match.target_from_source, guess);
+    for (int i = 0; i < 6; ++i) moved(i) = axes.values(i) < kWeakest ? 0 : moved(i);
+    match.target_from_source = plus(guess, axes.vectors * moved);
   }
   match.succeeded = match.open_directions == 0;
 }

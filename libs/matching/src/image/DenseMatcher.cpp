@@ -1,8 +1,8 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/matching/DenseMatcher.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -405,16 +405,16 @@ DenseMatch DenseMatcher::match(const DenseReference& reference, const RgbdPyrami
   // A direction is open if all residuals together give it less information than this. The limit is high, because
   // residuals are many but not independent.
   constexpr double kWeakest = 1e5;  // [1/m2], [1/rad2]
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(information);
-  match.open_directions = static_cast<int>((axes.eigenvalues().array() < kWeakest).count());
-  const Vector6d is_open = (axes.eigenvalues().array() < kWeakest).cast<double>();
+  const auto axes = geometry::eigenOf<6>(information);
+  match.open_directions = static_cast<int>((axes.values.array() < kWeakest).count());
+  const Vector6d is_open = (axes.values.array() < kWeakest).cast<double>();
   const Vector6d to_guess = minus(inverse(guess.reference_from_image), search.image_from_reference);
-  const Vector6d back = axes.eigenvectors() * is_open.asDiagonal() * axes.eigenvectors().transpose() * to_guess;
+  const Vector6d back = axes.vectors * is_open.asDiagonal() * axes.vectors.transpose() * to_guess;
   match.reference_from_image = inverse(plus(search.image_from_reference, back));
   const Vector6d variances =
-      axes.eigenvalues().unaryExpr([](double value) { return value < kWeakest ? DenseMatch::kOpen : 1 / value; });
+      axes.values.unaryExpr([](double value) { return value < kWeakest ? DenseMatch::kOpen : 1 / value; });
   const Matrix6d ad = adjoint(inverse(match.reference_from_image));
-  const Matrix6d in_reference = axes.eigenvectors() * variances.asDiagonal() * axes.eigenvectors().transpose();
+  const Matrix6d in_reference = axes.vectors * variances.asDiagonal() * axes.vectors.transpose();
   match.covariance = ad * in_reference * ad.transpose();
   if (match.open_directions == 0) {
     const double by_pose = with_delay.dot(search.information.topLeftCorner<6, 6>().ldlt().solve(with_delay));

@@ -1,6 +1,7 @@
 #include "image/DenseReference.h"
 
-#include <Eigen/Eigenvalues>
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -151,10 +152,10 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
     normals += one.normal * one.normal.transpose() / count;
     middle += one.point / count;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(normals);
+  const auto axes = geometry::eigenOf<3>(normals);
   std::vector<geometry::Vector6d> open;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d axis = axes.eigenvectors().col(i);
+    const Eigen::Vector3d axis = axes.vectors.col(i);
     // Neighbouring pixels share their errors, so normals are twice as noisy as the residuals of the planes suggest.
     constexpr double kSigmas = 4 * 2, kLeast = 0.1;  // [rad]
     constexpr double kFew = 0.003;                   // share of the points
@@ -167,8 +168,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> openMotions(const std::vector<PlanePoin
   }
   // All normals are the same if they have nearly no component along the two other axes.
   constexpr double kOne = 0.9;  // share of their mean square
-  if (open.size() >= 2 && axes.eigenvalues()[2] > kOne) {
-    const Eigen::Vector3d normal = axes.eigenvectors().col(2);
+  if (open.size() >= 2 && axes.values[2] > kOne) {
+    const Eigen::Vector3d normal = axes.vectors.col(2);
     open.push_back(geometry::Vector6d::Zero());
     open.back() << middle.cross(normal), normal;
     for (std::size_t i = 0; i + 1 < open.size(); ++i) open.back() -= open[i].dot(open.back()) * open[i];

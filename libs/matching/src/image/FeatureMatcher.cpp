@@ -1,9 +1,9 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/SplitMix.h>
+#include <omnimapper/geometry/SymmetricEigen.h>
 #include <omnimapper/matching/FeatureMatcher.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -230,9 +230,9 @@ FeatureMatch FeatureMatcher::match(const FeatureSet& reference, const FeatureSet
     information = refineByCorners(inliers, errors, *motion);
   }
   match.reference_from_image = *motion;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(information);
+  const Vector6d strengths = geometry::eigenvaluesOf<6>(information);
   constexpr double kWeakest = 1e3;  // [1/m2] [1/rad2]
-  match.succeeded = axes.eigenvalues()[0] > kWeakest;
+  match.succeeded = strengths[0] > kWeakest;
   if (match.succeeded) match.covariance = information.inverse();
   return match;
 }

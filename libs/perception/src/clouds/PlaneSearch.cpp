@@ -1,6 +1,7 @@
 #include "PlaneSearch.h"
 
-#include <Eigen/Eigenvalues>
+#include <omnimapper/geometry/SymmetricEigen.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -178,7 +179,7 @@ geometry::Plane3 fitPlane(const LoosePoints& points, const std::vector<int>& mem
   }
   const Eigen::Vector3d mean = sum / weights;
   const Eigen::Matrix3d spread = squares / weights - mean * mean.transpose();
-  const Eigen::Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  const Eigen::Vector3d normal = geometry::eigenOf<3>(spread).vectors.col(0);
   const auto plane = geometry::Plane3::through(origin + mean, normal.normalized());
   return plane.distance < 0 ? geometry::Plane3{-plane.normal, -plane.distance} : plane;
 }
