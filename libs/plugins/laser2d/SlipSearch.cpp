@@ -5,7 +5,6 @@
 #include <omnimapper/matching/CorrelativeSearch.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>

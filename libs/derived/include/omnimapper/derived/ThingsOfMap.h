@@ -2,7 +2,7 @@
 
 #include <omnimapper/derived/LandmarkShapes.h>
 #include <omnimapper/map/Places.h>
-#include <omnimapper/surfaces/Things.h>
+#include <omnimapper/surfaces/ThingsOfFaces.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <omnimapper/eval/MapQuality.h>
-#include <omnimapper/surfaces/Things.h>
+#include <omnimapper/surfaces/ThingsOfFaces.h>
 
 #include <cstddef>
 #include <string>

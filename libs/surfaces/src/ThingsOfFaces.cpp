@@ -1,4 +1,4 @@
-#include "omnimapper/surfaces/Things.h"
+#include "omnimapper/surfaces/ThingsOfFaces.h"
 
 #include <omnimapper/geometry/ConvexPolygon2.h>
 

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <omnimapper/surfaces/Things.h>
+#include <omnimapper/surfaces/ThingsOfFaces.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace omnimapper::surfaces::things_test {
+namespace omnimapper::surfaces::things_of_faces_test {
 
 namespace {
 
@@ -88,4 +88,4 @@ TEST(Things, TheBoardsOfAShelfAreOne) {
   EXPECT_NEAR(things[0].width, 0.3, 0.07);
 }
 
-}  // namespace omnimapper::surfaces::things_test
+}  // namespace omnimapper::surfaces::things_of_faces_test
