@@ -7,6 +7,8 @@
 #include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/geometry/Conversions.h>
 
+#include <utility>
+
 #include "LabelCandidates.h"
 
 namespace omnimapper::plugins {
@@ -139,9 +141,10 @@ void LabelsPlugin::takeLabel(const CObservationCommand& command, const mapper::W
   if (request_) giveUp(frame, command.timestamp, batch);
   if (command.subject != obs::CommandSubject::place) {
     edits_.forgetQuestion();
-    request_.emplace();
-    request_->command = command;
-    request_->patience = command.expiry > 0 ? command.expiry : options_.patience;
+    Request request;
+    request.command = command;
+    request.patience = command.expiry > 0 ? command.expiry : options_.patience;
+    request_ = std::move(request);
     return;
   }
   const auto& at = watched.pose->frame_from_base.begin_from_end;
