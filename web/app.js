@@ -57,8 +57,9 @@ async function load() {
   paintLayers(byId('toggles'), map, plan);
   byId('list').replaceChildren(listOf(map, (chosen) => choose(chosen, null, true)));
   if (!panel.pending) choose(again(plan.chosen), null);
-  const time = map.map_time ? new Date(map.map_time).toLocaleString() : 'an unknown time';
-  say(`${map.rooms.length} rooms, ${map.places.length} landmarks, as of ${time}`);
+  const time = map.map_time ? new Date(map.map_time) : null;
+  const isDated = time && time.getFullYear() > 1990; // the clock of some logs begins at 0
+  say(`${map.rooms.length} rooms, ${map.places.length} landmarks${isDated ? `, as of ${time.toLocaleString()}` : ''}`);
 }
 
 async function find(text) {

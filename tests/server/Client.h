@@ -30,6 +30,8 @@ class Client {
   bool send(const std::string& bytes) {
     return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
   }
+  /// Says that nothing more comes.
+  void finish() { ::shutdown(socket_, SHUT_WR); }
   /// Reads until the answer contains `text`, or the server closes the connection; all that was read since the last
   /// call.
   std::string readTo(const std::string& text) {

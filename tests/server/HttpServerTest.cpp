@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -195,6 +196,43 @@ TEST(HttpServer, ATakenPortAndAWrongAddressAreRefusedWithTheRemedy) {
   }
   EXPECT_THROW(HttpServer("nowhere", 0, {}, handler), base::Error);
   EXPECT_TRUE(isLoopback("127.0.0.1") && isLoopback("::1") && !isLoopback("0.0.0.0") && !isLoopback("localhost"));
+}
+
+/// A request some bytes of which are changed, left out, put in or repeated.
+std::string mutated(std::string request, std::mt19937& random) {
+  const auto below = [&](std::size_t count) { return random() % count; };
+  for (auto changes = below(5); changes > 0 && !request.empty(); --changes) {
+    const auto at = below(request.size());
+    const auto kind = below(4);
+    if (kind == 0) request[at] = static_cast<char>(below(256));
+    if (kind == 1) request.erase(at, 1 + below(8));
+    if (kind == 2) request.insert(at, 1 + below(20), static_cast<char>(below(256)));
+    if (kind == 3)
+      for (auto times = below(50); times > 0; --times) request.insert(at, request.substr(at, 30));
+  }
+  return request;
+}
+
+TEST(HttpServer, MutatedRequestsAreAnsweredOrClosedAndNoneEndsIt) {
+  constexpr int kRequests = 2000;
+  HttpLimits limits;
+  limits.requests_per_s = limits.requests_at_once = 1e6;
+  Running server(limits);
+  const std::vector<std::string> requests{
+      "GET /api/query?q=path+kitchen+to+213 HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n",
+      "POST /api/edit HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\nContent-Length: "
+      "12\r\n\r\n{\"words\":[]}",
+      "POST / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nhello\r\n0\r\n\r\n",
+      "GET /events HTTP/1.1\r\nHost: a\r\nCookie: x=1; y=2\r\n\r\n"};
+  std::mt19937 random(7);
+  for (int i = 0; i < kRequests; ++i) {
+    Client client(server.port());
+    client.send(mutated(requests[random() % requests.size()], random));
+    client.finish();
+    const std::string answer = client.readAll();
+    EXPECT_TRUE(answer.empty() || answer.substr(0, 9) == "HTTP/1.1 ") << answer.substr(0, 40);
+  }
+  EXPECT_EQ(statusOf(server.talk(std::string("GET / HTTP/1.1\r\n") + kClose)), "HTTP/1.1 200");
 }
 
 TEST(HttpMessage, TargetsAreDecoded) {
