@@ -64,6 +64,6 @@ class LandmarkCheckOutput : public mapper::OutputPlugin {
 
 }  // namespace foreign
 
-const omnimapper::base::AtLoad kRegister([] {
+const omnimapper::base::AtLoad kRegisterLandmarkCheck([] {
   omnimapper::mapper::FactoryOf<foreign::LandmarkCheckOutput, foreign::LandmarkCheckOptions>::registerClass();
 });
