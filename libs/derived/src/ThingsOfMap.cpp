@@ -87,12 +87,12 @@ void joinFaces(const std::vector<surfaces::Thing>& things, const std::vector<Sha
     for (const std::size_t face : thing.faces) ids.insert(landmarks[face].landmark->id);
     std::vector<const map::Place*> faces;
     for (const auto& place : places)
-      if (ids.count(place.id) > 0 && place.kind != "region") faces.push_back(&place);
+      if (ids.count(place.id) > 0) faces.push_back(&place);
     if (faces.size() < 2) continue;
     added.push_back(placeOf(thing, faces));
     joined.insert(ids.begin(), ids.end());
   }
-  const auto is_joined = [&](const map::Place& place) { return joined.count(place.id) > 0 && place.kind != "region"; };
+  const auto is_joined = [&](const map::Place& place) { return joined.count(place.id) > 0; };
   places.erase(std::remove_if(places.begin(), places.end(), is_joined), places.end());
   places.insert(places.end(), added.begin(), added.end());
   std::stable_sort(places.begin(), places.end(), [](const map::Place& a, const map::Place& b) { return a.id < b.id; });
