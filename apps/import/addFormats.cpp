@@ -11,11 +11,9 @@ namespace {
 using namespace omnimapper;
 
 // Names of tasks that are shorter than those of their formats.
-const std::map<std::string, std::string> kShortNames = {{"carmen_log", "carmen"},
-                                                        {"command_table", "commands"},
-                                                        {"rgbd_folder", "tum"},
-                                                        {"pcd_folder", "pcd"},
-                                                        {"image_folder", "images"}};
+const std::map<std::string, std::string> kShortNames = {{"carmen_log", "carmen"},   {"command_table", "commands"},
+                                                        {"rgbd_folder", "tum"},     {"pcd_folder", "pcd"},
+                                                        {"image_folder", "images"}, {"ros_log", "ros"}};
 
 // --rate-hz for rate_hz, and also --rate, without the unit.
 std::string flagsOf(const std::string& key) {

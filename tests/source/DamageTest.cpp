@@ -212,7 +212,6 @@ TEST_F(DamageTest, whatIsNoRawlogIsRefusedWithARemedy) {
   };
   says("", "is empty");
   says("Dear diary,\ntoday\n", "is a text file");
-  says("#ROSBAG V2.0\n\x0d\0\0\0", "rosbag2rawlog");
   says("\x89PNG\r\n\x1a\n" + std::string(100, '\1'), "is an image");
   says(std::string("PK\x03\x04") + std::string(100, '\1'), "ZIP");
   says(std::string(1000, '\xee'), "no log of a format that is known");

@@ -1,4 +1,5 @@
 
+#include <omnimapper/base/FeatureLibraries.h>
 #include <omnimapper/source/SourceFactory.h>
 #include <omnimapper/source/describeInput.h>
 
@@ -34,10 +35,9 @@ std::string describeFile(const std::string& path) {
                                 : "cannot be decompressed (" + look.problem + "); copy or download it again.";
   if (const auto known = recognized(look); !known.empty()) return known;
   if (look.headBeginsWith("OMNIMAP")) return "is a map of OmniMapper, no log; use it with --continue or --localize.";
-  if (look.headBeginsWith("#ROSBAG"))
-    return "is a ROS bag; convert it with MRPT's rosbag2rawlog -c CONFIG.yml, which names the topics.";
-  if (look.headBeginsWith("SQLite format 3"))
-    return "is an SQLite file, perhaps a ROS 2 bag; convert it to a rawlog first.";
+  for (const char* of_ros : {"#ROSBAG", "#ROSRECORD", "\x89MCAP0", "SQLite format 3"})
+    if (look.headBeginsWith(of_ros))
+      return std::string("seems to be a log of ROS, which is not read here: ") + base::whyUnavailable("ros_log") + ".";
   if (look.headBeginsWith("\x89PNG") || look.headBeginsWith("\xff\xd8\xff"))
     return "is an image, no log; name the folder that it is in.";
   if (look.headBeginsWith("PK\x03\x04")) return "is a ZIP archive; unpack it first.";

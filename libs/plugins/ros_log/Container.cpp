@@ -1,0 +1,34 @@
+#include "Container.h"
+
+#include <omnimapper/source/describeInput.h>
+#include <omnimapper/source/refuse.h>
+
+#include "BagFile.h"
+#include "Db3File.h"
+#include "McapFile.h"
+#include "RandomFile.h"
+#include "unpackedFile.h"
+
+namespace omnimapper::ros {
+
+void Container::timeChunks() {
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    if (chunks_[i].isTimed()) continue;
+    for (const auto& message : load(i)) chunks_[i].include(message.time);
+  }
+}
+
+std::unique_ptr<Container> openContainer(const std::string& path, Channels& channels) {
+  const std::string head = RandomFile(path).read(0, kLogHead);
+  if (isZstd(head)) {
+    const UnpackedFile unpacked(path);
+    auto container = openContainer(unpacked.path(), channels);
+    return container;
+  }
+  if (BagFile::recognizes(head)) return std::make_unique<BagFile>(path, channels);
+  if (McapFile::recognizes(head)) return std::make_unique<McapFile>(path, channels);
+  if (Db3File::recognizes(head)) return std::make_unique<Db3File>(path, channels);
+  source::refuse(path, "is no log of ROS: it " + source::describeInput(path));
+}
+
+}  // namespace omnimapper::ros

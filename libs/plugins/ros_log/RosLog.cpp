@@ -1,0 +1,295 @@
+#include "RosLog.h"
+
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <omnimapper/base/Numbers.h>
+#include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/source/refuse.h>
+
+#include <algorithm>
+#include <set>
+
+#include "LogFiles.h"
+#include "Plan.h"
+#include "ReorderBuffer.h"
+#include "TopicTable.h"
+#include "truePoses.h"
+
+namespace omnimapper::ros {
+
+using mrpt::obs::CObservation;
+using source::SourceReport;
+
+namespace {
+
+constexpr const char* kOdometryOfTransforms = "tf_odometry";
+
+std::string contentOf(const Channels& channels) {
+  constexpr std::size_t kMostNamed = 20;
+  if (channels.size() == 0) return "has no messages";
+  std::string text = "has no messages of which a map can be made: it has";
+  for (std::size_t i = 0; i < std::min(channels.size(), kMostNamed); ++i)
+    text += std::string(i == 0 ? " " : ", ") + channels[i].topic + " (" + channels[i].type + ")";
+  return text + (channels.size() > kMostNamed ? ", and more" : "");
+}
+
+}  // namespace
+
+bool RosLog::recognizes(const source::LogLook& look) {
+  return looksLikeRos(look);
+}
+
+class RosLog::Stream {
+ public:
+  Stream(const std::string& path, const RosLogOptions& options)
+      : files_(path),
+        reader_(files_.present, channels_),
+        decoder_(channels_),
+        survey_(Survey::of(reader_, channels_, decoder_)),
+        plan_(path, survey_, options),
+        transforms_(survey_.transforms) {
+    decoder_.forgetBad();
+    if (survey_.is_complete && !hasSomething())
+      source::refuse(path, contentOf(channels_) + (reader_.damage().what.empty() ? "" : ". " + reader_.damage().what));
+    if (!options.truth_topic.empty()) truth_ = truePosesOf(options.truth_topic, reader_, channels_, decoder_, plan_);
+    decoder_.forgetBad();
+  }
+
+  CObservation::Ptr next() {
+    while (true) {
+      while (auto waiting = buffer_.next())
+        if (auto observation = finished(*waiting)) return observation;
+      if (is_read_) {
+        finish();
+        return nullptr;
+      }
+      is_read_ = !readMessage();
+      if (is_read_) buffer_.finish();
+    }
+  }
+
+  double progress() const { return reader_.progress(); }
+  const SourceReport& report() const { return report_; }
+  const source::TruePoses& truth() const { return truth_; }
+
+ private:
+  bool hasSomething() const {
+    if (plan_.odometry().isTransform()) return true;
+    return std::any_of(survey_.sensors.begin(), survey_.sensors.end(), [&](const auto& one) {
+      const Role role = one.second.role;
+      return role != Role::transforms && role != Role::camera_info && plan_.takes(one.first.first, role);
+    });
+  }
+
+  bool readMessage() {
+    const auto message = reader_.next();
+    if (!message) return false;
+    buffer_.reach(message->time);
+    ++report_.objects;
+    report_.bytes = reader_.bytes();
+    const Channel& channel = channels_[message->channel];
+    table_.read(channel);
+    std::string reason;
+    if (!plan_.takes(channel.topic, decoder_.role(message->channel), &reason)) {
+      table_.leftOut(channel, reason);
+      return true;
+    }
+    if (const auto value = decoder_.decode(*message)) {
+      try {
+        take(*value, *message);
+        return true;
+      } catch (const BadBytes& bad) {
+        decoder_.refuse(message->channel, bad.what());
+      }
+    }
+    const std::string& problem = decoder_.problem(message->channel);
+    table_.leftOut(channel, problem.empty() ? "damaged" : problem);
+    return true;
+  }
+
+  void take(const Value& value, const Message& message) {
+    const std::string& topic = channels_[message.channel].topic;
+    const Role role = decoder_.role(message.channel);
+    if (role == Role::transforms) return takeTransforms(value, message);
+    if (plan_.givesPoses(topic)) return add(poseObservation(value), headerOf(value).frame, Role::pose, value, message);
+    if (role == Role::laser) return add(scanOf(value), headerOf(value).frame, role, value, message);
+    if (role == Role::imu) return add(imuOf(value), headerOf(value).frame, role, value, message);
+    if (role == Role::gps) return add(gpsOf(value), headerOf(value).frame, role, value, message);
+    if (role == Role::odometry) {
+      auto odometry = odometryOf(value);
+      const std::string child = odometry.frame;
+      return add(std::move(odometry), child, role, value, message);
+    }
+  }
+
+  void add(Converted measured, const std::string& frame, Role role, const Value& value, const Message& message) {
+    const SensorKey sensor{channels_[message.channel].topic, frame};
+    const std::int64_t time = plan_.timeOf(sensor, headerOf(value).time, message.time);
+    buffer_.add(
+        {std::move(measured), sensor, message.channel, role, time, message.time, number_++, message.bytes.size()});
+  }
+
+  static Converted poseObservation(const Value& value) {
+    auto pose = mrpt::obs::CObservationRobotPose::Create();
+    pose->pose.mean = geometry::toMrpt(innerPoseOf(value));
+    return {pose, value.has("child_frame_id") ? frameName(value["child_frame_id"].text()) : "", {}};
+  }
+
+  void takeTransforms(const Value& value, const Message& message) {
+    const Channel& channel = channels_[message.channel];
+    const bool is_static = isStaticTopic(channel.topic);
+    for (const auto& one : transformsOf(value)) {
+      const SensorKey key{channel.topic, one.child};
+      const std::int64_t time = plan_.timeOf(key, one.time, message.time);
+      transforms_.add(one.parent, one.child, time, one.parent_from_child, is_static);
+      const auto& odometry = plan_.odometry();
+      if (!odometry.isTransform() || one.child != odometry.child || one.parent != odometry.parent) continue;
+      auto observation = mrpt::obs::CObservationOdometry::Create();
+      observation->odometry = mrpt::poses::CPose2D(geometry::toMrpt(geometry::project(one.parent_from_child)));
+      buffer_.add({{observation, one.child, {}},
+                   {kOdometryOfTransforms, ""},
+                   message.channel,
+                   Role::transforms,
+                   time,
+                   message.time,
+                   number_++,
+                   0});
+    }
+    table_.taken(channel, "transforms");
+    constexpr std::int64_t kKept = 4 * kHeldBack;
+    if (message.time - pruned_ > kKept) {
+      pruned_ = message.time;
+      transforms_.forgetBefore(plan_.timeOf({}, 0, message.time) - 5 * kKept);
+    }
+  }
+
+  // The observation with label, stamp and sensor pose; null if it is left out.
+  CObservation::Ptr finished(const Waiting& waiting) {
+    const Channel& channel = channels_[waiting.channel];
+    const bool is_odometry = waiting.role == Role::odometry || waiting.role == Role::transforms;
+    const auto reason = is_odometry ? moveToBase(waiting) : mount(waiting);
+    const std::string label = plan_.labelOf(waiting.sensor);
+    if (!reason.empty()) {
+      table_.leftOut(channel, reason);
+      return nullptr;
+    }
+    if (waiting.role != Role::transforms) table_.taken(channel, label);
+    auto observation = waiting.measured.observation;
+    observation->sensorLabel = label;
+    observation->timestamp = stampOf(waiting.time);
+    report_.count(label, observation->GetRuntimeClass()->className, observation->timestamp);
+    return observation;
+  }
+
+  // Why the sensor's pose is not known; empty if it is.
+  std::string mount(const Waiting& waiting) {
+    geometry::Se3 base_from_frame;
+    const std::string &base = plan_.baseFrame(), &frame = waiting.measured.frame;
+    if (!base.empty() && frame != base && waiting.role != Role::pose) {
+      if (transforms_.connects(base, frame)) {
+        const auto found = transforms_.between(base, frame, waiting.time, kHeldBack);
+        if (!found) return "no transform from " + base + " to " + frame + " at that time";
+        base_from_frame = *found;
+      } else {
+        unmounted_.insert(waiting.sensor);
+      }
+    } else if (base.empty() && waiting.role != Role::pose) {
+      unmounted_.insert(waiting.sensor);
+    }
+    waiting.measured.observation->setSensorPose(geometry::toMrpt(base_from_frame * waiting.measured.frame_from_sensor));
+    return "";
+  }
+
+  // Odometry of another frame of the robot becomes that of the base. A mapper uses the odometry that comes first.
+  std::string moveToBase(const Waiting& waiting) {
+    const auto& chosen = plan_.odometry();
+    const bool is_chosen = waiting.role == Role::transforms || chosen.isOf(waiting.sensor.first);
+    if (!is_chosen && !has_odometry_ && (chosen.isTransform() || !chosen.topic.empty()))
+      return "before the first odometry that is used";
+    auto& last = last_odometry_[waiting.sensor];
+    if (waiting.role == Role::transforms && waiting.time <= last) return "a repetition";
+    last = waiting.time;
+    has_odometry_ = has_odometry_ || is_chosen;
+    const std::string &base = plan_.baseFrame(), &frame = waiting.measured.frame;
+    if (frame == base || base.empty() || !transforms_.connects(frame, base)) return "";
+    const auto frame_from_base = transforms_.between(frame, base, waiting.time, kHeldBack);
+    if (!frame_from_base) return "no transform from " + frame + " to " + base + " at that time";
+    auto& odometry = dynamic_cast<mrpt::obs::CObservationOdometry&>(*waiting.measured.observation);
+    const auto odom_from_frame = geometry::lift(geometry::fromMrpt(odometry.odometry));
+    odometry.odometry = mrpt::poses::CPose2D(geometry::toMrpt(geometry::project(odom_from_frame * *frame_from_base)));
+    return "";
+  }
+
+  void finish() {
+    if (report_.ending != SourceReport::Ending::open) return;
+    auto& notes = report_.notes;
+    notes = plan_.notes();
+    for (const auto& note : reader_.notes()) notes.push_back(note);
+    for (const auto& line : table_.lines()) notes.push_back(line);
+    if (reader_.unordered() > 0)
+      notes.push_back("messages out of the order of their times: " + std::to_string(reader_.unordered()));
+    report_.other_objects = table_.unusedTypes();
+    report_.doubts = plan_.doubts();
+    for (const auto& file : files_.missing)
+      report_.doubts.push_back(file + " is missing, although metadata.yaml lists it");
+    noteUnmounted();
+    const Damage damage = reader_.damage();
+    report_.ending = damage.what.empty() ? SourceReport::Ending::complete
+                     : damage.is_cut     ? SourceReport::Ending::truncated
+                                         : SourceReport::Ending::corrupt;
+    if (!damage.what.empty())
+      report_.message = damage.what + ". What can be read was read; copy or download the log again for the rest.";
+  }
+
+  // One sensor at a wrong place only moves the base; several contradict each other.
+  void noteUnmounted() {
+    std::string names;
+    for (const auto& sensor : unmounted_) names += (names.empty() ? "" : ", ") + plan_.labelOf(sensor);
+    if (names.empty()) return;
+    auto& lines = unmounted_.size() > 1 ? report_.doubts : report_.notes;
+    lines.push_back(
+        "the log does not say where on the robot these sensors are mounted, and they are taken to be at its "
+        "base, looking ahead: " +
+        names + "; their poses can be set for [mapper] sensors");
+  }
+
+  Channels channels_;
+  LogFiles files_;
+  MessageReader reader_;
+  ChannelDecoder decoder_;
+  Survey survey_;
+  Plan plan_;
+  Transforms transforms_;
+  ReorderBuffer buffer_;
+  TopicTable table_;
+  SourceReport report_;
+  source::TruePoses truth_;
+  std::map<SensorKey, std::int64_t> last_odometry_;  // time [ns since 1970]
+  std::set<SensorKey> unmounted_;
+  std::uint64_t number_ = 0;
+  std::int64_t pruned_ = 0;  // time of recording at which transforms were forgotten
+  bool has_odometry_ = false;
+  bool is_read_ = false;  // all messages are
+};
+
+RosLog::RosLog(const std::string& path, const RosLogOptions& options)
+    : stream_(std::make_unique<Stream>(path, options)) {}
+RosLog::~RosLog() = default;
+
+CObservation::Ptr RosLog::next() {
+  return stream_->next();
+}
+double RosLog::progress() const {
+  return stream_->progress();
+}
+SourceReport RosLog::report() const {
+  return stream_->report();
+}
+source::TruePoses RosLog::truth() const {
+  return stream_->truth();
+}
+std::optional<geometry::Se3> RosLog::truthAt(base::Stamp stamp) const {
+  return poseAt(stream_->truth(), stamp);
+}
+
+}  // namespace omnimapper::ros

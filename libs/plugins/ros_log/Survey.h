@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ChannelDecoder.h"
+#include "MessageReader.h"
+#include "Transforms.h"
+
+namespace omnimapper::ros {
+
+/// A sensor, or whatever else has a clock: the topic, and the frame of its headers; of transforms the child frame. Two
+/// sensors may share a topic.
+using SensorKey = std::pair<std::string, std::string>;
+
+/// What a survey saw of a sensor.
+struct SeenSensor {
+  Role role = Role::other;
+  std::string type;
+  std::uint64_t messages = 0;
+  std::string header_frame;  ///< of odometry: the frame in which its poses are; the key has the child frame
+  std::vector<std::int64_t>
+      delays;  ///< time of recording minus that of the header [ns], of the first headers with a time
+  std::uint64_t without_time = 0;  ///< headers whose time is 0
+  double sweep = 0;                ///< [s] of the last scan, as Converted's sweepOf()
+  bool is_depth = false;           ///< of images
+};
+
+/// What a log contains, from its beginning: all of it, or the first 256 MiB of messages.
+struct Survey {
+  std::map<SensorKey, SeenSensor> sensors;
+  Transforms transforms;  ///< with the last transforms
+  bool is_complete = false;
+
+  /// Reads from the reader's first message, and rewinds it.
+  static Survey of(MessageReader& reader, const Channels& channels, ChannelDecoder& decoder);
+};
+
+/// One transform of a message of tf.
+struct StampedTransform {
+  std::string parent, child;
+  std::int64_t time = 0;
+  geometry::Se3 parent_from_child;
+};
+/// Throws BadBytes. Transforms without a valid rotation are left out.
+std::vector<StampedTransform> transformsOf(const Value& message);
+
+/// Whether this is the topic of transforms that hold for all times.
+bool isStaticTopic(const std::string& topic);
+
+/// Whether an image of this encoding or format of compression has depths.
+bool isDepthEncoding(std::string_view encoding);
+
+}  // namespace omnimapper::ros

@@ -1,0 +1,192 @@
+#include <gtest/gtest.h>
+#include <omnimapper/base/Error.h>
+#include <omnimapper/testing/Fixtures.h>
+
+#include <filesystem>
+
+#include "LogWriters.h"
+#include "ros_log/LogFiles.h"
+#include "ros_log/MessageReader.h"
+
+namespace omnimapper::ros::container_test {
+namespace {
+
+using namespace ros_test;
+
+const std::vector<Topic> kTopics = {{"/a", "std_msgs/String", "string data\n"},
+                                    {"/b", "std_msgs/String", "string data\n"}};
+
+// Seven messages on two topics, a second apart.
+std::vector<Written> sevenMessages() {
+  std::vector<Written> messages;
+  for (std::size_t i = 0; i < 7; ++i)
+    messages.push_back({i % 2, static_cast<std::int64_t>(i + 1) * 1'000'000'000, "message " + std::to_string(i)});
+  return messages;
+}
+const std::string kAll = "0123456";
+
+class LogOf : public ::testing::Test {
+ protected:
+  // The last letters of the messages of a log, in the order in which they are read.
+  std::string read(const std::string& path) {
+    Channels channels;
+    MessageReader reader(LogFiles(path).present, channels);
+    std::string letters;
+    std::int64_t before = 0;
+    while (const auto message = reader.next()) {
+      letters += message->bytes.empty() ? '?' : message->bytes.back();
+      EXPECT_GE(message->time, before);
+      EXPECT_EQ(channels[message->channel].topic, (letters.back() - '0') % 2 == 0 ? "/a" : "/b");
+      before = message->time;
+    }
+    damage_ = reader.damage();
+    notes_ = reader.notes();
+    EXPECT_EQ(reader.progress(), 1.0);
+    return letters;
+  }
+  std::string readText(const std::string& text) {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read(path_);
+  }
+  std::string refusal(const std::string& path) {
+    try {
+      return "read: " + read(path);
+    } catch (const base::Error& error) {
+      return error.what();
+    }
+  }
+  testing::ScratchFolder folder_;
+  std::string path_ = folder_ / "log";
+  Damage damage_;
+  std::vector<std::string> notes_;
+};
+
+TEST_F(LogOf, aBagIsReadWhateverItsCompression) {
+  for (const char* compression : {"none", "bz2", "lz4"}) {
+    BagWriter writer;
+    writer.compression = compression;
+    EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), kAll) << compression;
+    EXPECT_EQ(damage_.what, "");
+  }
+}
+
+TEST_F(LogOf, aBagWithoutIndexOrChunksIsRead) {
+  BagWriter writer;
+  writer.is_indexed = false;
+  EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), kAll);
+  ASSERT_EQ(notes_.size(), 1u);
+  EXPECT_NE(notes_[0].find("was not closed"), std::string::npos);
+  writer.has_chunks = false;
+  EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), kAll);
+  EXPECT_EQ(damage_.what, "");
+}
+
+TEST_F(LogOf, chunksAndMessagesAreSortedByTheirTimes) {
+  BagWriter writer;
+  writer.order = {3, 1, 0, 2};
+  EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), kAll);
+  auto messages = sevenMessages();
+  std::swap(messages[1], messages[6]);
+  EXPECT_EQ(readText(writer.text(kTopics, messages)), kAll);
+}
+
+TEST_F(LogOf, aTruncatedBagIsReadAsFarAsItGoes) {
+  const std::string whole = BagWriter().text(kTopics, sevenMessages());
+  std::string before;
+  for (std::size_t size = 4200; size < whole.size(); size += 97) {
+    const std::string letters = readText(whole.substr(0, size));
+    EXPECT_EQ(letters, kAll.substr(0, letters.size())) << size;
+    EXPECT_GE(letters.size(), before.size()) << size;
+    before = letters;
+  }
+  readText(whole.substr(0, whole.size() - 10));
+  EXPECT_TRUE(damage_.is_cut);
+}
+
+TEST_F(LogOf, aDamagedRecordOfABagIsSkippedWithTheIndexAtItsEnd) {
+  // Bags of 2010 state more bytes for an index than it has.
+  std::string text = BagWriter().text(kTopics, sevenMessages());
+  const std::string entries = number(24, 4) + number(1, 4);  // data of two entries, of which the first is at 1 s
+  const auto at = text.find(entries);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 4, number(40, 4));
+  EXPECT_EQ(readText(text), kAll);
+  EXPECT_EQ(damage_.what, "");
+}
+
+TEST_F(LogOf, anOldOrEncryptedBagIsRefusedByName) {
+  std::ofstream(path_, std::ios::binary) << "#ROSRECORD V1.2\n" << std::string(100, ' ');
+  EXPECT_NE(refusal(path_).find("V1.2"), std::string::npos) << refusal(path_);
+  EXPECT_NE(refusal(path_).find("rosbag fix"), std::string::npos);
+}
+
+TEST_F(LogOf, anMcapIsReadWhateverItsCompression) {
+  for (const char* compression : {"", "lz4", "zstd"}) {
+    McapWriter writer;
+    writer.compression = compression;
+    EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), kAll) << compression;
+    EXPECT_EQ(damage_.what, "");
+    writer.has_end = false;
+    EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), kAll) << compression;
+    EXPECT_TRUE(damage_.is_cut);
+  }
+}
+
+TEST_F(LogOf, anMcapWithoutChunksIsReadAndATruncatedOneAsFarAsItGoes) {
+  McapWriter writer;
+  writer.has_chunks = false;
+  const std::string whole = writer.text(kTopics, sevenMessages());
+  EXPECT_EQ(readText(whole), kAll);
+  for (std::size_t size = 40; size + 40 < whole.size(); size += 31) {
+    const std::string letters = readText(whole.substr(0, size));
+    EXPECT_EQ(letters.substr(0, letters.size() - (letters.empty() ? 0 : 1)),
+              kAll.substr(0, letters.size() - (letters.empty() ? 0 : 1)));
+    EXPECT_TRUE(damage_.is_cut) << size;
+  }
+}
+
+TEST_F(LogOf, aChunkWithAWrongChecksumIsLeftOut) {
+  McapWriter writer;
+  writer.has_wrong_checksum = true;
+  EXPECT_EQ(readText(writer.text(kTopics, sevenMessages())), "");
+  EXPECT_NE(damage_.what.find("wrong checksum"), std::string::npos);
+}
+
+TEST_F(LogOf, anSqliteFileIsReadWithAndWithoutCompressedMessages) {
+  Db3Writer writer;
+  writer.write(folder_ / "plain.db3", kTopics, sevenMessages());
+  EXPECT_EQ(read(folder_ / "plain.db3"), kAll);
+  writer.packs_messages = true;
+  writer.write(folder_ / "a file?with #signs%.db3", kTopics, sevenMessages());
+  EXPECT_EQ(read(folder_ / "a file?with #signs%.db3"), kAll);
+}
+
+TEST_F(LogOf, anSqliteFileOfAnotherKindIsRefused) {
+  sqlite3* database = nullptr;
+  sqlite3_open(path_.c_str(), &database);
+  sqlite3_exec(database, "CREATE TABLE friends(name TEXT)", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_NE(refusal(path_).find("without the tables topics and messages"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(LogOf, aSplitLogIsReadInTheOrderOfItsTimesAndMissingFilesAreNamed) {
+  const auto all = sevenMessages();
+  const std::string folder = folder_ / "split";
+  std::filesystem::create_directory(folder);
+  Db3Writer().write(folder + "/log_1.db3", kTopics, {all[4], all[5], all[6]});
+  McapWriter().write(folder + "/log_0.mcap", kTopics, {all[0], all[1], all[2], all[3]});
+  EXPECT_EQ(read(folder), kAll);
+  std::ofstream(folder + "/metadata.yaml")
+      << "rosbag2_bagfile_information:\n  version: 4\n  relative_file_paths:\n    - log_1.db3\n    - log_2.db3\n";
+  EXPECT_EQ(read(folder), "456");
+  EXPECT_EQ(LogFiles(folder).missing, std::vector<std::string>{folder + "/log_2.db3"});
+}
+
+TEST_F(LogOf, aFileThatIsCompressedAsAWholeIsUnpacked) {
+  const std::string path = folder_ / "log.mcap.zstd";
+  std::ofstream(path, std::ios::binary) << packed("zstd", McapWriter().text(kTopics, sevenMessages()));
+  EXPECT_EQ(read(path), kAll);
+}
+
+}  // namespace
+}  // namespace omnimapper::ros::container_test
