@@ -61,7 +61,8 @@ std::optional<Value> ChannelDecoder::decode(const Message& message) {
 
 void ChannelDecoder::refuse(std::size_t channel, const std::string& reason) {
   Bad& bad = at(channel).bad;
-  if (bad.messages++ == 0) bad.first_reason = reason;
+  ++bad.messages;
+  bad.last_reason = reason;
 }
 
 void ChannelDecoder::forgetBad() {

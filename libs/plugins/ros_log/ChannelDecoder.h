@@ -33,7 +33,7 @@ class ChannelDecoder {
   const std::string& problem(std::size_t channel) { return at(channel).problem; }
   struct Bad {
     std::uint64_t messages = 0;
-    std::string first_reason;  ///< a clause whose subject is the message
+    std::string last_reason;  ///< a clause whose subject is the message
   };
   const Bad& bad(std::size_t channel) { return at(channel).bad; }
 

@@ -20,6 +20,7 @@ struct Waiting {
   std::int64_t time = 0, recorded = 0;  ///< [ns since 1970]
   std::uint64_t number = 0;             ///< in the order of the log
   std::size_t bytes = 0;                ///< of its message
+  std::optional<Message> image = {};    ///< becomes an observation only when it is due
 };
 
 /// Holds measurements back for half a second of recording, and hands them out in the order of their times.

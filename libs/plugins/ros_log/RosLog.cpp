@@ -4,11 +4,13 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/Conversions.h>
+#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <set>
 
+#include "CameraObservations.h"
 #include "LogFiles.h"
 #include "Plan.h"
 #include "ReorderBuffer.h"
@@ -47,6 +49,8 @@ class RosLog::Stream {
         decoder_(channels_),
         survey_(Survey::of(reader_, channels_, decoder_)),
         plan_(path, survey_, options),
+        camera_plan_(survey_),
+        cameras_(camera_plan_, decoder_),
         transforms_(survey_.transforms) {
     decoder_.forgetBad();
     if (survey_.is_complete && !hasSomething())
@@ -77,6 +81,7 @@ class RosLog::Stream {
     if (plan_.odometry().isTransform()) return true;
     return std::any_of(survey_.sensors.begin(), survey_.sensors.end(), [&](const auto& one) {
       const Role role = one.second.role;
+      if (role == Role::image && !camera_plan_.use(one.first.first)->problem.empty()) return false;
       return role != Role::transforms && role != Role::camera_info && plan_.takes(one.first.first, role);
     });
   }
@@ -103,7 +108,7 @@ class RosLog::Stream {
       }
     }
     const std::string& problem = decoder_.problem(message->channel);
-    table_.leftOut(channel, problem.empty() ? "damaged" : problem);
+    table_.leftOut(channel, problem.empty() ? "a message that " + decoder_.bad(message->channel).last_reason : problem);
     return true;
   }
 
@@ -115,11 +120,28 @@ class RosLog::Stream {
     if (role == Role::laser) return add(scanOf(value), headerOf(value).frame, role, value, message);
     if (role == Role::imu) return add(imuOf(value), headerOf(value).frame, role, value, message);
     if (role == Role::gps) return add(gpsOf(value), headerOf(value).frame, role, value, message);
+    if (role == Role::cloud) return add(cloudOf(value), headerOf(value).frame, role, value, message);
+    if (role == Role::image) return takeImage(value, message);
+    if (role == Role::camera_info) return table_.taken(channels_[message.channel], "calibration");
     if (role == Role::odometry) {
       auto odometry = odometryOf(value);
       const std::string child = odometry.frame;
       return add(std::move(odometry), child, role, value, message);
     }
+  }
+
+  void takeImage(const Value& value, const Message& message) {
+    const Channel& channel = channels_[message.channel];
+    const Header header = headerOf(value);
+    const CameraUse* use = camera_plan_.use(channel.topic);
+    if (!use || !use->problem.empty()) return table_.leftOut(channel, use ? use->problem : "later than the survey of the log");
+    const std::int64_t time = plan_.timeOf({channel.topic, header.frame}, header.time, message.time);
+    if (use->is_part_of_depth) {
+      cameras_.keep(channel.topic, time, message);
+      return table_.taken(channel, "pictures of depths");
+    }
+    buffer_.add({{nullptr, header.frame, {}}, {channel.topic, header.frame}, message.channel, Role::image, time,
+                 message.time, number_++, message.bytes.size(), message});
   }
 
   void add(Converted measured, const std::string& frame, Role role, const Value& value, const Message& message) {
@@ -164,8 +186,16 @@ class RosLog::Stream {
   }
 
   // The observation with label, stamp and sensor pose; null if it is left out.
-  CObservation::Ptr finished(const Waiting& waiting) {
+  CObservation::Ptr finished(Waiting& waiting) {
     const Channel& channel = channels_[waiting.channel];
+    try {
+      if (waiting.image)
+        waiting.measured = cameras_.make(channel.topic, waiting.time, *waiting.image, transforms_);
+    } catch (const BadBytes& bad) {
+      decoder_.refuse(waiting.channel, bad.what());
+      table_.leftOut(channel, std::string("a message that ") + bad.what());
+      return nullptr;
+    }
     const bool is_odometry = waiting.role == Role::odometry || waiting.role == Role::transforms;
     const auto reason = is_odometry ? moveToBase(waiting) : mount(waiting);
     const std::string label = plan_.labelOf(waiting.sensor);
@@ -185,16 +215,16 @@ class RosLog::Stream {
   std::string mount(const Waiting& waiting) {
     geometry::Se3 base_from_frame;
     const std::string &base = plan_.baseFrame(), &frame = waiting.measured.frame;
-    if (!base.empty() && frame != base && waiting.role != Role::pose) {
-      if (transforms_.connects(base, frame)) {
+    if (waiting.role != Role::pose && (base.empty() || frame != base)) {
+      if (!base.empty() && transforms_.connects(base, frame)) {
         const auto found = transforms_.between(base, frame, waiting.time, kHeldBack);
         if (!found) return "no transform from " + base + " to " + frame + " at that time";
         base_from_frame = *found;
       } else {
         unmounted_.insert(waiting.sensor);
+        const bool is_optical = waiting.role == Role::image || frame.find("optical") != std::string::npos;
+        if (is_optical) base_from_frame = geometry::sensorFromOptical();
       }
-    } else if (base.empty() && waiting.role != Role::pose) {
-      unmounted_.insert(waiting.sensor);
     }
     waiting.measured.observation->setSensorPose(geometry::toMrpt(base_from_frame * waiting.measured.frame_from_sensor));
     return "";
@@ -228,6 +258,8 @@ class RosLog::Stream {
     for (const auto& line : table_.lines()) notes.push_back(line);
     if (reader_.unordered() > 0)
       notes.push_back("messages out of the order of their times: " + std::to_string(reader_.unordered()));
+    if (cameras_.withoutPicture() > 0)
+      notes.push_back("depth images without a picture at their time: " + std::to_string(cameras_.withoutPicture()));
     report_.other_objects = table_.unusedTypes();
     report_.doubts = plan_.doubts();
     for (const auto& file : files_.missing)
@@ -259,6 +291,8 @@ class RosLog::Stream {
   ChannelDecoder decoder_;
   Survey survey_;
   Plan plan_;
+  CameraPlan camera_plan_;
+  CameraObservations cameras_;
   Transforms transforms_;
   ReorderBuffer buffer_;
   TopicTable table_;

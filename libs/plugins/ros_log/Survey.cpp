@@ -1,6 +1,7 @@
 #include "Survey.h"
 
 #include "Converted.h"
+#include "Images.h"
 
 namespace omnimapper::ros {
 
@@ -21,8 +22,21 @@ std::string frameOfSensor(Role role, const Value& message, const Header& header)
   return role == Role::odometry ? frameName(message["child_frame_id"].text()) : header.frame;
 }
 
+void addCamera(const Value& info, const std::string& topic, const std::string& frame, Survey& survey) {
+  if (survey.cameras.count(topic) > 0) return;
+  CalibratedCamera& camera = survey.cameras[topic];
+  camera.frame = frame;
+  try {
+    camera.rectified = cameraOf(info, true);
+    camera.raw = cameraOf(info, false);
+  } catch (const BadBytes& bad) {
+    camera.problem = bad.what();
+  }
+}
+
 void look(const Value& message, const Channel& channel, Role role, std::int64_t recorded, Survey& survey) {
   const Header header = headerOf(message);
+  if (role == Role::camera_info) addCamera(message, channel.topic, header.frame, survey);
   const SensorKey key{channel.topic, frameOfSensor(role, message, header)};
   if (survey.sensors.size() >= kMostSensors && survey.sensors.count(key) == 0) return;
   SeenSensor& sensor = survey.sensors[key];
@@ -55,11 +69,6 @@ void lookAtTransforms(const Value& message, const Channel& channel, std::int64_t
 bool isStaticTopic(const std::string& topic) {
   const std::string ending = "tf_static";
   return topic.size() >= ending.size() && topic.compare(topic.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-bool isDepthEncoding(std::string_view encoding) {
-  return encoding == "16UC1" || encoding == "32FC1" || encoding == "mono16" ||
-         encoding.find("compressedDepth") != std::string_view::npos;
 }
 
 std::vector<StampedTransform> transformsOf(const Value& message) {

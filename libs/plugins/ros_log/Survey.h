@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mrpt/img/TCamera.h>
+
 #include <map>
 #include <string>
 #include <utility>
@@ -28,9 +30,17 @@ struct SeenSensor {
   bool is_depth = false;           ///< of images
 };
 
+/// The camera that a CameraInfo states.
+struct CalibratedCamera {
+  std::string frame;
+  mrpt::img::TCamera raw, rectified;
+  std::string problem;  ///< a clause whose subject is the CameraInfo; empty if all is well
+};
+
 /// What a log contains, from its beginning: all of it, or the first 256 MiB of messages.
 struct Survey {
   std::map<SensorKey, SeenSensor> sensors;
+  std::map<std::string, CalibratedCamera> cameras;  ///< by the topic of the CameraInfo
   Transforms transforms;  ///< with the last transforms
   bool is_complete = false;
 
@@ -49,8 +59,5 @@ std::vector<StampedTransform> transformsOf(const Value& message);
 
 /// Whether this is the topic of transforms that hold for all times.
 bool isStaticTopic(const std::string& topic);
-
-/// Whether an image of this encoding or format of compression has depths.
-bool isDepthEncoding(std::string_view encoding);
 
 }  // namespace omnimapper::ros

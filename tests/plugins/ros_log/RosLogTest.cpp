@@ -215,7 +215,7 @@ TEST_F(RosLogOf, theTableNamesWhatIsLeftOutAndWhy) {
   add(kScan, 3, "too short");
   read();
   EXPECT_TRUE(says(report_.notes, "/thing (my_msgs/Thing): 1 message; left out: a type that is not used"));
-  EXPECT_TRUE(says(report_.notes, "/scan (sensor_msgs/LaserScan): 2 messages; scan: 1; left out: 1, damaged"));
+  EXPECT_TRUE(says(report_.notes, "/scan (sensor_msgs/LaserScan): 2 messages; scan: 1; left out: 1, a message that ends too early"));
   EXPECT_EQ(report_.other_objects.at("my_msgs/Thing"), 1u);
 }
 
