@@ -1,0 +1,88 @@
+// Drives the page of a map in a browser as people do. Usage: node drive.mjs PUPPETEER SERVE MAP SCRATCH
+import assert from 'node:assert/strict';
+import { mkdirSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { startBrowser } from './browser.mjs';
+import { startServer } from './server.mjs';
+import { Visitor } from './Visitor.mjs';
+
+const [puppeteer, program, map, scratch] = process.argv.slice(2);
+const HOSTILE = '<img src=x onerror=alert(1)>"\'</script>'; // a name, nothing else
+const complaints = [];
+const started = Date.now();
+mkdirSync(scratch, { recursive: true });
+
+const step = (text) => console.log(`${((Date.now() - started) / 1000).toFixed(1)} s: ${text}`);
+const keep = async (visitor, name) => writeFileSync(join(scratch, `${name}.png`), await visitor.page.screenshot());
+
+async function searchAndChoose(visitor) {
+  step('a table is searched for, chosen, and touched on the plan');
+  await visitor.asks('table');
+  await visitor.presses('#panel', 'table');
+  await visitor.seesText('#panel h2', 'table');
+  const number = await visitor.text('#panel dd');
+  await visitor.touchesTheMiddle();
+  assert.equal(await visitor.text('#panel dd'), number, 'what the search shows is what a touch finds there');
+  await keep(visitor, 'chosen');
+}
+
+async function renameARoom(visitor, other) {
+  step('a room gets a name that would be a script, and the other page shows it');
+  await visitor.presses('#list', 'room 1');
+  await visitor.fills('Name of the room', HOSTILE);
+  await visitor.presses('#panel', 'Rename');
+  for (const each of [visitor, other]) await each.seesText('#list', HOSTILE);
+  assert.equal(await other.page.$('#list img, #panel img[src="x"]'), null, 'a name is text');
+}
+
+async function showAPath(visitor) {
+  step('a path is drawn');
+  await visitor.asks('path room 2 to room 3');
+  await visitor.seesText('#panel pre', 'room 3');
+  await keep(visitor, 'path');
+}
+
+async function darkColours(visitor) {
+  step('the page is dark where the browser is');
+  const before = await visitor.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await visitor.page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'dark' }]);
+  await visitor.sees((root, light) => getComputedStyle(root.querySelector('body')).backgroundColor !== light, before);
+  await keep(visitor, 'dark');
+}
+
+async function phone(visitor) {
+  step('nothing is wider than a phone');
+  const width = await visitor.page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 360, `the page is ${width} px wide on a phone of 360 px`);
+  await keep(visitor, 'phone');
+}
+
+async function surviveTheServer(visitors, server) {
+  step('the server is killed; the pages say so, and come back with it');
+  const revisions = await visitors[0].text('#list');
+  await server.kill('SIGKILL');
+  for (const visitor of visitors) await visitor.seesText('#state', 'not reached');
+  const next = await startServer(program, map, server.port);
+  for (const visitor of visitors) await visitor.seesText('#state', 'landmarks');
+  assert.equal(await visitors[0].text('#list'), revisions, 'what was confirmed is still there');
+  return next;
+}
+
+const { browser, stop } = await startBrowser(puppeteer, join(scratch, 'profile'));
+let server = await startServer(program, map, 0);
+try {
+  const desk = await Visitor.arrive(browser, server.address, complaints);
+  step('the first picture is there');
+  const tablet = await Visitor.arrive(browser, server.address, complaints, { width: 360, height: 740, isTouch: true });
+  await searchAndChoose(desk);
+  await renameARoom(tablet, desk);
+  await showAPath(desk);
+  await phone(tablet);
+  await darkColours(desk);
+  server = await surviveTheServer([desk, tablet], server);
+  assert.deepEqual(complaints, []);
+  step('done');
+} finally {
+  await stop();
+  await server.kill('SIGTERM');
+}
