@@ -3,6 +3,7 @@ import { Panel } from './panel.js';
 import { Plan } from './plan.js';
 import { paintLayers } from './layers.js';
 import { listOf } from './list.js';
+import { isName } from './names.js';
 import * as server from './server.js';
 
 const byId = (id) => document.getElementById(id);
@@ -12,16 +13,20 @@ let map = null;
 const plan = new Plan(byId('plan'), (touched, point) => choose(touched, point));
 const panel = new Panel(byId('panel'), {
   choose: (chosen) => choose(chosen, null, true),
-  change: async (words) => {
-    const done = await server.edit(words);
-    await load();
-    say(done);
-  },
+  change: (words) => change(() => server.edit(words)),
+  label: (words) => change(() => server.label(words)),
   showPath: (walk) => {
     plan.path = walk;
     plan.draw();
   },
 });
+
+// Has the server change the map; what was done, in words.
+async function change(ask) {
+  const done = await ask();
+  await load(true);
+  return done;
+}
 
 function say(sentence, isBad = false) {
   state.textContent = sentence;
@@ -44,11 +49,13 @@ function middleOf({ kind, item }) {
 function again(chosen) {
   if (!chosen) return null;
   const lists = { room: map.rooms, door: map.doors, place: map.places };
-  const item = lists[chosen.kind].find((each) => each.id === chosen.item.id);
+  const isSame = (each) => each.id === chosen.item.id && (!isName(each) || each.label === chosen.item.label);
+  const item = lists[chosen.kind].find(isSame);
   return item ? { kind: chosen.kind, item } : null;
 }
 
-async function load() {
+// `isOwn`: after a change of this page; a change of another page must not take away what is being typed.
+async function load(isOwn = false) {
   map = await server.mapDocument();
   const [walk, image, mayChange] = await Promise.all([
     server.trajectory(), map.grid ? server.gridImage(map.revision) : null, server.mayChange()]);
@@ -56,7 +63,8 @@ async function load() {
   panel.take(map, mayChange);
   paintLayers(byId('toggles'), map, plan);
   byId('list').replaceChildren(listOf(map, (chosen) => choose(chosen, null, true)));
-  if (!panel.pending) choose(again(plan.chosen), null);
+  plan.choose(again(plan.chosen));
+  if (!panel.pending && !panel.isAnswer && (isOwn || !panel.isTypedInto)) panel.refresh(plan.chosen);
   const time = map.map_time ? new Date(map.map_time) : null;
   const isDated = time && time.getFullYear() > 1990; // the clock of some logs begins at 0
   say(`${map.rooms.length} rooms, ${map.places.length} landmarks${isDated ? `, as of ${time.toLocaleString()}` : ''}`);

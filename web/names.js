@@ -1,7 +1,14 @@
 // How things are called.
 
+/** Whether a place is no thing but a name: of a spot, or of several things. */
+export const isName = (place) => place.kind === 'place' || place.kind === 'region';
+
+/** The name that somebody gave to a place; undefined if nobody did. */
+export const givenName = (place) => (isName(place) ? place.label : place.properties.name);
+
 export function nameOf(kind, item) {
   if (kind !== 'place') return item.name ?? item.id;
+  if (isName(item)) return `"${item.label}"`;
   const name = item.properties.name ?? item.caption;
   return name ? `${item.label} "${name}"` : item.label;
 }

@@ -1,32 +1,23 @@
 // What is known of the thing that was touched, the answer to a question, and what can be changed.
+import { button, element, field } from './elements.js';
+import { labelsOf, spotLabels } from './labels.js';
 import { row } from './list.js';
 import { keyText, nameOf, valueText } from './names.js';
 import { pictureAddress } from './server.js';
 
-function element(name, text, className) {
-  const made = document.createElement(name);
-  if (text !== undefined) made.textContent = text;
-  if (className) made.className = className;
-  return made;
-}
-
-function button(text, onClick) {
-  const made = element('button', text);
-  made.type = 'button';
-  made.addEventListener('click', onClick);
-  return made;
-}
-
 const percent = (share) => `${Math.round(share * 100)} %`;
 const position = ([x, y]) => `${x.toFixed(2)}, ${y.toFixed(2)} m`;
 
-/** The panel beside the plan. `actions`: choose(chosen), change(words), showPath(points or null). */
+/**
+ * The panel beside the plan. `actions`: choose(chosen), change(words) of rooms, label(words), showPath(points or null).
+ */
 export class Panel {
   constructor(box, actions) {
     this.box = box;
     this.actions = actions;
     this.map = null;
     this.mayChange = false;
+    this.isAnswer = false; // it shows the answer to a question
     this.pending = null; // {verb, room or points} of a change that needs another touch
   }
 
@@ -38,12 +29,30 @@ export class Panel {
   show(chosen, point) {
     if (this.pending && point) return this.goOn(chosen, point);
     this.actions.showPath(null);
-    if (!chosen) {
-      this.box.replaceChildren(element('p', 'Touch a room or a thing to see what it is.', 'note'));
-      return;
-    }
+    this.isAnswer = false;
+    const spot = point && this.mayChange && chosen?.kind !== 'place'
+      ? spotLabels(point, this.map, (words) => this.label(words)) : [];
+    if (!chosen) return this.fill(element('p', 'Touch a room or a thing to see what it is.', 'note'), ...spot);
     const parts = { room: () => this.room(chosen.item), door: () => this.door(chosen.item), place: () => this.place(chosen.item) };
-    this.box.replaceChildren(element('h2', nameOf(chosen.kind, chosen.item)), ...parts[chosen.kind]());
+    this.fill(element('h2', nameOf(chosen.kind, chosen.item)), ...parts[chosen.kind](), ...spot);
+  }
+
+  /** Shows the thing again, as it is in a map that was read again. What came of the last change stays. */
+  refresh(chosen) {
+    const done = this.box.querySelector('.done'), scrolled = this.box.parentElement.scrollTop;
+    this.show(chosen, null);
+    if (done) this.box.prepend(done);
+    this.box.parentElement.scrollTop = scrolled;
+  }
+
+  /** Whether somebody types into it. */
+  get isTypedInto() {
+    return this.box.contains(document.activeElement) && document.activeElement.matches('input');
+  }
+
+  fill(...parts) {
+    this.box.replaceChildren(...parts);
+    this.box.parentElement.scrollTop = 0;
   }
 
   facts(pairs) {
@@ -79,16 +88,8 @@ export class Panel {
   }
 
   roomChanges(room) {
-    if (!this.mayChange) return [element('p', 'This page may only look.', 'note')];
-    const form = element('form'), input = element('input'), save = element('button', 'Rename');
-    input.value = room.name;
-    input.maxLength = 200;
-    input.setAttribute('aria-label', 'Name of the room');
-    form.append(input, save);
-    form.addEventListener('submit', (event) => {
-      event.preventDefault();
-      this.change(['rename', room.id, input.value.trim()]);
-    });
+    if (!this.mayChange) return [onlyLooks()];
+    const form = field('Name of the room', room.name, 'Rename', (text) => this.change(['rename', room.id, text]));
     const buttons = element('div', undefined, 'row');
     buttons.append(
       button('Split', () => this.begin({ verb: 'split', points: [] }, 'Touch one end of the new wall.')),
@@ -108,7 +109,7 @@ export class Panel {
   }
 
   place(place) {
-    const properties = Object.entries(place.properties).map(([key, value]) => [keyText(key), valueText(key, value)]);
+    const properties = Object.entries(place.properties).filter(([key]) => key !== 'name').map(([key, value]) => [keyText(key), valueText(key, value)]);
     const seen = Object.entries(place.seen_by).map(([sensor, count]) => `${count} × ${sensor}`).join(', ');
     const facts = this.facts([
       ['number', place.id], ['kind', place.kind],
@@ -129,17 +130,22 @@ export class Panel {
       list.append(row('room', room, this.actions.choose));
       parts.push(element('h3', 'In'), list);
     }
-    return parts;
+    return [...this.labels(place), ...parts];
+  }
+
+  labels(place) {
+    return this.mayChange ? labelsOf(place, this.map, (words) => this.label(words)) : [onlyLooks()];
   }
 
   /** Shows the answer to a question. */
   answer(text, { is_found: isFound, text: answer, answer: document }) {
     this.pending = null;
+    this.isAnswer = true;
     const parts = [element('h2', text)], list = element('ul');
     for (const found of this.found(document ?? {})) list.append(row(found.kind, found.item, this.actions.choose));
     if (list.children.length > 0) parts.push(list);
     parts.push(element('pre', answer, isFound ? '' : 'bad'));
-    this.box.replaceChildren(...parts);
+    this.fill(...parts);
     this.actions.showPath(document?.points_m ?? null);
   }
 
@@ -160,7 +166,7 @@ export class Panel {
 
   begin(pending, sentence) {
     this.pending = pending;
-    this.box.replaceChildren(element('p', sentence), button('Cancel', () => {
+    this.fill(element('p', sentence), button('Cancel', () => {
       this.pending = null;
       this.show(null, null);
     }));
@@ -182,16 +188,36 @@ export class Panel {
   confirm(sentence, words) {
     const buttons = element('div', undefined, 'row');
     buttons.append(button('Yes', () => this.change(words)), button('No', () => this.show(null, null)));
-    this.box.replaceChildren(element('p', sentence), buttons);
+    this.fill(element('p', sentence), buttons);
   }
 
-  async change(words) {
+  change(words) {
+    return this.carryOut(words, () => this.actions.change(words));
+  }
+
+  async label(words) {
+    const undo = words[0] === 'undo' ? [] : [button('Undo', () => this.label(['undo']))];
+    await this.carryOut(words, () => this.actions.label(words), undo);
+  }
+
+  // Shows a change as heard, then what came of it, or why it did not.
+  async carryOut(words, act, buttons = []) {
     this.pending = null;
-    this.box.replaceChildren(element('p', 'The map is being changed.', 'note'));
+    const heard = element('p', `Heard: ${words.join(' ')}`, 'note');
+    heard.setAttribute('role', 'status');
+    this.box.prepend(heard);
+    this.box.parentElement.scrollTop = 0;
     try {
-      await this.actions.change(words);
+      const done = element('div', await act(), 'done');
+      done.setAttribute('role', 'status');
+      done.append(...buttons);
+      this.box.prepend(done);
     } catch (error) {
-      this.box.replaceChildren(element('p', error.message, 'bad'));
+      heard.replaceWith(element('p', error.message, 'bad'));
     }
   }
+}
+
+function onlyLooks() {
+  return element('p', 'This page may only look; the address that omnimapper-serve printed may change the map.', 'note');
 }

@@ -1,5 +1,6 @@
 // The map from above, on a canvas.
 import { areaOf, distanceToPath, distanceToPlace, isInside } from './geometry.js';
+import { givenName } from './names.js';
 
 const LEAST_SCALE = 2, MOST_SCALE = 2000; // pixels per metre
 const TOUCH = 22; // pixels that a finger misses by
@@ -195,15 +196,14 @@ export class Plan {
     this.onTouch(this.itemAt(point, TOUCH / this.scale), point);
   }
 
-  /** What is at a point: the smallest thing within `reach` [m], a door, or the room. */
+  /** What is at a point: the thing within `reach` [m] that is meant most likely, a door, or the room. */
   itemAt(point, reach) {
     let best = null, least = Infinity;
     for (const place of this.map.places) {
       if (this.isHidden(place) || this.map.labels[place.label].covers_the_plan) continue;
       const distance = distanceToPlace(point, place);
       if (distance > reach) continue;
-      const size = place.extent.outlines.reduce((sum, outline) => sum + areaOf(outline), 0);
-      const rank = distance / reach + size; // what is small is rarely meant by chance
+      const rank = rankOf(distance / reach, place.extent.outlines);
       if (rank < least) [best, least] = [{ kind: 'place', item: place }, rank];
     }
     if (best) return best;
@@ -369,11 +369,12 @@ export class Plan {
     const text = this.colour('text'), soft = this.colour('soft');
     if (!this.hidden.has('rooms'))
       for (const room of this.map.rooms) write(room.name, room.centre_m, '600 14px system-ui, sans-serif', text);
+    const shown = (place) => givenName(place) ?? place.caption;
     for (const place of this.map.places)
-      if (place.caption && !this.isHidden(place)) write(place.caption, place.position_m, '12px system-ui, sans-serif', text);
+      if (shown(place) && !this.isHidden(place)) write(shown(place), place.position_m, '12px system-ui, sans-serif', text);
     if (this.scale > 45)
       for (const place of this.map.places)
-        if (!place.caption && !this.isHidden(place) && place.label !== 'wall' && !this.map.labels[place.label].covers_the_plan)
+        if (!shown(place) && !this.isHidden(place) && place.label !== 'wall' && !this.map.labels[place.label].covers_the_plan)
           write(place.label, place.position_m, '11px system-ui, sans-serif', soft);
   }
 
@@ -390,6 +391,13 @@ export class Plan {
     context.font = '12px system-ui, sans-serif';
     context.fillText(`${metres} m`, x + 4, y - 10);
   }
+}
+
+// The least rank is meant most likely: what is hit and small, then what is near. `miss` is 1 at the reach of a finger.
+function rankOf(miss, outlines) {
+  const area = outlines.reduce((sum, outline) => sum + areaOf(outline), 0);
+  const size = area / (1 + area);
+  return miss === 0 ? size : 0.5 + 0.5 * miss + 0.1 * size;
 }
 
 function rgbOf(colour) {

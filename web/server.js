@@ -25,13 +25,18 @@ export async function gridImage(revision) {
   return image;
 }
 
-/** Changes rooms; `words` as omnimapper-rooms MAP edit takes them. What was done, in words. */
-export async function edit(words) {
-  const answer = await ask('api/edit', {
+async function change(address, words) {
+  const answer = await ask(address, {
     method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ words }),
   });
   return (await answer.json()).done;
 }
+
+/** Changes rooms; `words` as omnimapper-rooms MAP edit takes them. What was done, in words. */
+export const edit = (words) => change('api/edit', words);
+
+/** Changes names: name ID TEXT, name X Y TEXT, rename OLD NEW, delete TEXT, undo. What was done, in words. */
+export const label = (words) => change('api/label', words);
 
 /** Calls `onRevision` with the number of each map that the server reads, and `onLost` while it is not reached. */
 export function listen(onRevision, onLost) {

@@ -1,4 +1,5 @@
 // omnimapper-serve: shows a map in a browser.
+#include <mrpt/core/Clock.h>
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/server/HttpServer.h>
@@ -68,7 +69,8 @@ int serve(const Arguments& arguments) {
                           [&](const server::HttpRequest& request) { return answering->answer(request); });
   const auto hosts = hostsOf(arguments, http.port());
   // Without the token, which then nobody is told, nothing can be changed.
-  server::MapSite site(std::move(map), std::move(files), server::Access(hosts, token));
+  server::MapSite site(std::move(map), std::move(files), server::Access(hosts, token),
+                       [] { return mrpt::Clock::now(); });
   answering = &site;
   const std::string start = arguments.is_read_only ? "/" : "/enter?token=" + token;
   if (!arguments.quiet)

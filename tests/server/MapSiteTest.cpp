@@ -1,9 +1,6 @@
-#include <omnimapper/building/RoomsFile.h>
-#include <omnimapper/map/Layers.h>
-
 #include <filesystem>
 
-#include "../query/TwoRooms.h"
+#include "../query/MapWithFrames.h"
 #include "omnimapper/server/MapSite.h"
 
 namespace omnimapper::server::map_site_test {
@@ -14,7 +11,7 @@ using nlohmann::json;
 constexpr char kToken[] = "0123456789abcdef";
 
 /// The page of the map of two rooms, in files.
-class MapSiteTest : public query::TwoRooms {
+class MapSiteTest : public query::MapWithFrames {
  protected:
   MapSiteTest() {
     building::Building building;
@@ -22,10 +19,7 @@ class MapSiteTest : public query::TwoRooms {
     const std::string rooms = building::encodeRooms(building);
     EXPECT_NO_THROW(building::decodeRooms(rooms, "the rooms of the test"));
     query::putFile(folder_ / "rooms.json", rooms);
-    map::MapFile file;
-    file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(map_.places)));
-    file.set({building::kRoomsLayer, building::kRoomsLayerVersion, rooms});
-    file.write(map_.file);
+    write();
     query::putFile(folder_ / "trajectory.tum", "1 0.5 0.5 0 0 0 0 1\n2 1 1 0 0 0 0 1\nno numbers\n");
     std::filesystem::create_directory(folder_ / "page");
     query::putFile(folder_ / "page/index.html", "<p>the page</p>");
@@ -34,7 +28,10 @@ class MapSiteTest : public query::TwoRooms {
     query::putFile(folder_ / "objects/0-1.png", "a picture");
     query::putFile(folder_ / "objects/secret.png", "no picture of a landmark");
   }
-  MapSite site() { return {ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken)}; }
+  MapSite site() {
+    return {ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+            [] { return base::stampFromUnix(1700000000); }};
+  }
 
   static HttpRequest get(const std::string& target) {
     HttpRequest request;
@@ -43,8 +40,9 @@ class MapSiteTest : public query::TwoRooms {
     request.host = "map:8080";
     return request;
   }
-  static HttpRequest edit(const json& words) {
-    HttpRequest request = get("/api/edit");
+  static HttpRequest edit(const json& words) { return change("/api/edit", words); }
+  static HttpRequest change(const std::string& address, const json& words) {
+    HttpRequest request = get(address);
     request.method = "POST";
     request.origin = "http://map:8080";
     request.content_type = "application/json";
@@ -109,6 +107,32 @@ TEST_F(MapSiteTest, ARoomIsRenamedInFilesAndMapAndAllPagesAreTold) {
   EXPECT_EQ(served.update(warning), "");
   EXPECT_EQ(query::openMap(folder_.path()).rooms->rooms[0].name, "caf\xC3\xA9 <b>");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "edits.json"));
+}
+
+TEST_F(MapSiteTest, AThingIsNamedAndAllPagesAreTold) {
+  auto served = site();
+  std::string warning;
+  const auto label = [&](const json& words) { return served.answer(change("/api/label", words)); };
+  EXPECT_EQ(json::parse(label({"name", "0:2", "Anna's bed"}).body)["done"], "it is called 'Anna's bed' now");
+  EXPECT_EQ(json::parse(served.update(warning))["revision"], 2);
+  EXPECT_EQ(json::parse(served.answer(get("/api/map")).body)["places"][2]["properties"]["name"], "Anna's bed");
+  EXPECT_TRUE(json::parse(served.answer(get("/api/query?q=path+kitchen+to+Anna's+bed")).body)["is_found"]);
+  EXPECT_EQ(label({"undo"}).status, 200);
+  EXPECT_EQ(label({"undo"}).status, 400);
+  HttpRequest of_a_stranger = change("/api/label", {"name", "0:2", "mine"});
+  of_a_stranger.cookie.clear();
+  EXPECT_EQ(served.answer(of_a_stranger).status, 401);
+}
+
+TEST_F(MapSiteTest, WhatCannotBeReadIsNamedWithoutWhereItIs) {
+  auto served = site();
+  query::putFile(map_.file, "damaged");
+  for (const auto& request : {change("/api/label", {"undo"}), edit({"rename", "room 1", "x"})}) {
+    const auto refused = served.answer(request);
+    EXPECT_EQ(refused.status, 400);
+    EXPECT_NE(refused.body.find("map.omnimap: is no map file"), std::string::npos) << refused.body;
+    EXPECT_EQ(refused.body.find(folder_.path()), std::string::npos) << refused.body;
+  }
 }
 
 TEST_F(MapSiteTest, ChangesThatAreNoneChangeNothing) {

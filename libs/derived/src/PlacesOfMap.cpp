@@ -2,13 +2,13 @@
 #include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/derived/PlanShape.h>
 #include <omnimapper/derived/ThingsOfMap.h>
+#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/SymmetricEigen.h>
+#include <omnimapper/map/LabelledPlaces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
-
-#include "LabelledPlaces.h"
 
 namespace omnimapper::derived {
 
@@ -135,6 +135,13 @@ bool isAligned(std::uint16_t session, const map::Map& map) {
                       [&](const map::Session& each) { return each.number == session && !each.aligned; });
 }
 
+map::LabelAnchors anchorsIn(const map::Map& map) {
+  return {[&map](base::LandmarkId id) { return map.landmark(id).id; },
+          [&map](const map::Label& label) {
+            return Vector3d(geometry::fromMrpt(map.keyFrame(label.frame).map_from_base) * label.in_frame);
+          }};
+}
+
 std::optional<map::LastPose> lastPoseOf(const map::Map& map) {
   std::optional<map::LastPose> last;
   for (const auto& frame : map.key_frames) {
@@ -155,8 +162,9 @@ map::Places placesOf(const mapper::State& state) {
   for (const auto& shaped : shapes)
     if (shaped.isSomewhere() && isAligned(shaped.landmark->id.session, state.map))
       places.places.push_back(placeOf(shaped, state, frames));
-  addLabels(state.map, places.places);
   joinFaces(thingsOf(shapes, state.map), shapes, places.places);
+  if (const auto* labels = state.map.layers.find<map::Labels>())
+    addLabels(*labels, anchorsIn(state.map), places.places);
   places.last_pose = lastPoseOf(state.map);
   return places;
 }

@@ -5,6 +5,7 @@
 #include <omnimapper/map/MapFile.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <future>
 
@@ -89,7 +90,8 @@ CloudPoint readCloudPoint(ByteReader& in) {
   return point;
 }
 
-KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
+// All but what was observed.
+KeyFrame readHead(ByteReader& in) {
   KeyFrame frame;
   frame.id = readId<base::KeyFrameTag>(in);
   frame.stamp = readStamp(in);
@@ -100,12 +102,49 @@ KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
     const base::Stamp stamp = readStamp(in);
     frame.dependents.push_back({stamp, readPose(in)});
   }
+  return frame;
+}
+
+KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
+  KeyFrame frame = readHead(in);
   for (std::uint64_t left = in.uint(4); left > 0; --left) frame.observations.push_back(readObservation(in));
   frame.reference = version == 1 || in.uint(1) != 0;
   if (version >= 3) {
     for (std::uint64_t left = in.uint(4); left > 0; --left) frame.cloud.push_back(readCloudPoint(in));
   }
   return frame;
+}
+
+FramePose readFramePose(ByteReader& in, std::uint32_t version) {
+  constexpr std::uint64_t kBytesOfPoint = 9;
+  const KeyFrame head = readHead(in);
+  for (std::uint64_t left = in.uint(4); left > 0; --left) in.block();
+  if (version > 1) in.uint(1);
+  if (version >= 3) in.raw(in.uint(4) * kBytesOfPoint);
+  bool is_finite = head.map_from_base.getRotationMatrix().asEigen().allFinite();
+  for (int i = 0; i < 3; ++i) is_finite = is_finite && std::isfinite(head.map_from_base[i]);
+  if (!is_finite) refuse(kFramesName, "has a pose that is not finite: the file is damaged");
+  return {head.id, head.map_from_base};
+}
+
+// Reads each key frame of a section by `read`.
+template <class Read>
+auto readAll(const MapSection& section, Read read) {
+  expectSection(section, kFramesName, kFramesVersion);
+  ByteReader in(section.bytes, placeOf(kFramesName));
+  std::uint64_t left = in.uint(4);
+  std::vector<decltype(read(in, section.version))> all;
+  if (section.version < 3) {
+    for (; left > 0; --left) all.push_back(read(in, section.version));
+  }
+  while (left > 0) {
+    const std::string block = readCompressed(in);
+    ByteReader of_block(block, placeOf(kFramesName));
+    for (; left > 0 && !of_block.atEnd(); --left) all.push_back(read(of_block, section.version));
+    expectEnd(of_block, kFramesName);
+  }
+  expectEnd(in, kFramesName);
+  return all;
 }
 
 // The file has the key frames in the order in which they were driven; they are inserted in the order of ids.
@@ -163,21 +202,13 @@ std::uint64_t uncompressedSize(const MapSection& frames) {
 }
 
 Map framesFromSection(const MapSection& section) {
-  expectSection(section, kFramesName, kFramesVersion);
-  ByteReader in(section.bytes, placeOf(kFramesName));
-  std::uint64_t left = in.uint(4);
-  std::vector<KeyFrame> frames;
-  if (section.version < 3) {
-    for (; left > 0; --left) frames.push_back(readFrame(in, section.version));
-  }
-  while (left > 0) {
-    const std::string block = readCompressed(in);
-    ByteReader of_block(block, placeOf(kFramesName));
-    for (; left > 0 && !of_block.atEnd(); --left) frames.push_back(readFrame(of_block, section.version));
-    expectEnd(of_block, kFramesName);
-  }
-  expectEnd(in, kFramesName);
-  return mapOf(std::move(frames));
+  return mapOf(readAll(section, readFrame));
+}
+
+std::vector<FramePose> framePosesFromSection(const MapSection& section) {
+  auto poses = readAll(section, readFramePose);
+  if (poses.empty()) refuse(kFramesName, "has no key frame");
+  return poses;
 }
 
 }  // namespace omnimapper::map

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include "SectionBytes.h"
@@ -63,6 +64,26 @@ Landmark readLandmark(ByteReader& in, base::LandmarkId id, const PayloadRegistry
   return landmark;
 }
 
+void skipPayload(ByteReader& in) {
+  if (in.uint(1) == 0) return;
+  in.block();
+  in.block();
+}
+
+// The landmark that it was merged into; none if it was not merged.
+std::optional<base::LandmarkId> readMerge(ByteReader& in) {
+  in.block();
+  in.block();
+  for (std::uint64_t left = in.uint(4); left > 0; --left) readId<base::VariableTag>(in);
+  skipPayload(in);
+  in.uint(4);
+  readStamp(in);
+  readStamp(in);
+  const bool is_merged = in.uint(1) == static_cast<std::uint64_t>(Landmark::State::merged);
+  const auto into = readId<base::LandmarkTag>(in);
+  return is_merged ? std::optional(into) : std::nullopt;
+}
+
 }  // namespace
 
 // The section has the next index of each session, so that no index is used twice, then the landmarks in the order of
@@ -113,6 +134,29 @@ base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection&
   for (const auto& [session, index] : next) skipTo({session, index});
   expectEnd(in, kLandmarksName);
   return table;
+}
+
+std::map<base::LandmarkId, base::LandmarkId> currentLandmarks(const MapSection& section) {
+  expectSection(section, kLandmarksName, kLandmarksVersion);
+  ByteReader in(section.bytes, placeOf(kLandmarksName));
+  for (std::uint64_t left = in.uint(4); left > 0; --left) readId<base::LandmarkTag>(in);
+  std::map<base::LandmarkId, base::LandmarkId> current;
+  for (std::uint64_t left = in.uint(4); left > 0; --left) {
+    const auto id = readId<base::LandmarkTag>(in);
+    current[id] = readMerge(in).value_or(id);
+  }
+  expectEnd(in, kLandmarksName);
+  // A landmark may be merged into one that was merged itself.
+  for (auto& each : current) {
+    std::size_t steps = 0;
+    for (auto next = current.find(each.second); next != current.end() && next->second != each.second;
+         next = current.find(each.second)) {
+      each.second = next->second;
+      if (++steps > current.size())
+        refuse(kLandmarksName, "a landmark is merged into itself by way of others: the file is damaged");
+    }
+  }
+  return current;
 }
 
 }  // namespace omnimapper::map

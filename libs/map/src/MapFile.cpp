@@ -201,6 +201,11 @@ void MapFile::set(MapSection section) {
   }
 }
 
+void MapFile::remove(const std::string& name) {
+  const auto is_it = [&](const MapSection& section) { return section.name == name; };
+  sections_.erase(std::remove_if(sections_.begin(), sections_.end(), is_it), sections_.end());
+}
+
 const MapSection* MapFile::find(const std::string& name) const {
   const auto place =
       std::find_if(sections_.begin(), sections_.end(), [&](const MapSection& section) { return section.name == name; });

@@ -135,7 +135,7 @@ void LabelsPlugin::take(const CObservationCommand& command, const mapper::Watche
 void LabelsPlugin::takeLabel(const CObservationCommand& command, const mapper::Watched& watched,
                              const mapper::View& view, mapper::Batch& batch) {
   const base::KeyFrameId frame = watched.pose->frame;
-  if (const auto why = whyNoLabel(command.text))
+  if (const auto why = map::whyNoLabel(command.text))
     return log(frame, command.timestamp, false, "the label " + shown(command.text) + " " + *why, batch);
   if (request_) lookAgain(view, batch);
   if (request_) giveUp(frame, command.timestamp, batch);

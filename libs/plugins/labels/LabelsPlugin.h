@@ -3,6 +3,7 @@
 #include <omnimapper/interaction/PointingTables.h>
 #include <omnimapper/interaction/PointingTarget.h>
 #include <omnimapper/interaction/readBody.h>
+#include <omnimapper/map/LabelEdits.h>
 #include <omnimapper/obs/CObservationCommand.h>
 #include <omnimapper/plugin/MeasurementPlugin.h>
 #include <omnimapper/plugin/PluginFactory.h>
@@ -12,7 +13,6 @@
 #include <string>
 
 #include "CarriedLabels.h"
-#include "LabelEdits.h"
 #include "PeopleWatch.h"
 
 namespace omnimapper::plugins {
@@ -87,7 +87,7 @@ class LabelsPlugin : public mapper::MeasurementPlugin, public mapper::WatchesObs
   std::string section_;
   std::optional<LabelledMap> earlier_;
   PeopleWatch people_;
-  LabelEdits edits_;
+  map::LabelEdits edits_;
   std::optional<Request> request_;
 };
 

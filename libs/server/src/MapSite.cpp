@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/query/Verbs.h>
+#include <omnimapper/query/editLabels.h>
 #include <omnimapper/query/editRooms.h>
 #include <omnimapper/server/MapSite.h>
 
@@ -44,8 +45,9 @@ const query::Verb& verbOf(std::vector<std::string>& words) {
   return query::verbs().front();
 }
 
-/// The edit of a request: a JSON object with a list of texts, "words". Throws Error(command_line) if it is another one.
-std::vector<std::string> editWords(const std::string& body) {
+/// The change of a request: a JSON object with a list of texts, "words". Throws Error(command_line) if it is another
+/// one.
+std::vector<std::string> changeWords(const std::string& body) {
   const Json json = Json::parse(body, nullptr, false);
   if (json.is_object() && json.contains("words") && json["words"].is_array()) {
     std::vector<std::string> words;
@@ -53,13 +55,17 @@ std::vector<std::string> editWords(const std::string& body) {
       if (word.is_string()) words.push_back(word.get<std::string>());
     if (words.size() == json["words"].size()) return words;
   }
-  throw base::Error(base::ExitCode::command_line, "an edit is a JSON object with a list of texts, \"words\"");
+  throw base::Error(base::ExitCode::command_line, "a change is a JSON object with a list of texts, \"words\"");
 }
 
 }  // namespace
 
-MapSite::MapSite(ServedMap map, StaticFiles files, Access access)
-    : map_(std::move(map)), files_(std::move(files)), access_(std::move(access)), announced_(map_.revision()) {}
+MapSite::MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock)
+    : map_(std::move(map)),
+      files_(std::move(files)),
+      access_(std::move(access)),
+      clock_(std::move(clock)),
+      announced_(map_.revision()) {}
 
 HttpResponse MapSite::answer(const HttpRequest& request) {
   HttpResponse response;
@@ -67,7 +73,7 @@ HttpResponse MapSite::answer(const HttpRequest& request) {
     const auto refused = access_.refused(request);
     response = refused ? *refused : answerAllowed(request);
   } catch (const base::Error& error) {
-    response = refusal(400, base::printable(error.what()));
+    response = refusedBecause(error);
   } catch (const std::exception& error) {
     response = refusal(500, std::string("a defect of the server: ") + error.what());
   }
@@ -75,9 +81,17 @@ HttpResponse MapSite::answer(const HttpRequest& request) {
   return response;
 }
 
+// Where the map is on this machine is nothing for a page, so names of files are those in the folder of the map.
+HttpResponse MapSite::refusedBecause(const base::Error& error) const {
+  std::string sentence = error.what();
+  const std::string folder = map_.map().folder + "/";
+  for (auto at = sentence.find(folder); at != std::string::npos; at = sentence.find(folder, at))
+    sentence.erase(at, folder.size());
+  return refusal(error.code() == base::ExitCode::disk_full ? 507 : 400, base::printable(sentence));
+}
+
 HttpResponse MapSite::answerAllowed(const HttpRequest& request) {
-  if (request.method == "POST")
-    return request.path == "/api/edit" ? edit(request) : refusal(404, "Nothing at this address can be changed.");
+  if (request.method == "POST") return change(request);
   if (const auto file = files_.find(request.path)) return *file;
   if (request.path == "/enter") return access_.enter(request);
   if (request.path == "/api/map") return jsonAnswer(map_.document());
@@ -112,9 +126,18 @@ HttpResponse MapSite::picture(const HttpRequest& request) const {
   return {200, "image/png", *bytes};
 }
 
-HttpResponse MapSite::edit(const HttpRequest& request) {
-  const std::string done = query::editRooms(map_.map().folder, editWords(request.body));
-  std::string warning;
+std::string MapSite::editLabels(const std::vector<std::string>& words) {
+  return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
+}
+
+HttpResponse MapSite::change(const HttpRequest& request) {
+  std::string done, warning;
+  if (request.path == "/api/edit")
+    done = query::editRooms(map_.map().folder, changeWords(request.body));
+  else if (request.path == "/api/label")
+    done = editLabels(changeWords(request.body));
+  else
+    return refusal(404, "Nothing at this address can be changed.");
   map_.update(warning);
   return jsonAnswer(dumped({{"done", done}}));
 }

@@ -1,8 +1,11 @@
 // omnimapper-serve: what it says, what it refuses, and how it ends.
+#include <omnimapper/map/Labels.h>
 #include <omnimapper/map/Layers.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Places.h>
 #include <signal.h>
+
+#include <nlohmann/json.hpp>
 
 #include "../../server/Client.h"
 #include "../Runs.h"
@@ -12,6 +15,7 @@ namespace {
 
 using namespace runs;
 namespace map = omnimapper::map;
+using nlohmann::json;
 
 /// The folder of a map with one sign.
 class Serve : public ::testing::Test {
@@ -22,7 +26,10 @@ class Serve : public ::testing::Test {
     sign.kind = sign.label = "sign";
     sign.caption = "213";
     places.places = {sign};
+    map::Map frames;
+    frames.key_frames.insert({});
     map::MapFile file;
+    file.set(map::framesToSection(frames));
     file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(places)));
     file.write(folder_ / "map.omnimap");
   }
@@ -53,6 +60,70 @@ TEST_F(Serve, ShowsTheMapUntilCtrlC) {
   EXPECT_NE(get("/api/map").find("\"caption\":\"213\""), std::string::npos);
   program.send(SIGINT);
   EXPECT_TRUE(endedWith(ExitCode::ok, program.wait()));
+}
+
+/// A server and what it said.
+class RunningServer {
+ public:
+  RunningServer(const Texts& command, const ProgramOptions& options = {}) : program_(command, options) {
+    EXPECT_TRUE(program_.waitUntilIdle()) << toString(program_.wait());
+    const std::string said = program_.printedSoFar(), start = "http://127.0.0.1:", token = "token=";
+    const auto port = said.find(start), at = said.find(token);
+    if (port == std::string::npos || at == std::string::npos) throw std::runtime_error(said);
+    port_ = static_cast<std::uint16_t>(std::stoi(said.substr(port + start.size())));
+    token_ = said.substr(at + token.size(), 32);
+  }
+  /// Sends a change of labels; `read` takes the answer.
+  template <class Read>
+  void label(const json& words, Read read) {
+    const std::string host = "127.0.0.1:" + std::to_string(port_), body = json{{"words", words}}.dump();
+    omnimapper::server::Client client(port_);
+    client.send("POST /api/label HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
+                "\r\nContent-Type: application/json\r\nCookie: omnimapper_token=" + token_ +
+                "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+    read(client);
+  }
+  void kill() {
+    program_.send(SIGKILL);
+    program_.wait();
+  }
+
+ private:
+  omnimapper::testing::Program program_;
+  std::uint16_t port_ = 0;
+  std::string token_;
+};
+
+TEST_F(Serve, KeepsEachNameThatItConfirmedWhenItIsKilled) {
+  std::vector<std::string> confirmed;
+  for (int round = 0; round < 3; ++round) {
+    RunningServer server(command({folder_.path(), "--port", "0"}));
+    for (int i = 0; i < 10; ++i) {
+      const std::string name = "name " + std::to_string(round) + "." + std::to_string(i);
+      server.label({"name", "1", "2", name}, [&](auto& client) {
+        if (client.readTo("is called").find("is called") != std::string::npos) confirmed.push_back(name);
+      });
+    }
+    server.label({"name", "1", "2", "unconfirmed"}, [&](auto&) { server.kill(); });
+    const auto file = map::MapFile::read(folder_ / "map.omnimap");
+    std::set<std::string> kept;
+    for (const auto& label : map::Labels::fromSection(*file.find(map::Labels::kLayer)).labels) kept.insert(label.text);
+    for (const auto& name : confirmed) EXPECT_EQ(kept.count(name), 1U) << name;
+  }
+  EXPECT_EQ(confirmed.size(), 30U);
+}
+
+TEST_F(Serve, ChangesNothingOnAFullDiskAndSaysSo) {
+  const std::string before = readFile(folder_ / "map.omnimap");
+  ProgramOptions full;
+  full.largest_file = before.size() / 2;
+  RunningServer server(command({folder_.path(), "--port", "0"}), full);
+  server.label({"name", "1", "2", "x"}, [&](auto& client) {
+    const std::string answer = client.readTo("\r\n\r\n");
+    EXPECT_NE(answer.find("507"), std::string::npos) << answer;
+    EXPECT_EQ(answer.find(folder_.path()), std::string::npos) << answer;
+  });
+  EXPECT_EQ(readFile(folder_ / "map.omnimap"), before);
 }
 
 TEST_F(Serve, RefusesWhatOthersCouldReachAndWhatIsNoMap) {

@@ -1,7 +1,7 @@
 // Somebody who looks at the page of a map in a browser of their own.
 import assert from 'node:assert/strict';
 
-const PATIENCE_MS = 60000; // other programs may have the cores
+const PATIENCE_MS = 30000; // other programs may have the cores
 
 export class Visitor {
   /** Opens a page with cookies of its own; `complaints` collects what the page should not say. */
@@ -51,14 +51,21 @@ export class Visitor {
     await this.seesText('#panel h2', question);
   }
 
-  /** Presses the first button within an element that shows a text, by touch if the screen has it. */
+  /** Presses the first button within an element whose text begins so, by touch if the screen has it. */
   async presses(selector, text) {
-    const button = await this.page.evaluateHandle((where, what) => [...document.querySelectorAll(`${where} button`)]
-      .find((each) => each.innerText.trim().startsWith(what)), selector, text);
-    assert.ok(button.asElement(), `${selector} has no button "${text}": ${await this.text(selector)}`);
-    await button.asElement().evaluate((each) => each.scrollIntoView({ block: 'center' }));
-    if (this.page.viewport().hasTouch) await button.asElement().tap();
-    else await button.asElement().click();
+    for (let tries = 3; ; --tries) {
+      const found = await this.page.evaluateHandle((where, what) => [...document.querySelectorAll(`${where} button`)]
+        .find((each) => each.innerText.trim().startsWith(what)), selector, text);
+      const button = found.asElement();
+      assert.ok(button, `${selector} has no button "${text}": ${await this.text(selector)}`);
+      try {
+        await button.evaluate((each) => each.scrollIntoView({ block: 'center' }));
+        return await (this.page.viewport().hasTouch ? button.tap() : button.click());
+      } catch (error) {
+        // A change of another page draws the list anew.
+        if (tries === 0 || !/detached|not clickable/.test(error.message)) throw error;
+      }
+    }
   }
 
   /** Types into the field with that label, in place of what is there. */

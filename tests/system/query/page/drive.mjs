@@ -35,6 +35,46 @@ async function renameARoom(visitor, other) {
   assert.equal(await other.page.$('#list img, #panel img[src="x"]'), null, 'a name is text');
 }
 
+async function nameATable(visitor, other) {
+  step('a table is named by touch, found by its name, renamed, and the name is deleted and given back');
+  await visitor.asks('table');
+  await visitor.presses('#panel', 'table');
+  await visitor.touchesTheMiddle();
+  await visitor.fills('Name', `desk ${HOSTILE}`);
+  await visitor.presses('#panel', 'Name it');
+  await visitor.seesText('#panel .done', 'it is called');
+  await other.seesText('#list', `desk ${HOSTILE}`);
+  await keep(visitor, 'named');
+  await visitor.fills('New name', 'desk');
+  await visitor.presses('#panel', 'Rename');
+  await visitor.seesText('#panel h2', 'table "desk"');
+  await visitor.presses('#panel', 'Delete the name "desk"');
+  await visitor.seesText('#panel .done', 'is deleted');
+  assert.equal(await visitor.text('#panel h2'), 'table');
+  await visitor.presses('#panel', 'Undo');
+  await visitor.seesText('#panel h2', 'table "desk"');
+  await other.asks('path room 3 to desk');
+  await other.seesText('#panel pre', 'to table');
+  step('a name that was given earlier is offered for another thing');
+  await visitor.asks('seat');
+  await visitor.presses('#panel', 'seat');
+  await visitor.presses('#panel', 'desk');
+  await visitor.seesText('#panel .done', 'it is called');
+  await visitor.presses('#panel', 'Undo');
+  await visitor.seesText('#panel .done', 'is undone');
+}
+
+async function nameASpot(visitor) {
+  step('a spot of the floor is named');
+  await visitor.presses('#list', 'room 3');
+  await visitor.seesText('#panel h2', 'room 3');
+  await visitor.touchesTheMiddle();
+  await visitor.page.$eval('#panel details', (each) => { each.open = true; });
+  await visitor.fills('Name', 'charger');
+  await visitor.presses('#panel', 'Name it');
+  await visitor.seesText('#list', '"charger"');
+}
+
 async function showAPath(visitor) {
   step('a path is drawn');
   await visitor.asks('path room 2 to room 3');
@@ -76,6 +116,8 @@ try {
   const tablet = await Visitor.arrive(browser, server.address, complaints, { width: 360, height: 740, isTouch: true });
   await searchAndChoose(desk);
   await renameARoom(tablet, desk);
+  await nameATable(tablet, desk);
+  await nameASpot(desk);
   await showAPath(desk);
   await phone(tablet);
   await darkColours(desk);

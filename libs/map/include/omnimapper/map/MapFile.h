@@ -5,6 +5,7 @@
 #include <omnimapper/map/PayloadRegistry.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class MapFile {
 
   /// Replaces the section of that name or appends it.
   void set(MapSection section);
+  /// Does nothing if the file has no section of that name.
+  void remove(const std::string& name);
   /// Null if the file has no section of that name.
   const MapSection* find(const std::string& name) const;
   const std::vector<MapSection>& sections() const { return sections_; }
@@ -45,11 +48,24 @@ std::uint64_t uncompressedSize(const MapSection& frames);
 /// A map that has only these key frames. Throws Error(unreadable_input) if the bytes are not frames of a known version.
 Map framesFromSection(const MapSection& section);
 
+/// Where a key frame is.
+struct FramePose {
+  base::KeyFrameId id;
+  mrpt::poses::CPose3D map_from_base;
+};
+/// The poses of all key frames in the "frames" section, whose observations are not read. At least one. Throws
+/// Error(unreadable_input) if the bytes are not frames of a known version, or a pose is not finite.
+std::vector<FramePose> framePosesFromSection(const MapSection& section);
+
 /// The "landmarks" section. A payload of an unregistered kind is written as the bytes from which it was read.
 MapSection landmarksToSection(const Map& map);
 /// Throws Error(unreadable_input) as framesFromSection(), and whatever the readers of payloads throw.
 base::IdTable<base::LandmarkId, Landmark> landmarksFromSection(const MapSection& section,
                                                                const PayloadRegistry& payloads);
+
+/// The landmark that is there now for each landmark of the "landmarks" section, whose payloads are not read: itself, or
+/// the one that it was merged into. Throws Error(unreadable_input) if the bytes are not landmarks of a known version.
+std::map<base::LandmarkId, base::LandmarkId> currentLandmarks(const MapSection& section);
 
 /// The "sessions" section.
 MapSection sessionsToSection(const Map& map);

@@ -1,18 +1,24 @@
 #pragma once
 
+#include <omnimapper/base/Error.h>
+#include <omnimapper/base/Stamp.h>
+#include <omnimapper/map/LabelEdits.h>
 #include <omnimapper/server/Access.h>
 #include <omnimapper/server/HttpMessage.h>
 #include <omnimapper/server/ServedMap.h>
 #include <omnimapper/server/StaticFiles.h>
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace omnimapper::server {
 
 /// The page of a map and what it asks for (doc/page.md lists the addresses).
 class MapSite {
  public:
-  MapSite(ServedMap map, StaticFiles files, Access access);
+  /// `clock` says when a change is asked for.
+  MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock);
 
   /// Answers any request; never throws.
   HttpResponse answer(const HttpRequest& request);
@@ -25,14 +31,19 @@ class MapSite {
   HttpResponse answerAllowed(const HttpRequest& request);
   HttpResponse question(const HttpRequest& request) const;
   HttpResponse picture(const HttpRequest& request) const;
-  HttpResponse edit(const HttpRequest& request);
+  /// Rooms or labels.
+  HttpResponse change(const HttpRequest& request);
+  std::string editLabels(const std::vector<std::string>& words);
+  HttpResponse refusedBecause(const base::Error& error) const;
   HttpResponse events() const;
   std::string revisionEvent() const;
 
   ServedMap map_;
   StaticFiles files_;
   Access access_;
-  int announced_;  // revision of the last event
+  std::function<base::Stamp()> clock_;
+  map::LabelEdits labels_;  // of this map, for undo
+  int announced_;           // revision of the last event
 };
 
 }  // namespace omnimapper::server

@@ -1,11 +1,10 @@
-#include "LabelEdits.h"
-
 #include <omnimapper/base/Names.h>
+#include <omnimapper/map/LabelEdits.h>
 
 #include <algorithm>
 #include <charconv>
 
-namespace omnimapper::plugins {
+namespace omnimapper::map {
 
 namespace {
 
@@ -35,24 +34,23 @@ void LabelEdits::keep() {
   before_.push_back(labels_);
 }
 
-void LabelEdits::begin(const map::Labels& labels) {
+void LabelEdits::begin(const Labels& labels) {
   labels_ = labels;
 }
 
-void LabelEdits::add(map::Label label) {
+void LabelEdits::add(Label label) {
   keep();
   label.text = trimmed(label.text);
   labels_.question.reset();
   labels_.labels.push_back(std::move(label));
 }
 
-bool LabelEdits::has(const map::Label& label) const {
-  return std::any_of(labels_.labels.begin(), labels_.labels.end(), [&](const map::Label& each) {
-    return each.text == label.text && each.landmark == label.landmark;
-  });
+bool LabelEdits::has(const Label& label) const {
+  return std::any_of(labels_.labels.begin(), labels_.labels.end(),
+                     [&](const Label& each) { return each.text == label.text && each.landmark == label.landmark; });
 }
 
-void LabelEdits::ask(map::LabelQuestion question) {
+void LabelEdits::ask(LabelQuestion question) {
   question.text = trimmed(question.text);
   labels_.question = std::move(question);
 }
@@ -65,29 +63,31 @@ LabelEdits::Outcome LabelEdits::edit(const std::string& command) {
   const std::string text = trimmed(command);
   const auto blank = text.find(' ');
   const std::string verb = text.substr(0, blank), rest = blank == std::string::npos ? "" : trimmed(text.substr(blank));
-  if (verb == "rename") return rename(rest);
+  if (verb == "rename") {
+    const auto equals = rest.find(" = ");
+    if (equals == std::string::npos) return {false, "rename needs OLD = NEW"};
+    return rename(trimmed(rest.substr(0, equals)), rest.substr(equals + 3));
+  }
   if (verb == "delete") return remove(rest);
   if (verb == "choose") return choose(rest);
   if (verb == "undo" && rest.empty()) return undo();
   return {false, "no edit of labels: " + quoted(text)};
 }
 
-LabelEdits::Outcome LabelEdits::rename(const std::string& names) {
-  const auto equals = names.find(" = ");
-  if (equals == std::string::npos) return {false, "rename needs OLD = NEW"};
-  const std::string from = trimmed(names.substr(0, equals)), to = trimmed(names.substr(equals + 3));
+LabelEdits::Outcome LabelEdits::rename(const std::string& from, const std::string& name) {
+  const std::string to = trimmed(name);
   if (const auto why = whyNoLabel(to)) return {false, "the new label " + *why};
-  const auto isIt = [&](const map::Label& label) { return label.text == from; };
+  const auto isIt = [&](const Label& label) { return label.text == from; };
   if (std::none_of(labels_.labels.begin(), labels_.labels.end(), isIt))
     return {false, "there is no label " + quoted(from)};
   keep();
-  for (map::Label& label : labels_.labels)
+  for (Label& label : labels_.labels)
     if (isIt(label)) label.text = to;
   return {true, quoted(from) + " is " + quoted(to) + " now"};
 }
 
 LabelEdits::Outcome LabelEdits::remove(const std::string& name) {
-  const auto isIt = [&](const map::Label& label) { return label.text == name; };
+  const auto isIt = [&](const Label& label) { return label.text == name; };
   if (std::none_of(labels_.labels.begin(), labels_.labels.end(), isIt))
     return {false, "there is no label " + quoted(name)};
   keep();
@@ -98,7 +98,7 @@ LabelEdits::Outcome LabelEdits::remove(const std::string& name) {
 
 LabelEdits::Outcome LabelEdits::choose(const std::string& number) {
   if (!labels_.question) return {false, "there is no question"};
-  const map::LabelQuestion question = *labels_.question;
+  const LabelQuestion question = *labels_.question;
   std::size_t chosen = 0;
   const auto end = number.data() + number.size();
   const auto read = std::from_chars(number.data(), end, chosen);
@@ -116,4 +116,4 @@ LabelEdits::Outcome LabelEdits::undo() {
   return {true, "the last change is undone"};
 }
 
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::map

@@ -1,23 +1,22 @@
-#include "LabelledPlaces.h"
-
-#include <omnimapper/geometry/Conversions.h>
 #include <omnimapper/geometry/ConvexPolygon2.h>
 #include <omnimapper/geometry/centroid.h>
+#include <omnimapper/map/LabelledPlaces.h>
 
 #include <algorithm>
 #include <limits>
 #include <map>
 #include <set>
 #include <string>
+#include <variant>
 
-namespace omnimapper::derived {
+namespace omnimapper::map {
 
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-void addPoints(const map::Extent& extent, std::vector<Vector2d>& points) {
+void addPoints(const Extent& extent, std::vector<Vector2d>& points) {
   points.insert(points.end(), extent.points.begin(), extent.points.end());
   for (const auto& [from, to] : extent.lines) points.insert(points.end(), {from, to});
   for (const auto& outline : extent.outlines) points.insert(points.end(), outline.begin(), outline.end());
@@ -28,16 +27,16 @@ base::LandmarkId idOfNone(std::uint16_t session, std::size_t number) {
   return {session, std::numeric_limits<std::uint32_t>::max() - static_cast<std::uint32_t>(number)};
 }
 
-map::Place regionOf(const std::string& text, const std::vector<const map::Place*>& parts, std::size_t number) {
-  map::Place region;
+Place regionOf(const std::string& text, const std::vector<const Place*>& parts, std::size_t number) {
+  Place region;
   region.id = idOfNone(parts.front()->id.session, number);
-  region.kind = map::Labels::kRegion;
+  region.kind = Labels::kRegion;
   region.label = text;
   region.extent.bottom = std::numeric_limits<double>::infinity();
   region.extent.top = -region.extent.bottom;
   region.first_seen = parts.front()->first_seen;
   std::vector<Vector2d> points;
-  for (const map::Place* part : parts) {
+  for (const Place* part : parts) {
     addPoints(part->extent, points);
     region.extent.bottom = std::min(region.extent.bottom, part->extent.bottom);
     region.extent.top = std::max(region.extent.top, part->extent.top);
@@ -52,11 +51,10 @@ map::Place regionOf(const std::string& text, const std::vector<const map::Place*
   return region;
 }
 
-map::Place pointOf(const map::Label& label, const map::Map& map, std::size_t number) {
-  const Vector3d at = geometry::fromMrpt(map.keyFrame(label.frame).map_from_base) * label.in_frame;
-  map::Place place;
+Place pointOf(const Label& label, const Vector3d& at, std::size_t number) {
+  Place place;
   place.id = idOfNone(label.frame.session, number);
-  place.kind = map::Labels::kPlace;
+  place.kind = Labels::kPlace;
   place.label = label.text;
   place.position = at;
   place.extent.points = {at.head<2>()};
@@ -66,33 +64,54 @@ map::Place pointOf(const map::Label& label, const map::Map& map, std::size_t num
   return place;
 }
 
+bool isPart(base::LandmarkId id, const Place& place) {
+  for (const auto& property : place.properties) {
+    const auto* ids = std::get_if<std::string>(&property.value);
+    if (property.name != kParts || !ids) continue;
+    return (", " + *ids + ",").find(", " + toString(id) + ",") != std::string::npos;
+  }
+  return false;
+}
+
 }  // namespace
 
-void addLabels(const map::Map& map, std::vector<map::Place>& places) {
-  const auto* labels = map.layers.find<map::Labels>();
-  if (!labels) return;
+std::vector<Place>::iterator placeWithLandmark(std::vector<Place>& places, base::LandmarkId id) {
+  return std::find_if(places.begin(), places.end(),
+                      [&](const Place& place) { return place.id == id || isPart(id, place); });
+}
+
+void addLabels(const Labels& labels, const LabelAnchors& anchors, std::vector<Place>& places) {
   std::map<std::string, std::set<base::LandmarkId>> named;
-  std::vector<map::Place> added;
-  const auto placeOf = [&](base::LandmarkId id) {
-    return std::find_if(places.begin(), places.end(), [&](const map::Place& place) { return place.id == id; });
-  };
-  for (const map::Label& label : labels->labels) {
-    const auto id = label.landmark ? std::optional(map.landmark(*label.landmark).id) : std::nullopt;
-    if (id && placeOf(*id) != places.end())
-      named[label.text].insert(*id);
+  std::vector<Place> added;
+  for (const Label& label : labels.labels) {
+    const auto place = label.landmark ? placeWithLandmark(places, anchors.landmark(*label.landmark)) : places.end();
+    if (place != places.end())
+      named[label.text].insert(place->id);
     else
-      added.push_back(pointOf(label, map, added.size()));
+      added.push_back(pointOf(label, anchors.point(label), added.size()));
   }
   for (const auto& [text, landmarks] : named) {
     if (landmarks.size() == 1) {
-      placeOf(*landmarks.begin())->properties.push_back({"name", text});
+      placeWithLandmark(places, *landmarks.begin())->properties.push_back({kName, text});
       continue;
     }
-    std::vector<const map::Place*> parts;
-    for (const auto id : landmarks) parts.push_back(&*placeOf(id));
+    std::vector<const Place*> parts;
+    for (const auto id : landmarks) parts.push_back(&*placeWithLandmark(places, id));
     added.push_back(regionOf(text, parts, added.size()));
   }
   places.insert(places.end(), added.begin(), added.end());
 }
 
-}  // namespace omnimapper::derived
+void removeLabels(std::vector<Place>& places) {
+  const auto isOfLabel = [](const Place& place) {
+    return place.kind == Labels::kRegion || place.kind == Labels::kPlace;
+  };
+  places.erase(std::remove_if(places.begin(), places.end(), isOfLabel), places.end());
+  for (Place& place : places) {
+    auto& all = place.properties;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Property& each) { return each.name == kName; }),
+              all.end());
+  }
+}
+
+}  // namespace omnimapper::map
