@@ -1,6 +1,7 @@
 #include "EvalVerbs.h"
 
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/eval/FixedOffset.h>
 #include <omnimapper/eval/Report.h>
 #include <omnimapper/eval/TumFile.h>
 
@@ -21,14 +22,32 @@ int report(const Arguments& arguments, const Result& result, const Reference&...
   return 0;
 }
 
+// The clocks are compared between the poses of the reference, so it is interpolated.
+eval::Trajectory withoutOffset(const eval::Trajectory& estimate, const eval::Trajectory& reference,
+                               eval::PairingOptions& pairing) {
+  constexpr double kUsualGap = 0.2;  // [s]
+  if (pairing.longest_gap <= base::Duration(0)) pairing.longest_gap = base::durationFromSeconds(kUsualGap);
+  const auto offset = eval::fitFixedOffset(estimate, reference, pairing.longest_gap);
+  std::cout << eval::describe(offset);
+  return eval::withOffset(estimate, offset);
+}
+
 }  // namespace
+
+CLI::App* addOffset(CLI::App* verb, Arguments& arguments) {
+  verb->add_flag(
+      "--solve-offset", arguments.solves_offset,
+      "solve for one fixed pose of the reference's part on the body and one fixed offset of its clock, print "
+      "them, and judge the trajectory without them; for motion capture");
+  return verb;
+}
 
 int run(const std::string& verb, const Arguments& arguments) {
   if (verb == "map") return judgeMap(arguments);
   if (verb == "views") return judgeByViews(arguments);
   if (verb == "seen") return countSeen(arguments);
   if (verb == "objects") return judgeObjects(arguments);
-  const auto estimate = eval::readTrajectory(arguments.estimate);
+  auto estimate = eval::readTrajectory(arguments.estimate);
   const auto tolerance = base::durationFromSeconds(arguments.tolerance);
   if (verb == "relations") {
     eval::RelationOptions options{tolerance, {}};
@@ -37,9 +56,10 @@ int run(const std::string& verb, const Arguments& arguments) {
     return report(arguments, eval::relationError(estimate, eval::readRelations(arguments.reference), options));
   }
   const auto reference = eval::readTrajectory(arguments.reference);
-  const eval::PairingOptions pairing{tolerance, base::durationFromSeconds(arguments.interpolate),
-                                     eval::alignmentNamed(arguments.alignment)};
+  eval::PairingOptions pairing{tolerance, base::durationFromSeconds(arguments.interpolate),
+                               eval::alignmentNamed(arguments.alignment)};
   if (verb == "ate") {
+    if (arguments.solves_offset) estimate = withoutOffset(estimate, reference, pairing);
     const auto error = eval::absoluteTrajectoryError(estimate, reference, pairing);
     std::cerr << eval::hintsOn(error, pairing.alignment);
     return report(arguments, error, reference);

@@ -14,6 +14,7 @@ struct Arguments {
   double tolerance = 0.01, interpolate = 0;          // [s]
   std::vector<double> base_from_sensor = {0, 0, 0};  // x y [m] yaw [deg]
   std::string alignment = "none", unit = "frames";
+  bool solves_offset = false;         // in the verb "ate"
   std::string map_alignment = "se3";  // in the verbs "map", "views" and "objects"
   double delta = 1;
   std::string log;                // log that the verb "views" reads
@@ -26,6 +27,9 @@ struct Arguments {
 /// Runs the verb (ate, rpe, relations, map, views, seen or objects), prints and writes its result, and returns the exit
 /// code.
 int run(const std::string& verb, const Arguments& arguments);
+
+/// Adds --solve-offset to the verb ate, and returns the verb.
+CLI::App* addOffset(CLI::App* verb, Arguments& arguments);
 
 /// The verb map: compares the surfaces of a map with the true ones.
 int judgeMap(const Arguments& arguments);

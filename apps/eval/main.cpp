@@ -37,7 +37,7 @@ void addPairing(CLI::App* verb, Arguments& arguments) {
 int main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Measures the errors of a trajectory or a map against the truth.", "omnimapper-eval");
-  addPairing(addVerb(app, "ate", "absolute trajectory error", kPoses, arguments), arguments);
+  addPairing(addOffset(addVerb(app, "ate", "absolute trajectory error", kPoses, arguments), arguments), arguments);
   CLI::App* rpe = addVerb(app, "rpe", "relative pose error", kPoses, arguments);
   addPairing(rpe, arguments);
   rpe->add_option("--delta", arguments.delta, "span over which motion is compared; default 1");

@@ -39,8 +39,7 @@ void CameraObservations::keep(const std::string& topic, std::int64_t time, const
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 25;
   auto& pictures = pictures_[topic];
   pictures.emplace_back(time, message);
-  while (pictures.size() > 1 &&
-         (pictures.size() > kMost || pictures.size() * message.bytes.size() > kMostBytes))
+  while (pictures.size() > 1 && (pictures.size() > kMost || pictures.size() * message.bytes.size() > kMostBytes))
     pictures.pop_front();
 }
 

@@ -13,9 +13,9 @@ namespace omnimapper::ros {
 struct CameraUse {
   bool is_depth = false;
   mrpt::img::TCamera camera;
-  std::string frame;            ///< the optical frame: z ahead, x to the right
-  std::string picture;          ///< of depths: the topic of the pictures that belong to them; empty: none
-  std::string problem;          ///< why the images are left out; empty if they are used
+  std::string frame;              ///< the optical frame: z ahead, x to the right
+  std::string picture;            ///< of depths: the topic of the pictures that belong to them; empty: none
+  std::string problem;            ///< why the images are left out; empty if they are used
   bool is_part_of_depth = false;  ///< the pictures come with depths and not by themselves
 };
 

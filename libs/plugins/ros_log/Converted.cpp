@@ -30,6 +30,13 @@ double stepOf(const Value& message, std::size_t beams) {
   return beams > 1 ? field / static_cast<double>(beams - 1) : 0;
 }
 
+// A laser that states no limit has none.
+float farthestOf(const Value& message) {
+  constexpr float kNone = 10'000;  // [m]
+  const auto stated = static_cast<float>(message["range_max"].number());
+  return stated > 0 && stated < kNone ? stated : kNone;
+}
+
 std::uint8_t qualityOf(int status) {
   constexpr int kNoFix = -1, kPlain = 0;
   constexpr std::uint8_t kGgaNone = 0, kGgaPlain = 1, kGgaDifferential = 2;
@@ -69,7 +76,7 @@ Converted scanOf(const Value& message) {
   const std::size_t beams = ranges.size();
   const double step = stepOf(message, beams), span = step * static_cast<double>(beams > 0 ? beams - 1 : 0);
   const auto nearest = static_cast<float>(message["range_min"].number());
-  const auto farthest = static_cast<float>(message["range_max"].number());
+  const auto farthest = farthestOf(message);
   const bool are_echoes = ranges.isListOfMessages();
   auto scan = mrpt::obs::CObservation2DRangeScan::Create();
   scan->rightToLeft = step >= 0;

@@ -29,10 +29,6 @@ bool isMapFrame(const std::string& frame) {
 
 constexpr std::array<const char*, 3> kBaseFrames{"base_footprint", "base_link", "base"};
 
-bool isBaseFrame(const std::string& frame) {
-  return std::find(kBaseFrames.begin(), kBaseFrames.end(), frame) != kBaseFrames.end();
-}
-
 std::int64_t medianOf(std::vector<std::int64_t> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -57,6 +53,10 @@ const std::pair<const SensorKey, SeenSensor>* referenceOf(const Survey& survey) 
 }
 
 }  // namespace
+
+bool isBaseFrame(const std::string& frame) {
+  return std::find(kBaseFrames.begin(), kBaseFrames.end(), frame) != kBaseFrames.end();
+}
 
 Plan::Plan(const std::string& path, const Survey& survey, const RosLogOptions& options) : options_(options) {
   readLabels(path);

@@ -18,6 +18,9 @@ struct OdometrySource {
   bool isTransform() const { return topic.empty() && !child.empty(); }
 };
 
+/// Whether a frame has one of the names that bases usually have: base_footprint, base_link or base.
+bool isBaseFrame(const std::string& frame);
+
 /// What is taken from a log, and how.
 class Plan {
  public:

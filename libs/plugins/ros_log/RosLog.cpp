@@ -134,14 +134,22 @@ class RosLog::Stream {
     const Channel& channel = channels_[message.channel];
     const Header header = headerOf(value);
     const CameraUse* use = camera_plan_.use(channel.topic);
-    if (!use || !use->problem.empty()) return table_.leftOut(channel, use ? use->problem : "later than the survey of the log");
+    if (!use || !use->problem.empty())
+      return table_.leftOut(channel, use ? use->problem : "later than the survey of the log");
     const std::int64_t time = plan_.timeOf({channel.topic, header.frame}, header.time, message.time);
     if (use->is_part_of_depth) {
       cameras_.keep(channel.topic, time, message);
       return table_.taken(channel, "pictures of depths");
     }
-    buffer_.add({{nullptr, header.frame, {}}, {channel.topic, header.frame}, message.channel, Role::image, time,
-                 message.time, number_++, message.bytes.size(), message});
+    buffer_.add({{nullptr, header.frame, {}},
+                 {channel.topic, header.frame},
+                 message.channel,
+                 Role::image,
+                 time,
+                 message.time,
+                 number_++,
+                 message.bytes.size(),
+                 message});
   }
 
   void add(Converted measured, const std::string& frame, Role role, const Value& value, const Message& message) {
@@ -189,8 +197,7 @@ class RosLog::Stream {
   CObservation::Ptr finished(Waiting& waiting) {
     const Channel& channel = channels_[waiting.channel];
     try {
-      if (waiting.image)
-        waiting.measured = cameras_.make(channel.topic, waiting.time, *waiting.image, transforms_);
+      if (waiting.image) waiting.measured = cameras_.make(channel.topic, waiting.time, *waiting.image, transforms_);
     } catch (const BadBytes& bad) {
       decoder_.refuse(waiting.channel, bad.what());
       table_.leftOut(channel, std::string("a message that ") + bad.what());
@@ -216,10 +223,14 @@ class RosLog::Stream {
     geometry::Se3 base_from_frame;
     const std::string &base = plan_.baseFrame(), &frame = waiting.measured.frame;
     if (waiting.role != Role::pose && (base.empty() || frame != base)) {
-      if (!base.empty() && transforms_.connects(base, frame)) {
-        const auto found = transforms_.between(base, frame, waiting.time, kHeldBack);
-        if (!found) return "no transform from " + base + " to " + frame + " at that time";
+      const std::string root = transforms_.chainFrom(frame).back();
+      const bool is_connected = !base.empty() && transforms_.connects(base, frame);
+      if (is_connected || (frame != root && isBaseFrame(root))) {
+        const std::string& from = is_connected ? base : root;
+        const auto found = transforms_.between(from, frame, waiting.time, kHeldBack);
+        if (!found) return "no transform from " + from + " to " + frame + " at that time";
         base_from_frame = *found;
+        if (!is_connected) other_bases_.insert(root);
       } else {
         unmounted_.insert(waiting.sensor);
         const bool is_optical = waiting.role == Role::image || frame.find("optical") != std::string::npos;
@@ -265,12 +276,19 @@ class RosLog::Stream {
     for (const auto& file : files_.missing)
       report_.doubts.push_back(file + " is missing, although metadata.yaml lists it");
     noteUnmounted();
+    noteOtherBases();
     const Damage damage = reader_.damage();
     report_.ending = damage.what.empty() ? SourceReport::Ending::complete
                      : damage.is_cut     ? SourceReport::Ending::truncated
                                          : SourceReport::Ending::corrupt;
     if (!damage.what.empty())
       report_.message = damage.what + ". What can be read was read; copy or download the log again for the rest.";
+  }
+
+  void noteOtherBases() {
+    for (const auto& frame : other_bases_)
+      report_.notes.push_back("no transform connects " + frame + " with the base " + plan_.baseFrame() +
+                              "; they are taken to be the same");
   }
 
   // One sensor at a wrong place only moves the base; several contradict each other.
@@ -300,6 +318,7 @@ class RosLog::Stream {
   source::TruePoses truth_;
   std::map<SensorKey, std::int64_t> last_odometry_;  // time [ns since 1970]
   std::set<SensorKey> unmounted_;
+  std::set<std::string> other_bases_;
   std::uint64_t number_ = 0;
   std::int64_t pruned_ = 0;  // time of recording at which transforms were forgotten
   bool has_odometry_ = false;

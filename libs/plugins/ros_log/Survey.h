@@ -41,7 +41,7 @@ struct CalibratedCamera {
 struct Survey {
   std::map<SensorKey, SeenSensor> sensors;
   std::map<std::string, CalibratedCamera> cameras;  ///< by the topic of the CameraInfo
-  Transforms transforms;  ///< with the last transforms
+  Transforms transforms;                            ///< with the last transforms
   bool is_complete = false;
 
   /// Reads from the reader's first message, and rewinds it.

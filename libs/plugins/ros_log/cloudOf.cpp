@@ -50,8 +50,9 @@ Converted cloudOf(const Value& message) {
   const auto height = static_cast<std::size_t>(message["height"].integer());
   const std::string_view data = message["data"].bytes();
   if (message["is_bigendian"].integer() != 0) throw BadBytes("is a cloud with its bytes in the other order");
-  const bool fits = step > 0 && width <= data.size() / step &&
-                    (height <= 1 || (row_step >= width * step && height <= data.size() / std::max<std::size_t>(1, row_step)));
+  const bool fits =
+      step > 0 && width <= data.size() / step &&
+      (height <= 1 || (row_step >= width * step && height <= data.size() / std::max<std::size_t>(1, row_step)));
   if (!fits) throw BadBytes("is a cloud whose size does not fit its data");
   const Value& fields = message["fields"];
   const auto x = coordinateCalled("x", fields, step), y = coordinateCalled("y", fields, step),

@@ -58,8 +58,9 @@ std::string knownFolder(const std::string& path) {
   if (look.has(kLocalizationFile))
     return "is the folder of a run with --localize, neither a log nor a map; the map is in the folder that was given "
            "to --localize.";
-  if (const auto log = look.firstEnding(".rawlog"); !log.empty())
-    return "is a folder; a log in it is " + (std::filesystem::path(path) / log).string() + ".";
+  for (const char* ending : {".rawlog", ".bag"})
+    if (const auto log = look.firstEnding(ending); !log.empty())
+      return "is a folder; a log in it is " + (std::filesystem::path(path) / log).string() + ".";
   return recognized(look);
 }
 

@@ -136,7 +136,8 @@ TEST_F(RosCamera, imagesWithoutCalibrationAreLeftOutAndNamed) {
 TEST_F(RosCamera, compressedImagesAreRead) {
   const cv::Mat values = (cv::Mat_<std::uint16_t>(2, 3) << 1000, 2000, 0, 1, 2, 3);
   info("/depth/camera_info", "optical", 500);
-  compressed("/depth/image/compressedDepth", "optical", 1, "16UC1; compressedDepth png", std::string(12, '\0') + png(values));
+  compressed("/depth/image/compressedDepth", "optical", 1, "16UC1; compressedDepth png",
+             std::string(12, '\0') + png(values));
   info("/rgb/camera_info", "other", 500);
   compressed("/rgb/image/compressed", "other", 1, "rgb8; png", png(cv::Mat(2, 3, CV_8UC3, cv::Scalar(1, 2, 3))));
   compressed("/rgb/image/compressed", "other", 2, "rgb8; png", "no PNG");
@@ -159,7 +160,8 @@ TEST_F(RosCamera, aCloudHasItsFinitePoints) {
   out.header(stamp(1), "lidar").uint(1, 4).uint(2, 4).uint(3, 4);
   const char* names[] = {"x", "y", "z"};
   for (std::uint64_t i = 0; i < 3; ++i) out.text(names[i]).uint(4 * i, 4).uint(7, 1).uint(1, 4);
-  const std::string data = Serializer(false).real32(1).real32(2).real32(3).real32(std::nanf("")).real32(0).real32(0).bytes();
+  const std::string data =
+      Serializer(false).real32(1).real32(2).real32(3).real32(std::nanf("")).real32(0).real32(0).bytes();
   out.uint(0, 1).uint(12, 4).uint(24, 4).uint(data.size(), 4).raw(data).uint(1, 1);
   mount("base_link", "lidar", {0, 0, 2, 0, 0, 0, 1});
   add("/points", "sensor_msgs/PointCloud2", 1, out.bytes());

@@ -111,6 +111,30 @@ TEST_F(RosLogOf, rangesWithoutEchoAndInvalidOnesAreTold) {
   EXPECT_EQ(scans[0]->maxRange, 10);
 }
 
+TEST_F(RosLogOf, aLaserWithoutALimitHasEchoesAtAnyRange) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float stated : {0.F, infinity, -1.F}) {
+    messages_.clear();
+    scan(1, {-1, 1, 0.1F, stated, {1, 40, infinity}});
+    const auto scans = readAs<CObservation2DRangeScan>();
+    ASSERT_EQ(scans.size(), 1u);
+    EXPECT_EQ(scans[0]->getScanRange(1), 40);
+    EXPECT_LT(scans[0]->getScanRange(1), scans[0]->maxRange);
+    EXPECT_EQ(scans[0]->getScanRange(2), scans[0]->maxRange);
+  }
+}
+
+TEST_F(RosLogOf, sensorsOnAnotherBaseThatNothingConnectsAreOnTheBase) {
+  odometry(1, "base_footprint", kHere);
+  transform(1, "odom", "base_footprint", kHere, kTf);
+  transform(0, "base_link", "laser", {0.3, 0, 0, 0, 0, 0, 1});
+  scan(1.1);
+  const auto scans = readAs<CObservation2DRangeScan>();
+  ASSERT_EQ(scans.size(), 1u);
+  EXPECT_NEAR(scans[0]->sensorPose.x(), 0.3, 1e-9);
+  EXPECT_TRUE(says(report_.notes, "no transform connects base_link with the base base_footprint"));
+}
+
 // Where the beam `index` ends in the frame of the base.
 Eigen::Vector3d endOf(const CObservation2DRangeScan& scan, std::size_t index) {
   const double sign = scan.rightToLeft ? 1 : -1;
@@ -215,7 +239,8 @@ TEST_F(RosLogOf, theTableNamesWhatIsLeftOutAndWhy) {
   add(kScan, 3, "too short");
   read();
   EXPECT_TRUE(says(report_.notes, "/thing (my_msgs/Thing): 1 message; left out: a type that is not used"));
-  EXPECT_TRUE(says(report_.notes, "/scan (sensor_msgs/LaserScan): 2 messages; scan: 1; left out: 1, a message that ends too early"));
+  EXPECT_TRUE(says(report_.notes,
+                   "/scan (sensor_msgs/LaserScan): 2 messages; scan: 1; left out: 1, a message that ends too early"));
   EXPECT_EQ(report_.other_objects.at("my_msgs/Thing"), 1u);
 }
 

@@ -22,8 +22,8 @@ constexpr std::int64_t kStart = 1'600'000'000'000'000'000, kStep = 50'000'000;
 const std::vector<Topic>& topics() {
   static const std::vector<Topic> all = [] {
     std::vector<Topic> made;
-    for (const char* type : {"sensor_msgs/LaserScan", "nav_msgs/Odometry", "tf2_msgs/TFMessage", "sensor_msgs/CameraInfo",
-                             "sensor_msgs/Image"})
+    for (const char* type : {"sensor_msgs/LaserScan", "nav_msgs/Odometry", "tf2_msgs/TFMessage",
+                             "sensor_msgs/CameraInfo", "sensor_msgs/Image"})
       made.push_back({std::string("/camera/") + (type + std::string(type).find('/') + 1), type, usualDefinition(type)});
     made[3].name = "/camera/camera_info";
     return made;
