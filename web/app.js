@@ -57,10 +57,11 @@ function again(chosen) {
 // `isOwn`: after a change of this page; a change of another page must not take away what is being typed.
 async function load(isOwn = false) {
   map = await server.mapDocument();
-  const [walk, image, mayChange] = await Promise.all([
-    server.trajectory(), map.grid ? server.gridImage(map.revision) : null, server.mayChange()]);
+  const [walk, image, rights] = await Promise.all([
+    server.trajectory(), map.grid ? server.gridImage(map.revision) : null, server.rights()]);
   plan.show(map, image, walk);
-  panel.take(map, mayChange);
+  panel.take(map, rights);
+  byId('stop').hidden = !rights.may_drive;
   paintLayers(byId('toggles'), map, plan);
   byId('list').replaceChildren(listOf(map, (chosen) => choose(chosen, null, true)));
   plan.choose(again(plan.chosen));
@@ -83,6 +84,7 @@ byId('search').addEventListener('submit', (event) => {
   event.preventDefault();
   find(byId('question').value.trim());
 });
+byId('stop').addEventListener('click', () => panel.carryOut(['stop'], server.stop));
 byId('closer').addEventListener('click', () => plan.zoom(1.4));
 byId('farther').addEventListener('click', () => plan.zoom(1 / 1.4));
 byId('all').addEventListener('click', () => plan.showAll());

@@ -1,8 +1,9 @@
 // What is known of the thing that was touched, the answer to a question, and what can be changed.
 import { button, element, field } from './elements.js';
+import { goThere } from './goals.js';
 import { labelsOf, spotLabels } from './labels.js';
 import { row } from './list.js';
-import { keyText, nameOf, valueText } from './names.js';
+import { isName, keyText, nameOf, valueText } from './names.js';
 import { pictureAddress } from './server.js';
 
 const percent = (share) => `${Math.round(share * 100)} %`;
@@ -16,14 +17,16 @@ export class Panel {
     this.box = box;
     this.actions = actions;
     this.map = null;
-    this.mayChange = false;
+    this.mayChange = this.mayDrive = false;
     this.isAnswer = false; // it shows the answer to a question
     this.pending = null; // {verb, room or points} of a change that needs another touch
   }
 
-  take(map, mayChange) {
+  /** `rights` as server.rights() has them. */
+  take(map, rights) {
     this.map = map;
-    this.mayChange = mayChange;
+    this.mayChange = rights.may_change;
+    this.mayDrive = rights.may_drive;
   }
 
   show(chosen, point) {
@@ -34,7 +37,18 @@ export class Panel {
       ? spotLabels(point, this.map, (words) => this.label(words)) : [];
     if (!chosen) return this.fill(element('p', 'Touch a room or a thing to see what it is.', 'note'), ...spot);
     const parts = { room: () => this.room(chosen.item), door: () => this.door(chosen.item), place: () => this.place(chosen.item) };
-    this.fill(element('h2', nameOf(chosen.kind, chosen.item)), ...parts[chosen.kind](), ...spot);
+    this.fill(element('h2', nameOf(chosen.kind, chosen.item)), ...this.goal(chosen), ...parts[chosen.kind](), ...spot);
+  }
+
+  goal({ kind, item }) {
+    if (!this.mayDrive || kind === 'door') return [];
+    const buttons = element('div', undefined, 'row');
+    buttons.append(goThere(kind === 'place' && isName(item) ? item.label : item.id, nameOf(kind, item), {
+      show: (...parts) => this.fill(...parts),
+      showPath: this.actions.showPath,
+      carryOut: (words, act) => this.carryOut(words, act),
+    }));
+    return [buttons];
   }
 
   /** Shows the thing again, as it is in a map that was read again. What came of the last change stays. */
@@ -211,6 +225,7 @@ export class Panel {
       const done = element('div', await act(), 'done');
       done.setAttribute('role', 'status');
       done.append(...buttons);
+      heard.remove();
       this.box.prepend(done);
     } catch (error) {
       heard.replaceWith(element('p', error.message, 'bad'));

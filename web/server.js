@@ -13,7 +13,8 @@ async function ask(address, options) {
 
 export const mapDocument = async () => (await ask('api/map')).json();
 export const trajectory = async () => (await ask('api/trajectory')).json();
-export const mayChange = async () => (await (await ask('api/me')).json()).may_change;
+/** What this page may do: may_change the map, may_drive the robot of a live run. */
+export const rights = async () => (await ask('api/me')).json();
 export const question = async (text) => (await ask('api/query?q=' + encodeURIComponent(text))).json();
 export const pictureAddress = (id) => 'api/picture?id=' + encodeURIComponent(id);
 
@@ -25,18 +26,25 @@ export async function gridImage(revision) {
   return image;
 }
 
-async function change(address, words) {
+async function post(address, words) {
   const answer = await ask(address, {
     method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ words }),
   });
-  return (await answer.json()).done;
+  return answer.json();
 }
+
+const change = async (address, words) => (await post(address, words)).done;
 
 /** Changes rooms; `words` as omnimapper-rooms MAP edit takes them. What was done, in words. */
 export const edit = (words) => change('api/edit', words);
 
 /** Changes names: name ID TEXT, name X Y TEXT, rename OLD NEW, delete TEXT, undo. What was done, in words. */
 export const label = (words) => change('api/label', words);
+
+/** What lets one command to go somewhere through, within a minute. */
+export const ticket = async () => (await post('api/ticket', [])).ticket;
+export const goTo = (goal, ofTicket) => change('api/go', [goal, ofTicket]);
+export const stop = () => change('api/stop', []);
 
 /** Calls `onRevision` with the number of each map that the server reads, and `onLost` while it is not reached. */
 export function listen(onRevision, onLost) {

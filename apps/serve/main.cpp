@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "program/Program.h"
@@ -18,7 +20,7 @@ namespace {
 using namespace omnimapper;
 
 struct Arguments {
-  std::string map, address = "127.0.0.1", page;
+  std::string map, address = "127.0.0.1", commands;
   std::vector<std::string> hosts;
   std::uint16_t port = 8080;
   bool is_read_only = false, quiet = false;
@@ -33,6 +35,9 @@ void addOptions(CLI::App& app, Arguments& arguments) {
                  "encryption");
   app.add_option("--host", arguments.hosts,
                  "further name under which the page is reached, with its port: that of a reverse proxy which encrypts");
+  app.add_option("--commands", arguments.commands,
+                 "table to which goals, stop and names for a live run are appended; the run reads it by the driver "
+                 "CCommandFile");
   app.add_flag("--read-only", arguments.is_read_only, "the page cannot change the map");
   app.add_flag("-q,--quiet", arguments.quiet, "print nothing but errors");
   app.footer(
@@ -49,14 +54,6 @@ void refuseOtherMachines(const std::string& address) {
                         "there; see doc/security.md");
 }
 
-std::vector<std::string> hostsOf(const Arguments& arguments, std::uint16_t port) {
-  const bool is_ip6 = arguments.address.find(':') != std::string::npos;
-  const std::string own = is_ip6 ? "[" + arguments.address + "]" : arguments.address;
-  std::vector<std::string> hosts{own + ":" + std::to_string(port), "localhost:" + std::to_string(port)};
-  hosts.insert(hosts.end(), arguments.hosts.begin(), arguments.hosts.end());
-  return hosts;
-}
-
 int serve(const Arguments& arguments) {
   program::listenForInterrupts();
   program::nothingIsLeftToDo();
@@ -67,10 +64,14 @@ int serve(const Arguments& arguments) {
   server::MapSite* answering = nullptr;
   server::HttpServer http(arguments.address, arguments.port, {},
                           [&](const server::HttpRequest& request) { return answering->answer(request); });
-  const auto hosts = hostsOf(arguments, http.port());
+  auto hosts = server::hostsAt(arguments.address, http.port());
+  hosts.insert(hosts.end(), arguments.hosts.begin(), arguments.hosts.end());
+  std::optional<server::RunCommands> commands;
+  if (!arguments.commands.empty()) commands.emplace(arguments.commands);
   // Without the token, which then nobody is told, nothing can be changed.
-  server::MapSite site(std::move(map), std::move(files), server::Access(hosts, token),
-                       [] { return mrpt::Clock::now(); });
+  server::MapSite site(
+      std::move(map), std::move(files), server::Access(hosts, token), [] { return mrpt::Clock::now(); },
+      std::move(commands));
   answering = &site;
   const std::string start = arguments.is_read_only ? "/" : "/enter?token=" + token;
   if (!arguments.quiet)

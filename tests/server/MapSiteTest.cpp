@@ -1,4 +1,7 @@
+#include <omnimapper/obs/CommandTable.h>
+
 #include <filesystem>
+#include <fstream>
 
 #include "../query/MapWithFrames.h"
 #include "omnimapper/server/MapSite.h"
@@ -122,6 +125,78 @@ TEST_F(MapSiteTest, AThingIsNamedAndAllPagesAreTold) {
   HttpRequest of_a_stranger = change("/api/label", {"name", "0:2", "mine"});
   of_a_stranger.cookie.clear();
   EXPECT_EQ(served.answer(of_a_stranger).status, 401);
+}
+
+TEST_F(MapSiteTest, ALiveRunIsToldWhereToGoOnceAndToStopAtOnce) {
+  EXPECT_EQ(site().answer(change("/api/stop", json::array())).status, 404) << "no run takes commands";
+  double now = 1700000000;
+  const std::string file = folder_ / "commands.csv";
+  MapSite served(
+      ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+      [&] { return base::stampFromUnix(now); }, RunCommands(file));
+  const auto ticket = [&] {
+    return json::parse(served.answer(change("/api/ticket", json::array())).body)["ticket"].get<std::string>();
+  };
+  const auto go = [&](const json& words) { return served.answer(change("/api/go", words)).status; };
+  const std::string first = ticket();
+  EXPECT_EQ(go({"a table, \"red\"", first}), 200);
+  EXPECT_EQ(go({"kitchen", first}), 400) << "a ticket is used once";
+  const std::string late = ticket();
+  now += 61;
+  EXPECT_EQ(go({"kitchen", late}), 400) << "a ticket is valid for a minute";
+  EXPECT_EQ(go({"kitchen", "guessed"}), 400);
+  EXPECT_EQ(go({"kitchen"}), 400);
+  EXPECT_EQ(go({"", ticket()}), 400);
+  EXPECT_EQ(served.answer(change("/api/stop", json::array())).status, 200);
+  HttpRequest of_a_stranger = change("/api/stop", json::array());
+  of_a_stranger.cookie.clear();
+  EXPECT_EQ(served.answer(of_a_stranger).status, 401);
+
+  const base::CsvTable table(file);
+  ASSERT_EQ(table.size(), 2U);
+  const auto goal = obs::commandIn(table, 0), stop = obs::commandIn(table, 1);
+  EXPECT_EQ(goal.kind, obs::CommandKind::go_to);
+  EXPECT_EQ(goal.text, "a table, \"red\"");
+  EXPECT_EQ(goal.origin, "page");
+  EXPECT_EQ(goal.expiry, RunCommands::kDriveExpiry);
+  EXPECT_EQ(goal.timestamp, base::stampFromUnix(1700000000));
+  EXPECT_EQ(stop.kind, obs::CommandKind::stop);
+}
+
+TEST_F(MapSiteTest, NamesForAMapThatIsStillMadeAreCommands) {
+  std::filesystem::rename(map_.file, folder_ / "checkpoint.omnimap");
+  const std::string file = folder_ / "commands.csv";
+  MapSite served(
+      ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+      [] { return base::stampFromUnix(1700000000); }, RunCommands(file));
+  for (const auto& words : {json{"name", "0:2", "bed"}, json{"rename", "bed", "couch"}, json{"delete", "couch"}})
+    EXPECT_EQ(served.answer(change("/api/label", words)).status, 200) << words;
+  for (const auto& words : {json{"name", "1", "2", "spot"}, json{"name", "bed", "x"}, json{"rename", "a = b", "c"}})
+    EXPECT_EQ(served.answer(change("/api/label", words)).status, 400) << words;
+  const base::CsvTable table(file);
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_EQ(obs::commandIn(table, 0).text, "name 0:2 = bed");
+  EXPECT_EQ(obs::commandIn(table, 1).text, "rename bed = couch");
+  EXPECT_LT(obs::commandIn(table, 0).timestamp, obs::commandIn(table, 1).timestamp) << "no two have one stamp";
+}
+
+TEST_F(MapSiteTest, ALineThatWasCutOffSpoilsNoOther) {
+  const std::string file = folder_ / "commands.csv";
+  query::putFile(file, std::string(obs::kCommandColumns) + "\n170000");
+  CommandFile commands(file);
+  obs::CObservationCommand stop;
+  stop.timestamp = base::stampFromUnix(1700000000);
+  stop.kind = obs::CommandKind::stop;
+  commands.append(stop);
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  std::getline(in, line);
+  EXPECT_EQ(line, "170000");
+  std::getline(in, line);
+  EXPECT_EQ(line, "1700000000.0000000,stop,,any,,0.000,0.0000,0.0000,0.0000");
+  std::filesystem::create_symlink(file, folder_ / "link.csv");
+  EXPECT_THROW(CommandFile(folder_ / "link.csv").append(stop), base::Error) << "a link is not followed";
 }
 
 TEST_F(MapSiteTest, WhatCannotBeReadIsNamedWithoutWhereItIs) {

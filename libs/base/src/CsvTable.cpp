@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <istream>
 
 namespace omnimapper::base {
 
@@ -32,14 +33,22 @@ std::vector<std::string> fieldsOf(const std::string& line) {
 
 CsvTable::CsvTable(const std::string& path, const std::string& kind) : path_(path) {
   auto in = openInput(path, kind);
+  read(in);
+}
+
+CsvTable::CsvTable(std::istream& content, const std::string& path) : path_(path) {
+  read(content);
+}
+
+void CsvTable::read(std::istream& in) {
   std::string line;
   if (!std::getline(in, line))
-    throw Error(ExitCode::unreadable_input, path + ": is empty; its first line must name the columns");
+    throw Error(ExitCode::unreadable_input, path_ + ": is empty; its first line must name the columns");
   const auto names = fieldsOf(line);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!columns_.emplace(names[i], i).second) {
       throw Error(ExitCode::unreadable_input,
-                  path + ":1: names the column '" + printable(names[i]) + "' twice; leave one out");
+                  path_ + ":1: names the column '" + printable(names[i]) + "' twice; leave one out");
     }
   }
   while (std::getline(in, line)) {

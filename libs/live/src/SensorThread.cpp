@@ -87,6 +87,7 @@ struct SensorThread::Shared {
       metrics.state = State::working;
       last_arrival = Clock::now();
     }
+    metrics.sends_on_request = driver.sendsOnRequest();
     was_open = true;
     changed.notify_all();
   }
@@ -251,7 +252,8 @@ std::vector<std::string> SensorThread::takeNews() {
   const std::lock_guard lock(shared_->mutex);
   const double silence = secondsSince(shared_->last_arrival);
   const double patience = std::max(shared_->options.silent_after, 2 * shared_->longestGap());
-  if (shared_->metrics.state == State::working && silence > patience && !shared_->ended) {
+  const bool may_be_silent = shared_->metrics.sends_on_request || shared_->ended;
+  if (shared_->metrics.state == State::working && silence > patience && !may_be_silent) {
     shared_->metrics.state = State::silent;
     ++shared_->metrics.losses;
     shared_->addNews("is silent: it has sent nothing for " + inSeconds(silence));

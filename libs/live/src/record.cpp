@@ -61,7 +61,7 @@ std::vector<std::string> troublesOf(const Recorded& recorded) {
   std::vector<std::string> all;
   for (const auto& sensor : recorded.sensors) {
     std::string trouble;
-    if (sensor.observations == 0) {
+    if (sensor.observations == 0 && !sensor.sends_on_request) {
       trouble = "sent nothing that can be used";
     } else if (sensor.state != SensorMetrics::State::working) {
       trouble = "is " + toString(sensor.state);

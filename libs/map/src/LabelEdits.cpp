@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
 
 namespace omnimapper::map {
 
@@ -26,6 +27,28 @@ std::optional<std::string> whyNoLabel(const std::string& text) {
   if (trimmed(text).empty()) return "is empty";
   if (base::printable(text) != text) return "has control characters or is not UTF-8";
   return std::nullopt;
+}
+
+std::optional<NamedLandmark> namedLandmark(const std::string& command) {
+  std::istringstream in(command);
+  std::string verb, equals, text;
+  char colon = 0;
+  NamedLandmark named;
+  if (!(in >> verb >> named.id.session >> colon >> named.id.index >> equals) || !std::getline(in, text))
+    return std::nullopt;
+  if (verb != "name" || colon != ':' || equals != "=") return std::nullopt;
+  named.text = trimmed(text);
+  return named;
+}
+
+std::string LabelEdits::commandOf(const std::vector<std::string>& words) {
+  const std::string verb = words.empty() ? "" : words.front();
+  if (verb == "undo" && words.size() == 1) return verb;
+  if (verb == "delete" && words.size() == 2) return verb + " " + words[1];
+  if (verb == "rename" && words.size() == 3 && words[1].find(" = ") == std::string::npos)
+    return verb + " " + words[1] + " = " + words[2];
+  const std::string command = verb == "name" && words.size() == 3 ? verb + " " + words[1] + " = " + words[2] : "";
+  return namedLandmark(command) ? command : "";
 }
 
 void LabelEdits::keep() {

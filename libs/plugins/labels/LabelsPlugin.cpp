@@ -7,6 +7,7 @@
 #include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/geometry/Conversions.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "LabelCandidates.h"
@@ -126,10 +127,28 @@ void LabelsPlugin::keep(const map::Labels& before, mapper::Batch& batch) const {
 void LabelsPlugin::take(const CObservationCommand& command, const mapper::Watched& watched, const mapper::View& view,
                         mapper::Batch& batch) {
   if (command.kind == obs::CommandKind::label) return takeLabel(command, watched, view, batch);
+  if (const auto named = map::namedLandmark(command.text)) return name(*named, command, watched, view, batch);
   const bool was_asked = edits_.now().question.has_value();
   const auto outcome = edits_.edit(command.text);
   if (was_asked && !edits_.now().question) request_.reset();  // answered
   log(watched.pose->frame, command.timestamp, outcome.is_done, outcome.text, batch);
+}
+
+// Who touches a thing on a page needs no gesture.
+void LabelsPlugin::name(const map::NamedLandmark& named, const CObservationCommand& command,
+                        const mapper::Watched& watched, const mapper::View& view, mapper::Batch& batch) {
+  const base::KeyFrameId frame = watched.pose->frame;
+  const auto refuseIt = [&](const std::string& why) { log(frame, command.timestamp, false, why, batch); };
+  if (const auto why = map::whyNoLabel(named.text)) return refuseIt("the label " + shown(named.text) + " " + *why);
+  const auto all = labelCandidates(view, obs::CommandSubject::any);
+  const auto found = std::find(all.landmarks.begin(), all.landmarks.end(), named.id);
+  if (found == all.landmarks.end()) return refuseIt("there is no landmark " + toString(named.id) + " to be named");
+  const auto& candidate = all.candidates[static_cast<std::size_t>(found - all.landmarks.begin())];
+  const Eigen::Vector3d point = inverse(poseOf(view.map.keyFrame(frame))) * middleOf(candidate);
+  map::Label label{named.text, named.id, frame, point, base::printable(command.origin), command.timestamp, 1};
+  if (edits_.has(label)) return refuseIt("it is called " + shown(named.text) + " already");
+  edits_.add(std::move(label));
+  log(frame, command.timestamp, true, shown(named.text) + " is landmark " + toString(named.id), batch);
 }
 
 void LabelsPlugin::takeLabel(const CObservationCommand& command, const mapper::Watched& watched,

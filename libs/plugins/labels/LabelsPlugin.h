@@ -67,6 +67,8 @@ class LabelsPlugin : public mapper::MeasurementPlugin, public mapper::WatchesObs
   };
   void take(const obs::CObservationCommand& command, const mapper::Watched& watched, const mapper::View& view,
             mapper::Batch& batch);
+  void name(const map::NamedLandmark& named, const obs::CObservationCommand& command, const mapper::Watched& watched,
+            const mapper::View& view, mapper::Batch& batch);
   void takeLabel(const obs::CObservationCommand& command, const mapper::Watched& watched, const mapper::View& view,
                  mapper::Batch& batch);
   void look(const mapper::Watched& watched, const mapper::View& view, mapper::Batch& batch);

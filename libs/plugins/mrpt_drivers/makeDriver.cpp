@@ -43,6 +43,7 @@ class MrptDriver : public live::SensorDriver {
   std::uint64_t leftOut() const override { return checked_ ? checked_->leftOut() : 0; }
   std::string leftOutByReason() const override { return checked_ ? checked_->leftOutByReason() : ""; }
   bool waitsForOthers() const override { return checked_ && checked_->waitsForOthers(); }
+  bool sendsOnRequest() const override { return checked_ && checked_->sendsOnRequest(); }
 
  private:
   CGenericSensor::Ptr sensor_;

@@ -1,5 +1,6 @@
 #include <omnimapper/base/AtLoad.h>
 #include <omnimapper/drivers/CCheckedHokuyo.h>
+#include <omnimapper/drivers/CCommandFile.h>
 #include <omnimapper/drivers/COdometryLines.h>
 
 namespace omnimapper::drivers {
@@ -8,6 +9,7 @@ namespace {
 
 const base::AtLoad kRegister([] {
   CCheckedHokuyo::doRegister();
+  CCommandFile::doRegister();
   COdometryLines::doRegister();
 });
 

@@ -85,6 +85,12 @@ void Access::protect(HttpResponse& response) {
   for (const auto& [name, value] : fields) response.fields.emplace_back(name, value);
 }
 
+std::vector<std::string> hostsAt(const std::string& address, std::uint16_t port) {
+  const bool is_ip6 = address.find(':') != std::string::npos;
+  const std::string own = is_ip6 ? "[" + address + "]" : address;
+  return {own + ":" + std::to_string(port), "localhost:" + std::to_string(port)};
+}
+
 std::string randomToken() {
   std::array<unsigned char, 16> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))

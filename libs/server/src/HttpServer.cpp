@@ -63,7 +63,9 @@ class HttpServer::Connections : public HttpHost {
   const HttpLimits& limits() const override { return limits_; }
 
   HttpResponse answer(const HttpRequest& request) override {
-    if (!rate_.take()) return refusal(429, "There are too many requests; wait a second.");
+    // Who wants a robot to stop is always heard.
+    if (request.path != "/api/stop" && !rate_.take())
+      return refusal(429, "There are too many requests; wait a second.");
     return handler_(request);
   }
 

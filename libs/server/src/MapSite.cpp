@@ -60,11 +60,13 @@ std::vector<std::string> changeWords(const std::string& body) {
 
 }  // namespace
 
-MapSite::MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock)
+MapSite::MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock,
+                 std::optional<RunCommands> commands)
     : map_(std::move(map)),
       files_(std::move(files)),
       access_(std::move(access)),
       clock_(std::move(clock)),
+      commands_(std::move(commands)),
       announced_(map_.revision()) {}
 
 HttpResponse MapSite::answer(const HttpRequest& request) {
@@ -99,7 +101,7 @@ HttpResponse MapSite::answerAllowed(const HttpRequest& request) {
   if (request.path == "/api/query") return question(request);
   if (request.path == "/api/picture") return picture(request);
   if (request.path == "/api/events") return events();
-  if (request.path == "/api/me") return jsonAnswer(dumped({{"may_change", access_.mayChange(request)}}));
+  if (request.path == "/api/me") return me(request);
   if (request.path == "/api/grid" && !map_.gridPng().empty()) return {200, "image/png", map_.gridPng()};
   return refusal(404, "There is nothing at this address.");
 }
@@ -119,6 +121,11 @@ HttpResponse MapSite::question(const HttpRequest& request) const {
       {{"is_found", answer.code == base::ExitCode::ok}, {"text", answer.text}, {"answer", std::move(document)}}));
 }
 
+HttpResponse MapSite::me(const HttpRequest& request) const {
+  const bool may_change = access_.mayChange(request);
+  return jsonAnswer(dumped({{"may_change", may_change}, {"may_drive", may_change && commands_}}));
+}
+
 HttpResponse MapSite::picture(const HttpRequest& request) const {
   const auto id = request.values.find("id");
   const auto bytes = id == request.values.end() ? std::nullopt : map_.pictureOf(id->second);
@@ -127,7 +134,25 @@ HttpResponse MapSite::picture(const HttpRequest& request) const {
 }
 
 std::string MapSite::editLabels(const std::vector<std::string>& words) {
-  return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
+  const bool is_live = map_.map().file != map_.map().folder + "/map.omnimap";
+  if (!is_live || !commands_) return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
+  commands_->label(words, clock_());
+  return "the run was told; the name is in the map with its next checkpoint";
+}
+
+std::string MapSite::goTo(const std::vector<std::string>& words) {
+  if (words.size() != 2) throw base::Error(base::ExitCode::command_line, "going needs a goal and a ticket");
+  commands_->goTo(words[0], words[1], clock_());
+  return "the run was told to go to '" + words[0] + "'";
+}
+
+std::string MapSite::stop() {
+  commands_->stop(clock_());
+  return "the run was told to stop";
+}
+
+HttpResponse MapSite::ticket() {
+  return jsonAnswer(dumped({{"ticket", commands_->ticket(clock_())}}));
 }
 
 HttpResponse MapSite::change(const HttpRequest& request) {
@@ -136,6 +161,12 @@ HttpResponse MapSite::change(const HttpRequest& request) {
     done = query::editRooms(map_.map().folder, changeWords(request.body));
   else if (request.path == "/api/label")
     done = editLabels(changeWords(request.body));
+  else if (commands_ && request.path == "/api/ticket")
+    return ticket();
+  else if (commands_ && request.path == "/api/go")
+    done = goTo(changeWords(request.body));
+  else if (commands_ && request.path == "/api/stop")
+    done = stop();
   else
     return refusal(404, "Nothing at this address can be changed.");
   map_.update(warning);

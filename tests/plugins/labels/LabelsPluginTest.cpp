@@ -202,6 +202,22 @@ TEST(LabelsPlugin, ofTwoWhoPointTheOneInControlCounts) {
   EXPECT_EQ(tour.labels().labels[0].landmark, tour.far_cup);
 }
 
+TEST(LabelsPlugin, whatIsTouchedOnAPageIsNamedWithoutAGesture) {
+  Tour tour;
+  tour.edit("name " + toString(tour.table) + " = kitchen = table");
+  ASSERT_EQ(tour.labels().labels.size(), 1u) << tour.lastReason();
+  EXPECT_EQ(tour.labels().labels[0].text, "kitchen = table");
+  EXPECT_EQ(tour.labels().labels[0].landmark, tour.table);
+  EXPECT_EQ(tour.labels().labels[0].probability, 1);
+  tour.edit("name " + toString(tour.table) + " = kitchen = table");
+  EXPECT_TRUE(contains(tour.lastReason(), "already"));
+  tour.edit("name 0:9999 = x");
+  EXPECT_EQ(tour.lastReason(), "there is no landmark 0:9999 to be named");
+  tour.edit("name " + toString(tour.table) + " =  ");
+  EXPECT_TRUE(contains(tour.lastReason(), "is empty"));
+  EXPECT_EQ(tour.labels().labels.size(), 1u);
+}
+
 TEST(LabelsPlugin, editsRenameDeleteAndUndo) {
   Tour tour;
   tour.command("a", obs::CommandSubject::place);

@@ -1,5 +1,8 @@
 #include <omnimapper/live/HostClock.h>
 #include <omnimapper/live/Journal.h>
+#include <omnimapper/map/Labels.h>
+#include <omnimapper/map/MapFile.h>
+#include <omnimapper/obs/CommandTable.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include "LiveRun.h"
@@ -99,11 +102,34 @@ TEST(LiveRun, ofAMapperThatIsKilledTheRecordingStays) {
   EXPECT_TRUE(endedWith(ExitCode::ok, map({kBox}, run.folder / "more", {"--continue", run.out()})));
 }
 
-// The user adds walls to the INI while the robot drives, and then a plugin that does not exist.
+// A row for a table of commands, given now.
+std::string commandNow(omnimapper::obs::CommandKind kind, const std::string& text) {
+  omnimapper::obs::CObservationCommand command;
+  command.timestamp = omnimapper::live::hostNow();
+  command.kind = kind;
+  command.subject = omnimapper::obs::CommandSubject::place;
+  command.text = text;
+  return omnimapper::obs::commandRow(command) + "\n";
+}
+
+std::string labelsOf(const std::string& map) {
+  const auto file = omnimapper::map::MapFile::read(map);
+  const auto* section = file.find(omnimapper::map::Labels::kLayer);
+  std::string all;
+  if (section)
+    for (const auto& label : omnimapper::map::Labels::fromSection(*section).labels) all += label.text + ";";
+  return all;
+}
+
+// The user adds walls to the INI while the robot drives, and then a plugin that does not exist. In between, somebody
+// names where the robot is, in a table of commands.
 TEST(LiveRun, pluginsComeWhileTheRunGoesOnAndAReplayBringsThemAgain) {
   LiveRun run(4);
   run.play(kBox);
-  const std::string ini = run.folder / "live.ini", settings = readFile(ini);
+  const std::string ini = run.folder / "live.ini", commands = run.folder / "commands.csv";
+  std::string settings = readFile(ini) + "[page]\ndriver = CCommandFile\nfile = " + commands + "\n";
+  settings.replace(settings.find("wheels"), 6, "wheels, page");
+  writeFile(ini, settings);
   Program mapper(run.live());
   const auto journal = [&] { return readFile(run.recorded(".journal")); };
   const auto waitFor = [&](const std::function<bool()>& state) {
@@ -111,12 +137,17 @@ TEST(LiveRun, pluginsComeWhileTheRunGoesOnAndAReplayBringsThemAgain) {
   };
   waitFor([&] { return !run.recorded(".journal").empty() && journal().find("a 100\n") != std::string::npos; });
   writeFile(ini, settings +
-                     "[mapper]\nmeasurement_plugins = walls, loop_closure\n"
+                     "[mapper]\nmeasurement_plugins = walls, loop_closure, labels\n[labels]\nclass = LabelsPlugin\n"
                      "[perception]\nextractors = laser_points, laser_lines\n"
                      "[laser_lines]\nclass = LaserLineExtractor\n"
                      "[walls]\nclass = PlaneLandmarksPlugin\nform = wall\n");
   mapper.send(SIGUSR1);
   waitFor([&] { return journal().find("p 1\n") != std::string::npos; });
+  using omnimapper::obs::CommandKind;
+  std::string rows = std::string(omnimapper::obs::kCommandColumns) + "\n";
+  rows += commandNow(CommandKind::go_to, "kitchen");
+  rows += commandNow(CommandKind::label, "corner");
+  writeFile(commands, rows);
   writeFile(ini, settings + "[mapper]\nmeasurement_plugins = ceilings\n[ceilings]\nclass = CeilingPlugin\n");
   mapper.send(SIGUSR1);
   waitFor([&] { return mapper.saidSoFar().find("stay as they were") != std::string::npos; });
@@ -126,6 +157,8 @@ TEST(LiveRun, pluginsComeWhileTheRunGoesOnAndAReplayBringsThemAgain) {
   ASSERT_TRUE(endedWith(ExitCode::ok, ended, {"the plugins stay as they were", "CeilingPlugin"}));
   EXPECT_GE(run.summary().at("landmarks").value("wall", 0), 3) << run.summary().at("landmarks");
   EXPECT_EQ(journal().find("p 2\n"), std::string::npos);
+  EXPECT_EQ(labelsOf(run.out() + "/map.omnimap"), "corner;") << toString(ended);
+  EXPECT_EQ(ended.err.find("[page]"), std::string::npos) << "commands are seldom: " << ended.err;
   const auto again = run.folder / "again";
   ASSERT_TRUE(endedWith(ExitCode::ok, graphslam({"--replay", run.out(), "-o", again})));
   EXPECT_EQ(readFile(again + "/map.omnimap"), readFile(run.out() + "/map.omnimap"));

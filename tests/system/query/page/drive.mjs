@@ -1,12 +1,13 @@
 // Drives the page of a map in a browser as people do. Usage: node drive.mjs PUPPETEER SERVE MAP SCRATCH
 import assert from 'node:assert/strict';
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { startBrowser } from './browser.mjs';
 import { startServer } from './server.mjs';
 import { Visitor } from './Visitor.mjs';
 
 const [puppeteer, program, map, scratch] = process.argv.slice(2);
+const commands = join(scratch, 'commands.csv');
 const HOSTILE = '<img src=x onerror=alert(1)>"\'</script>'; // a name, nothing else
 const complaints = [];
 const started = Date.now();
@@ -75,6 +76,21 @@ async function nameASpot(visitor) {
   await visitor.seesText('#list', '"charger"');
 }
 
+async function goAndStop(visitor) {
+  step('the path to the charger is drawn before the robot is told to go; then it is told to stop');
+  await visitor.presses('#list', '"charger"');
+  await visitor.seesText('#panel h2', '"charger"');
+  await visitor.presses('#panel', 'Go there');
+  await visitor.seesText('#panel h2', 'Go to "charger"?');
+  await keep(visitor, 'goal');
+  await visitor.presses('#panel', 'Go');
+  await visitor.seesText('#panel .done', 'the run was told to go');
+  await visitor.presses('header', 'Stop');
+  await visitor.seesText('#panel .done', 'the run was told to stop');
+  const rows = readFileSync(commands, 'utf8').trimEnd().split('\n').slice(1).map((row) => row.split(',')[1]);
+  assert.deepEqual(rows, ['go_to', 'stop']);
+}
+
 async function showAPath(visitor) {
   step('a path is drawn');
   await visitor.asks('path room 2 to room 3');
@@ -109,7 +125,7 @@ async function surviveTheServer(visitors, server) {
 }
 
 const { browser, stop } = await startBrowser(puppeteer, join(scratch, 'profile'));
-let server = await startServer(program, map, 0);
+let server = await startServer(program, map, 0, ['--commands', commands]);
 try {
   const desk = await Visitor.arrive(browser, server.address, complaints);
   step('the first picture is there');
@@ -118,6 +134,7 @@ try {
   await renameARoom(tablet, desk);
   await nameATable(tablet, desk);
   await nameASpot(desk);
+  await goAndStop(desk);
   await showAPath(desk);
   await phone(tablet);
   await darkColours(desk);

@@ -2,8 +2,8 @@
 import { spawn } from 'node:child_process';
 
 /** Starts the server of a map and waits until it says where the page is; `port` 0 takes a free one. */
-export async function startServer(program, map, port) {
-  const child = spawn(program, [map, '--port', String(port)], { stdio: ['ignore', 'pipe', 'pipe'] });
+export async function startServer(program, map, port, options = []) {
+  const child = spawn(program, [map, '--port', String(port), ...options], { stdio: ['ignore', 'pipe', 'pipe'] });
   const ended = new Promise((resolve) => child.on('close', resolve));
   const address = await new Promise((resolve, reject) => {
     let said = '';

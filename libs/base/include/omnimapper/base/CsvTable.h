@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <string_view>
@@ -14,6 +15,8 @@ class CsvTable {
   /// `kind` says in messages what the file is. Throws Error(unreadable_input) if the file cannot be read, or a line has
   /// another number of fields than the first.
   explicit CsvTable(const std::string& path, const std::string& kind = "table");
+  /// The same for the content of the file `path`.
+  CsvTable(std::istream& content, const std::string& path);
 
   std::size_t size() const { return rows_.size(); }
   bool has(const std::string& column) const { return columns_.count(column) > 0; }
@@ -25,6 +28,8 @@ class CsvTable {
   [[noreturn]] void refuse(std::size_t row, const std::string& why) const;
 
  private:
+  void read(std::istream& in);
+
   std::string path_;
   std::map<std::string, std::size_t> columns_;
   std::vector<std::vector<std::string>> rows_;

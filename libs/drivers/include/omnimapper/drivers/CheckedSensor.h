@@ -18,6 +18,8 @@ class CheckedSensor {
   /// Whether this driver waits for clients that connect to it. If so, the driver is not opened again when it is silent,
   /// because that would only disconnect the clients.
   virtual bool waitsForOthers() const = 0;
+  /// Whether this driver sends only what somebody asks for. If so, its silence is not reported.
+  virtual bool sendsOnRequest() const { return false; }
 };
 
 }  // namespace omnimapper::drivers

@@ -40,8 +40,9 @@ struct SensorMetrics {
   std::string name;  ///< of its section
   State state = State::opening;
   std::uint64_t observations = 0;
-  double rate = 0;          ///< [Hz] over the last seconds
-  double clock_offset = 0;  ///< [s] offset that is added to the driver's stamps
+  bool sends_on_request = false;  ///< only what somebody asks for: its silence is no trouble
+  double rate = 0;                ///< [Hz] over the last seconds
+  double clock_offset = 0;        ///< [s] offset that is added to the driver's stamps
   std::size_t clock_jumps = 0;
   std::size_t losses = 0;      ///< how often it fell silent or was lost
   std::size_t reopened = 0;    ///< how often it sent data again after that

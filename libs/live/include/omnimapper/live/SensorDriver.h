@@ -39,6 +39,8 @@ class SensorDriver {
   /// Whether clients connect to the driver. If so, the driver is not reopened when it is silent, because reopening
   /// would only disconnect the clients.
   virtual bool waitsForOthers() const = 0;
+  /// Whether the driver sends only what somebody asks for, so that its silence is not reported.
+  virtual bool sendsOnRequest() const = 0;
 };
 
 /// Loads the feature mrpt_drivers, once. Throws Error(plugin_library) if it is not available.

@@ -13,6 +13,14 @@ namespace omnimapper::map {
 /// it is printable.
 std::optional<std::string> whyNoLabel(const std::string& text);
 
+/// A landmark and the name that it is to get.
+struct NamedLandmark {
+  base::LandmarkId id;
+  std::string text;
+};
+/// Reads "name ID = TEXT", as in "name 0:12 = kitchen table"; none if the command is another one.
+std::optional<NamedLandmark> namedLandmark(const std::string& command);
+
 /// The labels and what was before, for undoing.
 class LabelEdits {
  public:
@@ -35,6 +43,9 @@ class LabelEdits {
   /// Edits by a command: "rename OLD = NEW", "delete LABEL", "choose N" (the N-th choice of the question, from 1 on)
   /// and "undo".
   Outcome edit(const std::string& command);
+  /// The text of a command for "rename", OLD, NEW; "delete", LABEL; "undo"; or "name", ID, TEXT, which is for something
+  /// that knows the landmarks (namedLandmark()). Empty if the words are none of these, or a text would be misread.
+  static std::string commandOf(const std::vector<std::string>& words);
   Outcome rename(const std::string& from, const std::string& to);
   Outcome remove(const std::string& name);
   /// Takes back the last change; 100 changes can be taken back.

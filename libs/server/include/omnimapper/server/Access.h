@@ -2,6 +2,7 @@
 
 #include <omnimapper/server/HttpMessage.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ class Access {
   std::vector<std::string> hosts_;
   std::string token_;
 };
+
+/// The names under which a browser on this machine reaches a numeric address and port; the first one has the address.
+std::vector<std::string> hostsAt(const std::string& address, std::uint16_t port);
 
 /// 128 random bits of the system in hexadecimal digits. Throws Error(internal) if it has none.
 std::string randomToken();

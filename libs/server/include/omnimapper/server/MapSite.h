@@ -5,10 +5,12 @@
 #include <omnimapper/map/LabelEdits.h>
 #include <omnimapper/server/Access.h>
 #include <omnimapper/server/HttpMessage.h>
+#include <omnimapper/server/RunCommands.h>
 #include <omnimapper/server/ServedMap.h>
 #include <omnimapper/server/StaticFiles.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,10 @@ namespace omnimapper::server {
 /// The page of a map and what it asks for (doc/page.md lists the addresses).
 class MapSite {
  public:
-  /// `clock` says when a change is asked for.
-  MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock);
+  /// `clock` says when a change is asked for. `commands` are for the live run that makes the map; without them the page
+  /// offers none.
+  MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock,
+          std::optional<RunCommands> commands = {});
 
   /// Answers any request; never throws.
   HttpResponse answer(const HttpRequest& request);
@@ -30,10 +34,14 @@ class MapSite {
  private:
   HttpResponse answerAllowed(const HttpRequest& request);
   HttpResponse question(const HttpRequest& request) const;
+  HttpResponse me(const HttpRequest& request) const;
   HttpResponse picture(const HttpRequest& request) const;
   /// Rooms or labels.
   HttpResponse change(const HttpRequest& request);
   std::string editLabels(const std::vector<std::string>& words);
+  std::string goTo(const std::vector<std::string>& words);
+  std::string stop();
+  HttpResponse ticket();
   HttpResponse refusedBecause(const base::Error& error) const;
   HttpResponse events() const;
   std::string revisionEvent() const;
@@ -42,6 +50,7 @@ class MapSite {
   StaticFiles files_;
   Access access_;
   std::function<base::Stamp()> clock_;
+  std::optional<RunCommands> commands_;
   map::LabelEdits labels_;  // of this map, for undo
   int announced_;           // revision of the last event
 };
