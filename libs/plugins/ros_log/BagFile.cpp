@@ -23,20 +23,19 @@ enum BagOp : std::uint64_t {
 };
 constexpr std::uint64_t kIndexEntry = 12;  // [bytes]: time and offset
 
-// The fields of a header: their names are unique.
+// The fields of a header, which has three or four short ones: they are searched rather than sorted.
 class BagFields {
  public:
-  explicit BagFields(std::string_view header) {
-    for (ByteCursor cursor(header); cursor.left() > 0;) {
+  explicit BagFields(std::string_view header) : header_(header) {}
+  /// Empty if there is no such field.
+  std::string_view text(std::string_view name) const {
+    for (ByteCursor cursor(header_); cursor.left() > 0;) {
       const std::string_view field = cursor.text();
       const auto equals = field.find('=');
       if (equals == std::string_view::npos) throw BadBytes("has a field without a name");
-      fields_[field.substr(0, equals)] = field.substr(equals + 1);
+      if (field.substr(0, equals) == name) return field.substr(equals + 1);
     }
-  }
-  std::string_view text(std::string_view name) const {
-    const auto found = fields_.find(name);
-    return found == fields_.end() ? std::string_view() : found->second;
+    return {};
   }
   std::uint64_t number(std::string_view name, int size) const { return ByteCursor(text(name)).uint(size); }
   std::int64_t time(std::string_view name) const {
@@ -46,7 +45,7 @@ class BagFields {
   }
 
  private:
-  std::map<std::string_view, std::string_view> fields_;
+  std::string_view header_;
 };
 
 }  // namespace
@@ -102,25 +101,27 @@ void BagFile::walk() {
       if (record->end() > file_.size()) throw BadBytes("has a record that goes on beyond the end of the file");
       offset = record->end();
     } catch (const BadBytes& bad) {
-      const auto next = chunkAfter(offset);
-      damage_.note(!next, std::string(bad.what()) + ", at byte " + std::to_string(offset) +
-                              (next ? "; what follows is read from byte " + std::to_string(*next) + " on"
-                                    : "; nothing is read from there on"));
-      if (!next) return;
-      offset = *next;
+      const std::uint64_t next = chunkAfter(offset);
+      damage_.note(next == 0, std::string(bad.what()) + ", at byte " + std::to_string(offset) +
+                                  (next > 0 ? "; what follows is read from byte " + std::to_string(next) + " on"
+                                            : "; nothing is read from there on"));
+      if (next == 0) return;
+      offset = next;
     }
   }
 }
 
-std::optional<std::uint64_t> BagFile::chunkAfter(std::uint64_t damaged) {
-  std::optional<std::uint64_t> next;
+std::uint64_t BagFile::chunkAfter(std::uint64_t damaged) {
+  constexpr int kMostDamages = 100;  // each reads the index again
+  std::uint64_t next = 0;
+  if (++damages_ > kMostDamages) return next;
   try {
     for (auto record = recordAt(std::max(index_position_, damaged + 1)); record && record->end() <= file_.size();
          record = recordAt(record->end())) {
       if (record->op == kConnectionOp) take(*record);
       if (record->op != kChunkInfoOp) continue;
       const std::uint64_t chunk = BagFields(record->header).number("chunk_pos", 8);
-      if (chunk > damaged && (!next || chunk < *next)) next = chunk;
+      if (chunk > damaged && (next == 0 || chunk < next)) next = chunk;
     }
   } catch (const BadBytes&) {  // the index is damaged, too
   }

@@ -27,8 +27,8 @@ class BagFile : public Container {
   };
   std::optional<Record> recordAt(std::uint64_t offset);
   void walk();
-  /// The first chunk after damaged bytes that the bag's index has; none if the index does not help.
-  std::optional<std::uint64_t> chunkAfter(std::uint64_t damaged);
+  /// The first chunk after damaged bytes that the bag's index has; 0 if the index does not help.
+  std::uint64_t chunkAfter(std::uint64_t damaged);
   void take(const Record& record);
   void addConnection(std::string_view header, std::string_view data);
   void addBareMessage(const Record& record);
@@ -41,6 +41,7 @@ class BagFile : public Container {
   std::vector<Packing> packings_;                     // of the chunks
   std::map<std::uint64_t, std::size_t> connections_;  // channels by the bag's numbers
   std::uint64_t index_position_ = 0;                  // [bytes] of the index at the end; 0: there is none
+  int damages_ = 0;                                   // places at which the walk went on with the index
   bool is_bare_ = false;                              // the last chunk is a run of messages without a chunk
 };
 

@@ -1,16 +1,11 @@
 #include "Channel.h"
 
-#include <algorithm>
-
 namespace omnimapper::ros {
 
 std::size_t Channels::index(const Channel& channel) {
-  const auto found = std::find(channels_.begin(), channels_.end(), channel);
-  if (found == channels_.end()) {
-    channels_.push_back(channel);
-    return channels_.size() - 1;
-  }
-  return static_cast<std::size_t>(found - channels_.begin());
+  const auto [found, is_new] = indices_.emplace(channel, channels_.size());
+  if (is_new) channels_.push_back(channel);
+  return found->second;
 }
 
 std::string plainType(const std::string& type) {

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace omnimapper::ros {
@@ -22,8 +24,9 @@ struct Channel {
   std::string type;        ///< "sensor_msgs/LaserScan"; the "/msg/" of ROS 2 is left out
   std::string definition;  ///< the text of the type's definition; empty if the log has none
   std::string encoding;    ///< of the messages: "ros1" or "cdr"; any other cannot be decoded
-  bool operator==(const Channel& other) const {
-    return topic == other.topic && type == other.type && definition == other.definition && encoding == other.encoding;
+  bool operator<(const Channel& other) const {
+    return std::tie(topic, type, definition, encoding) <
+           std::tie(other.topic, other.type, other.definition, other.encoding);
   }
 };
 
@@ -37,6 +40,7 @@ class Channels {
 
  private:
   std::vector<Channel> channels_;
+  std::map<Channel, std::size_t> indices_;
 };
 
 /// A serialized message.

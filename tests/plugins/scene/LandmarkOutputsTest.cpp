@@ -7,6 +7,7 @@
 #include <omnimapper/derived/LandmarkShapes.h>
 #include <omnimapper/derived/LevelFrame.h>
 #include <omnimapper/derived/PlanShape.h>
+#include <omnimapper/derived/SceneLandmarks.h>
 #include <omnimapper/map/Level.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 #include <omnimapper/testing/Fixtures.h>
