@@ -66,9 +66,17 @@ void Db3File::open(const std::string& path) {
   }
   if (with_journal) notes_.push_back("the journal beside " + path + " (-wal) cannot be read: messages may be missing");
   sqlite3_limit(database_.get(), SQLITE_LIMIT_LENGTH, static_cast<int>(kLargestChunk));
-  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_exec(database_.get(), "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+  if (sqlite3_exec(database_.get(), "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) ==
+      SQLITE_CORRUPT) {
+    // SQLite then reads a file that has fewer pages than its head states; nothing is written, as it is open for
+    // reading.
+    sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, nullptr);
+    damage_.note(true, "is shorter than it states");
+  } else {
+    sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  }
 }
 
 Db3File::Statement Db3File::prepared(const std::string& sql) {

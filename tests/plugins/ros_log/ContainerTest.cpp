@@ -161,6 +161,20 @@ TEST_F(LogOf, anSqliteFileIsReadWithAndWithoutCompressedMessages) {
   EXPECT_EQ(read(folder_ / "a file?with #signs%.db3"), kAll);
 }
 
+TEST_F(LogOf, aTruncatedSqliteFileIsReadAsFarAsItGoes) {
+  std::vector<Written> messages;
+  for (std::size_t i = 0; i < 300; ++i)
+    messages.push_back({0, static_cast<std::int64_t>(i + 1) * 1'000'000'000, std::string(500, 'x') + "0"});
+  const std::string whole = folder_ / "whole.db3";
+  Db3Writer().write(whole, kTopics, messages);
+  EXPECT_EQ(read(whole).size(), 300u);
+  std::filesystem::resize_file(whole, std::filesystem::file_size(whole) / 2);
+  const std::size_t count = read(whole).size();
+  EXPECT_GT(count, 100u);
+  EXPECT_LT(count, 300u);
+  EXPECT_TRUE(damage_.is_cut);
+}
+
 TEST_F(LogOf, anSqliteFileOfAnotherKindIsRefused) {
   sqlite3* database = nullptr;
   sqlite3_open(path_.c_str(), &database);
