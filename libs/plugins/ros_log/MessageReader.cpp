@@ -46,8 +46,10 @@ void MessageReader::loadNext() {
   auto messages = containers_[place.file]->load(place.chunk);
   left_[next_place_] = messages.size();
   done_ += place.size;
-  sizes_[next_place_] = 0;
-  for (const auto& message : messages) sizes_[next_place_] += message.bytes.size();
+  // The messages of a chunk share its buffer, which may be larger than they are, or have one each.
+  std::uint64_t of_messages = 0;
+  for (const auto& message : messages) of_messages += message.bytes.size();
+  sizes_[next_place_] = messages.empty() ? 0 : std::max<std::uint64_t>(of_messages, messages.front().buffer->size());
   held_ += sizes_[next_place_];
   for (std::size_t i = 0; i < messages.size(); ++i) {
     pending_.push_back({std::move(messages[i]), next_place_, i});
