@@ -1,20 +1,22 @@
 // The page of a map: plan, search, what is touched, and changes of rooms.
+import { Dimension } from './dimension.js';
 import { Panel } from './panel.js';
 import { Plan } from './plan.js';
 import { paintLayers } from './layers.js';
 import { listOf } from './list.js';
 import { isName } from './names.js';
-import * as server from './server.js';
+import { source } from './source.js';
 
 const byId = (id) => document.getElementById(id);
 const state = byId('state');
 let map = null;
 
 const plan = new Plan(byId('plan'), (touched, point) => choose(touched, point));
+const view = new Dimension(byId('solid'), byId('dimension'), plan);
 const panel = new Panel(byId('panel'), {
   choose: (chosen) => choose(chosen, null, true),
-  change: (words) => change(() => server.edit(words)),
-  label: (words) => change(() => server.label(words)),
+  change: (words) => change(() => source.edit(words)),
+  label: (words) => change(() => source.label(words)),
   showPath: (walk) => {
     plan.path = walk;
     plan.draw();
@@ -36,6 +38,7 @@ function say(sentence, isBad = false) {
 function choose(chosen, point, isToLookAt = false) {
   plan.choose(chosen);
   panel.show(chosen, point);
+  view.choose(chosen);
   if (chosen && isToLookAt) plan.lookAt(middleOf(chosen));
 }
 
@@ -56,11 +59,12 @@ function again(chosen) {
 
 // `isOwn`: after a change of this page; a change of another page must not take away what is being typed.
 async function load(isOwn = false) {
-  map = await server.mapDocument();
+  map = await source.mapDocument();
   const [walk, image, rights] = await Promise.all([
-    server.trajectory(), map.grid ? server.gridImage(map.revision) : null, server.rights()]);
+    source.trajectory(), map.grid ? source.gridImage(map.revision) : null, source.rights()]);
   plan.show(map, image, walk);
   panel.take(map, rights);
+  await view.refresh();
   byId('stop').hidden = !rights.may_drive;
   paintLayers(byId('toggles'), map, plan);
   byId('list').replaceChildren(listOf(map, (chosen) => choose(chosen, null, true)));
@@ -74,7 +78,7 @@ async function load(isOwn = false) {
 async function find(text) {
   if (!text) return;
   try {
-    panel.answer(text, await server.question(text));
+    panel.answer(text, await source.question(text));
   } catch (error) {
     panel.answer(text, { is_found: false, text: error.message, answer: {} });
   }
@@ -84,12 +88,13 @@ byId('search').addEventListener('submit', (event) => {
   event.preventDefault();
   find(byId('question').value.trim());
 });
-byId('stop').addEventListener('click', () => panel.carryOut(['stop'], server.stop));
-byId('closer').addEventListener('click', () => plan.zoom(1.4));
-byId('farther').addEventListener('click', () => plan.zoom(1 / 1.4));
-byId('all').addEventListener('click', () => plan.showAll());
+byId('stop').addEventListener('click', () => panel.carryOut(['stop'], source.stop));
+byId('closer').addEventListener('click', () => view.zoom(1.4));
+byId('farther').addEventListener('click', () => view.zoom(1 / 1.4));
+byId('all').addEventListener('click', () => view.showAll());
+byId('dimension').addEventListener('click', () => view.toggle().catch((error) => say(error.message, true)));
 
-server.listen(
+source.listen(
   async (revision) => {
     if (map && map.revision === revision && !state.classList.contains('bad')) return;
     try {

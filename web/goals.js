@@ -1,6 +1,6 @@
 // Sending the robot somewhere: goal and path are drawn before they are confirmed.
 import { button, element } from './elements.js';
-import * as server from './server.js';
+import { source } from './source.js';
 
 /**
  * A button that asks how the robot would go to something. `actions`: show(parts), showPath(points or null),
@@ -11,7 +11,7 @@ export function goThere(called, shown, actions) {
     actions.show(element('p', `How would the robot go to ${shown}?`, 'note'));
     try {
       const [{ is_found: isFound, text, answer }, ticket] = await Promise.all(
-        [server.question(`path here to ${called}`), server.ticket()]);
+        [source.question(`path here to ${called}`), source.ticket()]);
       if (!isFound) return actions.show(element('p', text, 'bad'));
       actions.show(...proposal(called, shown, text, ticket, actions));
       actions.showPath(answer.points_m);
@@ -30,7 +30,7 @@ function proposal(called, shown, text, ticket, actions) {
   buttons.append(
     button('Go', () => {
       end();
-      actions.carryOut(['go to', shown], () => server.goTo(called, ticket));
+      actions.carryOut(['go to', shown], () => source.goTo(called, ticket));
     }),
     button('Cancel', () => end(element('p', 'The robot was not told to go.', 'note'))));
   return [element('h2', `Go to ${shown}?`), element('pre', text), buttons,

@@ -4,7 +4,7 @@ import { goThere } from './goals.js';
 import { labelsOf, spotLabels } from './labels.js';
 import { row } from './list.js';
 import { isName, keyText, nameOf, valueText } from './names.js';
-import { pictureAddress } from './server.js';
+import { source } from './source.js';
 
 const percent = (share) => `${Math.round(share * 100)} %`;
 const position = ([x, y]) => `${x.toFixed(2)}, ${y.toFixed(2)} m`;
@@ -22,7 +22,7 @@ export class Panel {
     this.pending = null; // {verb, room or points} of a change that needs another touch
   }
 
-  /** `rights` as server.rights() has them. */
+  /** `rights` as source.rights() has them. */
   take(map, rights) {
     this.map = map;
     this.mayChange = rights.may_change;
@@ -135,7 +135,7 @@ export class Panel {
     if (place.has_picture) {
       const picture = element('img');
       picture.alt = 'Picture of it';
-      picture.src = pictureAddress(place.id);
+      picture.src = source.pictureAddress(place.id);
       parts.unshift(picture);
     }
     const room = place.room && this.map.rooms.find((each) => each.id === place.room.id);
@@ -234,5 +234,5 @@ export class Panel {
 }
 
 function onlyLooks() {
-  return element('p', 'This page may only look; the address that omnimapper-serve printed may change the map.', 'note');
+  return element('p', source.onlyLooks, 'note');
 }

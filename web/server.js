@@ -13,10 +13,18 @@ async function ask(address, options) {
 
 export const mapDocument = async () => (await ask('api/map')).json();
 export const trajectory = async () => (await ask('api/trajectory')).json();
+export const onlyLooks = 'This page may only look; the address that omnimapper-serve printed may change the map.';
+
 /** What this page may do: may_change the map, may_drive the robot of a live run. */
 export const rights = async () => (await ask('api/me')).json();
 export const question = async (text) => (await ask('api/query?q=' + encodeURIComponent(text))).json();
 export const pictureAddress = (id) => 'api/picture?id=' + encodeURIComponent(id);
+
+/** The bytes of a PLY file of the map, "points" or "surfaces"; null if it has none. */
+export async function ply(name, revision) {
+  const answer = await fetch(`api/${name}?revision=${revision}`);
+  return answer.ok ? answer.arrayBuffer() : null;
+}
 
 /** The picture of the occupancy grid. */
 export async function gridImage(revision) {

@@ -75,6 +75,9 @@ TEST_F(MapSiteTest, ThePageAndTheMapAreServed) {
   EXPECT_EQ(json::parse(served.answer(get("/api/trajectory")).body), (json{{0.5, 0.5}, {1, 1}}));
   EXPECT_EQ(served.answer(get("/api/grid")).body.substr(1, 3), "PNG");
   EXPECT_EQ(served.answer(get("/api/picture?id=0:1")).body, "a picture");
+  EXPECT_EQ(served.answer(get("/api/points")).status, 404);
+  query::putFile(folder_ / "points.ply", "ply and points");
+  EXPECT_EQ(served.answer(get("/api/points?revision=1")).body, "ply and points");
 }
 
 TEST_F(MapSiteTest, NoPathFromOutsideBecomesAFileName) {

@@ -100,6 +100,8 @@ HttpResponse MapSite::answerAllowed(const HttpRequest& request) {
   if (request.path == "/api/trajectory") return jsonAnswer(map_.trajectory());
   if (request.path == "/api/query") return question(request);
   if (request.path == "/api/picture") return picture(request);
+  if (request.path == "/api/points") return ply("points.ply");
+  if (request.path == "/api/surfaces") return ply("landmarks.ply");
   if (request.path == "/api/events") return events();
   if (request.path == "/api/me") return me(request);
   if (request.path == "/api/grid" && !map_.gridPng().empty()) return {200, "image/png", map_.gridPng()};
@@ -119,6 +121,12 @@ HttpResponse MapSite::question(const HttpRequest& request) const {
   document.erase("map");  // the path of a file on this machine is nothing for a page
   return jsonAnswer(dumped(
       {{"is_found", answer.code == base::ExitCode::ok}, {"text", answer.text}, {"answer", std::move(document)}}));
+}
+
+HttpResponse MapSite::ply(const std::string& name) const {
+  const auto bytes = map_.fileOfRun(name);
+  if (!bytes) return refusal(404, "The map has no such file, or it is too large for a page.");
+  return {200, "application/octet-stream", *bytes};
 }
 
 HttpResponse MapSite::me(const HttpRequest& request) const {

@@ -121,6 +121,14 @@ void ServedMap::load() {
   ++revision_;
 }
 
+std::optional<std::string> ServedMap::fileOfRun(const std::string& name) const {
+  constexpr std::uintmax_t kMost = std::uintmax_t{64} << 20;
+  const fs::path file = fs::path(map_.folder) / name;
+  std::error_code missing;
+  if (!fs::is_regular_file(file, missing) || fs::file_size(file, missing) > kMost) return std::nullopt;
+  return base::readInput(file.string(), "part of the map");
+}
+
 std::optional<std::string> ServedMap::pictureOf(const std::string& id) const {
   const auto& places = map_.places.places;
   const auto place =

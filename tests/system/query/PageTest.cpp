@@ -23,9 +23,9 @@ TEST(Page, IsUsedInABrowserAsPeopleDo) {
   const std::string map = scratch / "map";
   ASSERT_TRUE(endedWith(ExitCode::ok, graphslam({"-q", "-i", sourceFile("ini/home_planes.ini"), "-r",
                                                  sourceFile("rawlogs/home_30s/home_30s.rawlog"), "-o", map})));
-  const Ended driven =
-      runProgram({"node", sourceFile("tests/system/query/page/drive.mjs"), puppeteer + "/puppeteer-core-browser.js",
-                  omnimapper::testing::ownProgram("omnimapper-serve"), map, scratch / "browser"});
+  const Ended driven = runProgram(
+      {"node", sourceFile("tests/system/query/page/drive.mjs"), puppeteer + "/puppeteer-core-browser.js",
+       fs::path(omnimapper::testing::ownProgram("omnimapper-serve")).parent_path(), map, scratch / "browser"});
   EXPECT_EQ(driven.code, 0) << driven.out << driven.err;
 }
 

@@ -1,12 +1,14 @@
-// Drives the page of a map in a browser as people do. Usage: node drive.mjs PUPPETEER SERVE MAP SCRATCH
+// Drives the page of a map in a browser as people do. Usage: node drive.mjs PUPPETEER PROGRAMS MAP SCRATCH
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { startBrowser } from './browser.mjs';
 import { startServer } from './server.mjs';
 import { Visitor } from './Visitor.mjs';
 
-const [puppeteer, program, map, scratch] = process.argv.slice(2);
+const [puppeteer, programs, map, scratch] = process.argv.slice(2);
+const program = join(programs, 'omnimapper-serve');
 const commands = join(scratch, 'commands.csv');
 const HOSTILE = '<img src=x onerror=alert(1)>"\'</script>'; // a name, nothing else
 const complaints = [];
@@ -98,6 +100,26 @@ async function showAPath(visitor) {
   await keep(visitor, 'path');
 }
 
+async function showInThreeDimensions(visitor) {
+  step('the map is shown in 3D, turned, and the plan comes back');
+  await visitor.presses('#zoom', '3D');
+  await visitor.sees((root) => root.querySelector('#solid').dataset.revision);
+  const colours = await visitor.page.evaluate(() => new Promise((resolve) => {
+    const solid = document.querySelector('#solid'), copy = document.createElement('canvas');
+    solid.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+    requestAnimationFrame(() => { // just after it was drawn
+      [copy.width, copy.height] = [64, 64];
+      const context = copy.getContext('2d');
+      context.drawImage(solid, 0, 0, 64, 64);
+      resolve(new Set(new Uint32Array(context.getImageData(0, 0, 64, 64).data.buffer)).size);
+    });
+  }));
+  assert.ok(colours > 20, `points and surfaces have ${colours} colours`);
+  await keep(visitor, 'solid');
+  await visitor.presses('#zoom', 'Plan');
+  await visitor.sees((root) => root.querySelector('#solid').hidden);
+}
+
 async function darkColours(visitor) {
   step('the page is dark where the browser is');
   const before = await visitor.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
@@ -124,6 +146,19 @@ async function surviveTheServer(visitors, server) {
   return next;
 }
 
+async function openACopy(browser) {
+  step('a copy of the map opens from a folder, without a server, and may only look');
+  const folder = join(scratch, 'copy');
+  execFileSync(join(programs, 'omnimapper-export'), ['page', map, folder]);
+  const guest = await Visitor.arrive(browser, `file://${folder}/index.html`, complaints);
+  await guest.asks('desk');
+  await guest.presses('#panel', 'table "desk"');
+  await guest.seesText('#panel', 'may only look');
+  await guest.touchesTheMiddle();
+  await guest.seesText('#panel h2', 'table "desk"');
+  await keep(guest, 'copy');
+}
+
 const { browser, stop } = await startBrowser(puppeteer, join(scratch, 'profile'));
 let server = await startServer(program, map, 0, ['--commands', commands]);
 try {
@@ -137,8 +172,10 @@ try {
   await goAndStop(desk);
   await showAPath(desk);
   await phone(tablet);
+  await showInThreeDimensions(desk);
   await darkColours(desk);
   server = await surviveTheServer([desk, tablet], server);
+  await openACopy(browser);
   assert.deepEqual(complaints, []);
   step('done');
 } finally {

@@ -34,6 +34,7 @@ class MapSite {
  private:
   HttpResponse answerAllowed(const HttpRequest& request);
   HttpResponse question(const HttpRequest& request) const;
+  HttpResponse ply(const std::string& name) const;
   HttpResponse me(const HttpRequest& request) const;
   HttpResponse picture(const HttpRequest& request) const;
   /// Rooms or labels.

@@ -31,6 +31,8 @@ class ServedMap {
 
   /// The picture of an object, by the id of its landmark, "0:12"; none if it has none.
   std::optional<std::string> pictureOf(const std::string& id) const;
+  /// A file in the folder of the map, of at most 64 MiB; none if there is none. `name` must not come from outside.
+  std::optional<std::string> fileOfRun(const std::string& name) const;
 
  private:
   void load();
