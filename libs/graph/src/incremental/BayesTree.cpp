@@ -1,0 +1,314 @@
+#include "BayesTree.h"
+
+#include <omnimapper/base/Error.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "EliminationOrder.h"
+
+namespace omnimapper::graph {
+
+void BayesTree::addBound(const std::vector<int>& unknowns, std::vector<int>& all) const {
+  std::vector<int> open;
+  for (const int unknown : unknowns) {
+    if (terms_.unknown(unknown).clique < 0) continue;
+    open.push_back(terms_.unknown(unknown).clique);
+    while (!open.empty()) {
+      const Clique& clique = cliques_[open.back()];
+      open.pop_back();
+      all.push_back(clique.frontals.front());
+      for (const int child : clique.children) {
+        const auto& separator = cliques_[child].separator;
+        if (std::find(separator.begin(), separator.end(), unknown) != separator.end()) open.push_back(child);
+      }
+    }
+  }
+}
+
+std::vector<int> BayesTree::removeTop(const std::vector<int>& unknowns, std::vector<int>& orphans) {
+  std::vector<int> removed, affected;
+  for (const int unknown : unknowns) {
+    int number = terms_.unknown(unknown).clique;
+    if (number < 0) affected.push_back(unknown);
+    for (; number >= 0 && cliques_[number].is_used; number = cliques_[number].parent) {
+      cliques_[number].is_used = false;
+      removed.push_back(number);
+    }
+  }
+  std::sort(affected.begin(), affected.end());
+  affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  for (const int number : removed) {
+    const Clique& clique = cliques_[number];
+    for (const int child : clique.children)
+      if (cliques_[child].is_used) orphans.push_back(child);
+    for (const int unknown : clique.frontals) {
+      terms_.unknown(unknown).clique = -1;
+      affected.push_back(unknown);
+    }
+  }
+  const auto is_removed = [&](int number) { return !cliques_[number].is_used; };
+  roots_.erase(std::remove_if(roots_.begin(), roots_.end(), is_removed), roots_.end());
+  for (const int number : removed) {
+    cliques_[number] = Clique();
+    cliques_[number].is_used = false;
+    unused_.push_back(number);
+  }
+  const auto is_unbound = [&](int number) {
+    const Unknown& unknown = terms_.unknown(number);
+    return unknown.size == 0 || unknown.terms.empty();
+  };
+  affected.erase(std::remove_if(affected.begin(), affected.end(), is_unbound), affected.end());
+  // The same order whatever path led here.
+  std::sort(affected.begin(), affected.end());
+  return affected;
+}
+
+std::size_t BayesTree::replaceTop(const std::vector<int>& unknowns, const std::vector<int>& last) {
+  std::vector<int> orphans;
+  const std::vector<int> affected = removeTop(unknowns, orphans);
+  if (affected.empty()) return 0;
+  place_.resize(static_cast<std::size_t>(terms_.size()), -1);
+  for (std::size_t i = 0; i < affected.size(); ++i) place_[affected[i]] = static_cast<int>(i);
+
+  // The terms that bind these unknowns alone; the others are in the orphans.
+  ++round_;
+  std::vector<int> taken;
+  std::vector<std::vector<int>> sets;
+  for (const int unknown : affected)
+    for (const int term : terms_.unknown(unknown).terms) {
+      if (term >= static_cast<int>(visited_.size())) visited_.resize(static_cast<std::size_t>(term) + 1, 0);
+      if (visited_[term] == round_) continue;
+      visited_[term] = round_;
+      const auto& bound = terms_.term(term).unknowns;
+      if (std::any_of(bound.begin(), bound.end(), [&](int each) { return place_[each] < 0; })) continue;
+      taken.push_back(term);
+      sets.emplace_back();
+      for (const int each : bound) sets.back().push_back(place_[each]);
+    }
+  for (const int orphan : orphans) {
+    sets.emplace_back();
+    for (const int each : cliques_[orphan].separator) sets.back().push_back(place_[each]);
+  }
+  std::vector<bool> is_last(affected.size(), false);
+  for (const int unknown : last)
+    if (place_[unknown] >= 0) is_last[place_[unknown]] = true;
+  const auto supernodes = orderElimination(static_cast<int>(affected.size()), sets, is_last);
+
+  // Each set belongs to the supernode that eliminates the first of its nodes.
+  std::vector<int> order(affected.size()), supernode_of(affected.size()), clique_of(supernodes.size());
+  int next = 0;
+  for (std::size_t i = 0; i < supernodes.size(); ++i) {
+    clique_of[i] = newClique();
+    for (const int node : supernodes[i].frontals) {
+      supernode_of[node] = static_cast<int>(i);
+      order[node] = next++;
+    }
+  }
+  std::vector<std::vector<int>> terms_of(supernodes.size());
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const int first =
+        *std::min_element(sets[i].begin(), sets[i].end(), [&](int a, int b) { return order[a] < order[b]; });
+    const int owner = supernode_of[first];
+    if (i < taken.size()) {
+      terms_of[owner].push_back(taken[i]);
+    } else {
+      const int orphan = orphans[i - taken.size()];
+      cliques_[orphan].parent = clique_of[owner];
+      cliques_[clique_of[owner]].children.push_back(orphan);
+    }
+  }
+  for (const int unknown : affected) place_[unknown] = -1;
+  for (std::size_t i = 0; i < supernodes.size(); ++i) {
+    Clique& clique = cliques_[clique_of[i]];
+    for (const int node : supernodes[i].frontals) clique.frontals.push_back(affected[node]);
+    for (const int node : supernodes[i].separator) clique.separator.push_back(affected[node]);
+    for (const int unknown : clique.frontals) terms_.unknown(unknown).clique = clique_of[i];
+    setOffsets(clique);
+    if (supernodes[i].parent < 0) {
+      roots_.push_back(clique_of[i]);
+    } else {
+      clique.parent = clique_of[supernodes[i].parent];
+      cliques_[clique.parent].children.push_back(clique_of[i]);
+    }
+  }
+  for (std::size_t i = 0; i < supernodes.size(); ++i) eliminate(clique_of[i], terms_of[i]);
+  return affected.size();
+}
+
+int BayesTree::newClique() {
+  if (unused_.empty()) {
+    cliques_.emplace_back();
+    return static_cast<int>(cliques_.size()) - 1;
+  }
+  const int number = unused_.back();
+  unused_.pop_back();
+  cliques_[number] = Clique();
+  return number;
+}
+
+void BayesTree::setOffsets(Clique& clique) const {
+  int row = 0;
+  for (const int unknown : clique.frontals) {
+    clique.offsets.push_back(row);
+    row += terms_.unknown(unknown).size;
+  }
+  clique.frontal_size = row;
+  for (const int unknown : clique.separator) {
+    clique.offsets.push_back(row);
+    row += terms_.unknown(unknown).size;
+  }
+  clique.offsets.push_back(row);
+}
+
+/// Adds the lower triangle of a block (its unknowns and the gradient) to a front.
+void BayesTree::scatter(const std::vector<int>& unknowns, const Eigen::MatrixXd& block, Eigen::MatrixXd& front) {
+  const auto last = front.rows() - 1;
+  Eigen::Index column = 0;
+  for (std::size_t j = 0; j < unknowns.size(); ++j) {
+    const int width = terms_.unknown(unknowns[j]).size, to_column = place_[unknowns[j]];
+    front.block(to_column, to_column, width, width) += block.block(column, column, width, width);
+    Eigen::Index row = column + width;
+    for (std::size_t i = j + 1; i < unknowns.size(); ++i) {
+      const int height = terms_.unknown(unknowns[i]).size, to_row = place_[unknowns[i]];
+      if (to_row > to_column)
+        front.block(to_row, to_column, height, width) += block.block(row, column, height, width);
+      else
+        front.block(to_column, to_row, width, height) += block.block(row, column, height, width).transpose();
+      row += height;
+    }
+    front.block(last, to_column, 1, width) += block.block(row, column, 1, width);
+    column += width;
+  }
+}
+
+void BayesTree::assemble(const Clique& clique, const std::vector<int>& terms, Eigen::MatrixXd& front) {
+  front.setZero(clique.offsets.back() + 1, clique.offsets.back() + 1);
+  for (std::size_t i = 0; i < clique.frontals.size(); ++i) place_[clique.frontals[i]] = clique.offsets[i];
+  for (std::size_t i = 0; i < clique.separator.size(); ++i)
+    place_[clique.separator[i]] = clique.offsets[clique.frontals.size() + i];
+  for (const int term : terms) {
+    const LinearTerm& linear = terms_.linearized(term);
+    scatter(linear.unknowns, linear.information, front);
+  }
+  for (const int child : clique.children) scatter(cliques_[child].separator, cliques_[child].remainder, front);
+  for (const int unknown : clique.frontals) place_[unknown] = -1;
+  for (const int unknown : clique.separator) place_[unknown] = -1;
+}
+
+/// Whether elimination left more of what its factors say of the unknown than rounding explains, in every direction.
+bool BayesTree::isDetermined(int number, const Eigen::VectorXd& pivots) const {
+  constexpr double kRounding = 1e-13;
+  Eigen::VectorXd said = Eigen::VectorXd::Zero(pivots.size());
+  for (const int term : terms_.unknown(number).terms) {
+    const LinearTerm& linear = terms_.term(term);
+    Eigen::Index row = 0;
+    for (const int each : linear.unknowns) {
+      if (each == number && linear.information.size() > 0)
+        said += linear.information.diagonal().segment(row, pivots.size());
+      row += terms_.unknown(each).size;
+    }
+  }
+  return pivots.allFinite() && (pivots.array() > 0).all() && (pivots.array().square() > kRounding * said.array()).all();
+}
+
+void BayesTree::eliminate(int number, const std::vector<int>& terms) {
+  Clique& clique = cliques_[number];
+  Eigen::MatrixXd front;
+  assemble(clique, terms, front);
+  const int own = clique.frontal_size;
+  const auto rest = front.rows() - own;
+  auto diagonal = front.topLeftCorner(own, own);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(diagonal);
+  for (std::size_t i = 0; i < clique.frontals.size(); ++i) {
+    const auto pivots = front.diagonal().segment(clique.offsets[i], terms_.unknown(clique.frontals[i]).size);
+    const bool is_last = i + 1 == clique.frontals.size();
+    if (isDetermined(clique.frontals[i], pivots) && (cholesky.info() == Eigen::Success || !is_last)) continue;
+    throw base::Error(base::ExitCode::internal,
+                      "graph: variable " + toString(terms_.unknown(clique.frontals[i]).id) +
+                          " and the variables connected to it are not constrained: fix one of them or add a prior");
+  }
+  auto below = front.bottomLeftCorner(rest, own);
+  diagonal.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(below);
+  auto remainder = front.bottomRightCorner(rest, rest);
+  remainder.selfadjointView<Eigen::Lower>().rankUpdate(below, -1);
+  clique.factor = front.leftCols(own);
+  clique.remainder = remainder;
+}
+
+std::vector<int> BayesTree::substitute(double beyond) {
+  std::vector<int> computed, open = roots_;
+  std::vector<bool> changed(static_cast<std::size_t>(terms_.size()), false);
+  Eigen::VectorXd right;
+  while (!open.empty()) {
+    Clique& clique = cliques_[open.back()];
+    open.pop_back();
+    const bool is_reached =
+        std::any_of(clique.separator.begin(), clique.separator.end(), [&](int unknown) { return changed[unknown]; });
+    // What is new hangs below nothing that is old.
+    if (!is_reached && !clique.is_new) continue;
+    const auto size = clique.factor.rows() - 1;
+    right = -clique.factor.row(size).transpose();
+    for (std::size_t i = 0; i < clique.separator.size(); ++i) {
+      const Unknown& unknown = terms_.unknown(clique.separator[i]);
+      right.noalias() -=
+          clique.factor.middleRows(clique.offsets[clique.frontals.size() + i], unknown.size).transpose() *
+          unknown.delta;
+    }
+    clique.factor.topRows(clique.frontal_size).triangularView<Eigen::Lower>().transpose().solveInPlace(right);
+    for (std::size_t i = 0; i < clique.frontals.size(); ++i) {
+      Unknown& unknown = terms_.unknown(clique.frontals[i]);
+      const auto delta = right.segment(clique.offsets[i], unknown.size);
+      computed.push_back(clique.frontals[i]);
+      // Small changes add up until they are handed down.
+      if ((delta - unknown.delta).lpNorm<Eigen::Infinity>() <= beyond) continue;
+      changed[clique.frontals[i]] = true;
+      unknown.delta = delta;
+    }
+    clique.is_new = false;
+    open.insert(open.end(), clique.children.begin(), clique.children.end());
+  }
+  return computed;
+}
+
+void BayesTree::clear() {
+  for (int i = 0; i < terms_.size(); ++i) terms_.unknown(i).clique = -1;
+  cliques_.clear();
+  unused_.clear();
+  roots_.clear();
+}
+
+std::vector<int> BayesTree::unknowns() const {
+  std::vector<int> all;
+  for (int i = 0; i < terms_.size(); ++i)
+    if (terms_.unknown(i).clique >= 0) all.push_back(i);
+  return all;
+}
+
+BayesTree::HalfSolved BayesTree::halfSolve(int number) const {
+  const Unknown& unknown = terms_.unknown(number);
+  HalfSolved solved;
+  // What is left for the unknowns above, by their numbers.
+  std::unordered_map<int, Eigen::MatrixXd> right;
+  right[number] = Eigen::MatrixXd::Identity(unknown.size, unknown.size);
+  for (int at = unknown.clique; at >= 0; at = cliques_[at].parent) {
+    const Clique& clique = cliques_[at];
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(clique.frontal_size, unknown.size);
+    for (std::size_t i = 0; i < clique.frontals.size(); ++i) {
+      const auto found = right.find(clique.frontals[i]);
+      if (found != right.end()) rows.middleRows(clique.offsets[i], found->second.rows()) = found->second;
+    }
+    clique.factor.topRows(clique.frontal_size).triangularView<Eigen::Lower>().solveInPlace(rows);
+    for (std::size_t i = 0; i < clique.separator.size(); ++i) {
+      const int size = terms_.unknown(clique.separator[i]).size;
+      Eigen::MatrixXd& left = right[clique.separator[i]];
+      if (left.size() == 0) left = Eigen::MatrixXd::Zero(size, unknown.size);
+      left.noalias() -= clique.factor.middleRows(clique.offsets[clique.frontals.size() + i], size) * rows;
+    }
+    solved.cliques.push_back(at);
+    solved.rows.push_back(std::move(rows));
+  }
+  return solved;
+}
+
+}  // namespace omnimapper::graph
