@@ -1,4 +1,5 @@
 #include <omnimapper/map/LabelledPlaces.h>
+#include <omnimapper/query/Find.h>
 
 #include "MapWithFrames.h"
 #include "omnimapper/query/editLabels.h"
