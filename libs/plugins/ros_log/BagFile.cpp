@@ -97,8 +97,9 @@ void BagFile::walk() {
     try {
       const auto record = recordAt(offset);
       if (!record) throw BadBytes("has a record that goes on beyond the end of the file");
-      take(*record);
-      if (record->end() > file_.size()) throw BadBytes("has a record that goes on beyond the end of the file");
+      const bool is_cut = record->end() > file_.size();
+      if (!is_cut || record->op == kChunkOp) take(*record);  // a chunk is read as far as it goes
+      if (is_cut) throw BadBytes("has a record that goes on beyond the end of the file");
       offset = record->end();
     } catch (const BadBytes& bad) {
       const std::uint64_t next = chunkAfter(offset);
@@ -121,7 +122,7 @@ std::uint64_t BagFile::chunkAfter(std::uint64_t damaged) {
       if (record->op == kConnectionOp) take(*record);
       if (record->op != kChunkInfoOp) continue;
       const std::uint64_t chunk = BagFields(record->header).number("chunk_pos", 8);
-      if (chunk > damaged && (next == 0 || chunk < next)) next = chunk;
+      if (chunk > damaged && chunk < file_.size() && (next == 0 || chunk < next)) next = chunk;
     }
   } catch (const BadBytes&) {  // the index is damaged, too
   }
@@ -166,15 +167,18 @@ void BagFile::readIndex(const Record& record) {
 
 void BagFile::addBareMessage(const Record& record) {
   constexpr std::uint64_t kRun = std::uint64_t{1} << 20;
-  if (!is_bare_ || chunks_.back().size > kRun) {
+  const std::int64_t time = BagFields(record.header).time("time");
+  const bool is_first = !is_bare_ || chunks_.back().size > kRun;
+  const std::uint64_t begin = is_first ? record.offset : chunks_.back().offset, size = record.end() - begin;
+  if (size > kLargestChunk) throw BadBytes("has a message of more than 256 MiB");
+  if (is_first) {
     packings_.push_back({"none", kLargestChunk});
     chunks_.emplace_back();
-    chunks_.back().offset = record.offset;
+    chunks_.back().offset = begin;
     is_bare_ = true;
   }
-  chunks_.back().size = record.end() - chunks_.back().offset;
-  chunks_.back().include(BagFields(record.header).time("time"));
-  if (chunks_.back().size > kLargestChunk) throw BadBytes("has a message of more than 256 MiB");
+  chunks_.back().size = size;
+  chunks_.back().include(time);
 }
 
 void BagFile::addConnection(std::string_view header, std::string_view data) {

@@ -8,6 +8,11 @@ std::size_t Channels::index(const Channel& channel) {
   return found->second;
 }
 
+Message detached(const Message& message) {
+  auto buffer = std::make_shared<const std::string>(message.bytes);
+  return {message.channel, message.time, buffer, *buffer};
+}
+
 std::string plainType(const std::string& type) {
   const std::string middle = "/msg/";
   const auto at = type.find(middle);

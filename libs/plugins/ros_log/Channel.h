@@ -51,6 +51,9 @@ struct Message {
   std::string_view bytes;
 };
 
+/// The message with a buffer for its bytes alone, to be kept: a message that was read holds the buffer of its chunk.
+Message detached(const Message& message);
+
 /// A part of a file that is read at once.
 struct Chunk {
   std::uint64_t offset = 0;  ///< [bytes] in the file; of a table, its first row

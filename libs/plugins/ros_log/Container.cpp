@@ -7,6 +7,7 @@
 #include "Db3File.h"
 #include "McapFile.h"
 #include "RandomFile.h"
+#include "decompressed.h"
 #include "unpackedFile.h"
 
 namespace omnimapper::ros {
@@ -18,17 +19,24 @@ void Container::timeChunks() {
   }
 }
 
-std::unique_ptr<Container> openContainer(const std::string& path, Channels& channels) {
+namespace {
+
+std::unique_ptr<Container> openUnpacked(const std::string& path, Channels& channels) {
   const std::string head = RandomFile(path).read(0, kLogHead);
-  if (isZstd(head)) {
-    const UnpackedFile unpacked(path);
-    auto container = openContainer(unpacked.path(), channels);
-    return container;
-  }
   if (BagFile::recognizes(head)) return std::make_unique<BagFile>(path, channels);
   if (McapFile::recognizes(head)) return std::make_unique<McapFile>(path, channels);
   if (Db3File::recognizes(head)) return std::make_unique<Db3File>(path, channels);
   source::refuse(path, "is no log of ROS: it " + source::describeInput(path));
+}
+
+}  // namespace
+
+std::unique_ptr<Container> openContainer(const std::string& path, Channels& channels) {
+  if (!isZstd(RandomFile(path).read(0, kLogHead))) return openUnpacked(path, channels);
+  const UnpackedFile unpacked(path);
+  auto container = openUnpacked(unpacked.path(), channels);
+  if (!unpacked.damage().what.empty()) container->setDamageOfUnpacking(unpacked.damage());
+  return container;
 }
 
 }  // namespace omnimapper::ros

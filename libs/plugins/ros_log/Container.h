@@ -28,6 +28,8 @@ class Container {
   /// The messages of a chunk in the order of the file; of a damaged chunk, those that can be read.
   virtual std::vector<Message> load(std::size_t chunk) = 0;
   const Damage& damage() const { return damage_; }
+  /// Damage of the compressed file of which this one was unpacked, which explains all other damage.
+  void setDamageOfUnpacking(const Damage& damage) { damage_ = damage; }
   /// Sentences about the file, for the user.
   const std::vector<std::string>& notes() const { return notes_; }
 

@@ -14,8 +14,8 @@ namespace omnimapper::ros {
 /// bounded: if more than 64 MiB of chunks overlap in time, the earliest message that is at hand comes first.
 class MessageReader {
  public:
-  /// Throws Error(unreadable_input) as openContainer() does for the first file that can be opened; files that cannot be
-  /// opened beside others are damage.
+  /// Throws what openContainer() throws for the first file if no file can be opened; files that cannot be opened beside
+  /// others are damage.
   MessageReader(const std::vector<std::string>& files, Channels& channels);
 
   std::optional<Message> next();

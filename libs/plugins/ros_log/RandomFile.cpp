@@ -40,8 +40,12 @@ std::string RandomFile::read(std::uint64_t offset, std::uint64_t count) const {
 
 std::string RandomFile::readSmall(std::uint64_t offset, std::uint64_t count) const {
   constexpr std::uint64_t kBuffer = std::uint64_t{1} << 14;
+  if (offset >= size_) return {};
   if (count > kBuffer) return read(offset, count);
-  if (offset < buffer_offset_ || offset + count > buffer_offset_ + buffer_.size()) {
+  // A damaged file states any offset, so offsets are compared without being added to.
+  const bool is_held = offset >= buffer_offset_ && offset - buffer_offset_ <= buffer_.size() &&
+                       count <= buffer_.size() - (offset - buffer_offset_);
+  if (!is_held) {
     buffer_ = read(offset, kBuffer);
     buffer_offset_ = offset;
   }

@@ -30,19 +30,21 @@ Decompressed fromBzip2(std::string_view in, std::size_t most) {
   std::size_t used = 0;
   int result = BZ_OK;
   while (result == BZ_OK) {
-    const std::size_t room = roomIn(out.bytes, used, most);
-    if (room == 0) break;
-    stream.next_out = out.bytes.data() + used;
-    stream.avail_out = static_cast<unsigned>(room);
+    // At the limit one more byte is asked for, which tells whether the data end there.
+    const std::size_t room = roomIn(out.bytes, used, most), asked = std::max<std::size_t>(room, 1);
+    char beyond = 0;
+    stream.next_out = room > 0 ? out.bytes.data() + used : &beyond;
+    stream.avail_out = static_cast<unsigned>(asked);
     result = BZ2_bzDecompress(&stream);
-    const std::size_t got = room - stream.avail_out;
+    const std::size_t got = asked - stream.avail_out;
+    if (room == 0 && got > 0) out.problem = kTooLarge;
+    if (result == BZ_OK && got == 0 && stream.avail_in == 0) out.problem = kCut;
+    if (!out.problem.empty()) break;
     used += got;
-    if (result == BZ_OK && got == 0 && stream.avail_in == 0) break;
   }
   BZ2_bzDecompressEnd(&stream);
   out.bytes.resize(used);
-  if (result == BZ_OK && used < most) out.problem = kCut;
-  if (result != BZ_OK && result != BZ_STREAM_END) out.problem = "is damaged (bzip2)";
+  if (out.problem.empty() && result != BZ_STREAM_END) out.problem = "is damaged (bzip2)";
   return out;
 }
 

@@ -19,11 +19,13 @@ namespace omnimapper::ros {
 
 namespace {
 
-int temporaryFile(const std::string& path) {
-  std::string name = (std::filesystem::temp_directory_path() / "omnimapper-log-XXXXXX").string();
+std::string temporaryName() {
+  return (std::filesystem::temp_directory_path() / "omnimapper-log-XXXXXX").string();
+}
+
+int temporaryFile(std::string& name, const std::string& path) {
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
   if (file < 0) source::refuse(path, "cannot be unpacked into " + name + ": " + std::strerror(errno));
-  ::unlink(name.c_str());
   return file;
 }
 
@@ -43,20 +45,25 @@ void writeAll(int file, const char* bytes, std::size_t count, const std::string&
 }
 
 // Unpacks until the end, or until the file is damaged or cut: what is before that is read.
-void unpack(const std::string& path, int file) {
+Damage unpack(const std::string& path, int file) {
   const RandomFile packed(path);
   const std::unique_ptr<ZSTD_DStream, size_t (*)(ZSTD_DStream*)> stream(ZSTD_createDStream(), ZSTD_freeDStream);
   std::vector<char> out(ZSTD_DStreamOutSize());
   std::uint64_t written = 0, most = halfOfFreeSpace(file);
   constexpr std::uint64_t kStep = std::uint64_t{1} << 20;
+  bool is_in_frame = false;
   for (std::uint64_t at = 0; at < packed.size();) {
     const std::string bytes = packed.read(at, kStep);
+    if (bytes.empty()) return {false, "cannot be read to its end"};
     at += bytes.size();
     ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
     bool is_full = true;  // the buffer of the last step, so that more may come
     while (in.pos < in.size || is_full) {
       ZSTD_outBuffer to{out.data(), out.size(), 0};
-      if (ZSTD_isError(ZSTD_decompressStream(stream.get(), &to, &in))) return;
+      const std::size_t before = in.pos, left = ZSTD_decompressStream(stream.get(), &to, &in);
+      if (ZSTD_isError(left))
+        return {false, std::string("has damaged data (Zstandard: ") + ZSTD_getErrorName(left) + ")"};
+      if (in.pos > before || to.pos > 0) is_in_frame = left != 0;
       written += to.pos;
       if (written > most)
         source::refuse(path,
@@ -64,27 +71,28 @@ void unpack(const std::string& path, int file) {
       writeAll(file, out.data(), to.pos, path);
       is_full = to.pos == out.size();
     }
-    if (bytes.empty()) return;
   }
+  return is_in_frame ? Damage{true, "ends in the middle of its compressed data"} : Damage{};
 }
 
 }  // namespace
 
-UnpackedFile::UnpackedFile(const std::string& path) : file_(temporaryFile(path)) {
+UnpackedFile::UnpackedFile(const std::string& path) : name_(temporaryName()), file_(temporaryFile(name_, path)) {
   try {
-    unpack(path, file_);
+    damage_ = unpack(path, file_);
   } catch (...) {
-    ::close(file_);
+    remove();
     throw;
   }
 }
 
 UnpackedFile::~UnpackedFile() {
-  ::close(file_);
+  remove();
 }
 
-std::string UnpackedFile::path() const {
-  return "/proc/self/fd/" + std::to_string(file_);
+void UnpackedFile::remove() {
+  ::close(file_);
+  ::unlink(name_.c_str());
 }
 
 }  // namespace omnimapper::ros

@@ -2,7 +2,10 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
+#include <optional>
 
 #include "LogWriters.h"
 #include "ros_log/LogFiles.h"
@@ -114,6 +117,38 @@ TEST_F(LogOf, aDamagedRecordOfABagIsSkippedWithTheIndexAtItsEnd) {
   EXPECT_EQ(damage_.what, "");
 }
 
+TEST_F(LogOf, aBagWhoseIndexIsAtAnImpossiblePlaceIsReadAsFarAsItGoes) {
+  std::string text = BagWriter().text(kTopics, sevenMessages());
+  const std::string name = "index_pos=";
+  text.replace(text.find(name) + name.size(), 8, std::string(8, '\xff'));
+  EXPECT_EQ(readText(text), kAll);
+  EXPECT_EQ(readText(text.substr(0, text.size() - 10)), kAll);
+  EXPECT_TRUE(damage_.is_cut);
+}
+
+TEST_F(LogOf, aMessageWithoutAChunkThatStatesTooMuchEndsTheBagBeforeIt) {
+  BagWriter writer;
+  writer.has_chunks = writer.is_indexed = false;
+  std::string text = writer.text(kTopics, sevenMessages());
+  text.replace(text.find("message 3") - 4, 4, number(200'000'000, 4));
+  EXPECT_EQ(readText(text), "012");
+  EXPECT_NE(damage_.what, "");
+  Channels channels;
+  const auto bag = openContainer(path_, channels);
+  for (const auto& chunk : bag->chunks()) EXPECT_LE(chunk.offset + chunk.size, text.size());
+}
+
+TEST_F(LogOf, aMessageThatIsKeptDoesNotHoldItsChunk) {
+  BagWriter().write(path_, kTopics, sevenMessages());
+  Channels channels;
+  const auto message = openContainer(path_, channels)->load(0).at(1);
+  const Message kept = detached(message);
+  EXPECT_EQ(kept.bytes, "message 1");
+  EXPECT_EQ(kept.time, message.time);
+  EXPECT_EQ(kept.buffer->size(), kept.bytes.size());
+  EXPECT_LT(kept.buffer->size(), message.buffer->size());
+}
+
 TEST_F(LogOf, anOldOrEncryptedBagIsRefusedByName) {
   std::ofstream(path_, std::ios::binary) << "#ROSRECORD V1.2\n" << std::string(100, ' ');
   EXPECT_NE(refusal(path_).find("V1.2"), std::string::npos) << refusal(path_);
@@ -196,10 +231,52 @@ TEST_F(LogOf, aSplitLogIsReadInTheOrderOfItsTimesAndMissingFilesAreNamed) {
   EXPECT_EQ(LogFiles(folder).missing, std::vector<std::string>{folder + "/log_2.db3"});
 }
 
-TEST_F(LogOf, aFileThatIsCompressedAsAWholeIsUnpacked) {
-  const std::string path = folder_ / "log.mcap.zstd";
-  std::ofstream(path, std::ios::binary) << packed("zstd", McapWriter().text(kTopics, sevenMessages()));
-  EXPECT_EQ(read(path), kAll);
+std::string contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// What is unpacked goes to a folder of the test.
+class PackedLog : public LogOf {
+ protected:
+  PackedLog() {
+    std::filesystem::create_directory(temporary_);
+    if (const char* before = std::getenv("TMPDIR")) before_ = before;
+    ::setenv("TMPDIR", temporary_.c_str(), 1);
+  }
+  ~PackedLog() override {
+    before_ ? ::setenv("TMPDIR", before_->c_str(), 1) : ::unsetenv("TMPDIR");
+    EXPECT_TRUE(std::filesystem::is_empty(temporary_));
+  }
+  std::string temporary_ = folder_ / "temporary";
+  std::optional<std::string> before_;
+};
+
+TEST_F(PackedLog, ofEachKindIsUnpacked) {
+  const std::string plain = folder_ / "plain.db3";
+  Db3Writer().write(plain, kTopics, sevenMessages());
+  for (const auto& text :
+       {McapWriter().text(kTopics, sevenMessages()), BagWriter().text(kTopics, sevenMessages()), contentOf(plain)}) {
+    EXPECT_EQ(readText(packed("zstd", text)), kAll);
+    EXPECT_EQ(damage_.what, "");
+  }
+  EXPECT_NE(refusal(path_ + "none").find("No such file"), std::string::npos);
+  std::ofstream(path_, std::ios::binary) << packed("zstd", packed("zstd", contentOf(plain)));
+  EXPECT_NE(refusal(path_).find("is no log of ROS"), std::string::npos) << refusal(path_);
+}
+
+TEST_F(PackedLog, isReadUpToItsDamage) {
+  const std::string text = McapWriter().text(kTopics, sevenMessages());
+  const std::string first = packed("zstd", text.substr(0, text.size() / 2));
+  const std::string second = packed("zstd", text.substr(text.size() / 2));
+  const std::string cut = readText(first + second.substr(0, second.size() - 5));
+  EXPECT_EQ(cut, kAll.substr(0, cut.size()));
+  EXPECT_GT(cut.size(), 1u);
+  EXPECT_TRUE(damage_.is_cut);
+  EXPECT_NE(damage_.what.find("compressed data"), std::string::npos) << damage_.what;
+  EXPECT_EQ(readText(first + "this is no frame of Zstandard"), cut);
+  EXPECT_FALSE(damage_.is_cut);
+  EXPECT_NE(damage_.what.find("Zstandard"), std::string::npos) << damage_.what;
 }
 
 }  // namespace
