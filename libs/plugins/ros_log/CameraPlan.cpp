@@ -43,10 +43,12 @@ CameraPlan::CameraPlan(const Survey& survey) {
 
 CameraUse CameraPlan::useOf(const SensorKey& sensor, const SeenSensor& seen, const Survey& survey) const {
   CameraUse use;
-  use.is_depth = seen.is_depth;
+  use.is_depth = seen.content == ImageContent::depths;
   use.frame = sensor.second;
   const CalibratedCamera* camera = cameraFor(sensor, survey);
-  if (!camera) {
+  if (seen.content == ImageContent::deep_grey) {
+    use.problem = "grey values of 16 bits (mono16), which are depths only on a topic with 'depth' in its name";
+  } else if (!camera) {
     use.problem = "no CameraInfo of their camera";
   } else if (!camera->problem.empty()) {
     use.problem = "the CameraInfo of their camera " + camera->problem;

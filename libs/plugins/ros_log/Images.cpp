@@ -37,9 +37,10 @@ constexpr std::array<PixelFormat, 19> kPixelFormats{{{"mono8", CV_8UC1, -1},
                                                      {"32FC1", CV_32FC1, -1}}};
 
 const PixelFormat& formatOf(const std::string& encoding) {
+  constexpr std::size_t kLongestShown = 40;  // [bytes]
   for (const auto& format : kPixelFormats)
     if (encoding == format.encoding) return format;
-  throw BadBytes("is an image in the encoding '" + encoding + "', which is not read");
+  throw BadBytes("is an image in the encoding '" + encoding.substr(0, kLongestShown) + "', which is not read");
 }
 
 // The pixels of an Image as they are; refers to the message.
@@ -71,6 +72,22 @@ cv::Mat uncompressed(std::string_view data, int how) {
   return image;
 }
 
+cv::Mat uncompressed16(std::string_view data) {
+  const cv::Mat values = uncompressed(data, cv::IMREAD_UNCHANGED);
+  if (values.type() != CV_16UC1) throw BadBytes("is a depth image without 16 bits for each pixel");
+  return values;
+}
+
+cv::Mat colourful(const cv::Mat& pixels, int conversion) {
+  cv::Mat picture;
+  try {
+    cv::cvtColor(pixels, picture, conversion);
+  } catch (const cv::Exception&) {
+    throw BadBytes("is an image whose colours cannot be converted");
+  }
+  return picture;
+}
+
 cv::Mat millimetresOf(const cv::Mat& metres) {
   constexpr float kPerMetre = 1000;
   cv::Mat depths(metres.size(), CV_16UC1);
@@ -89,8 +106,7 @@ cv::Mat millimetresOf(const cv::Mat& metres) {
 cv::Mat uncompressedDepths(std::string_view data, bool are_metres) {
   constexpr std::size_t kHead = 12;
   if (data.size() <= kHead) throw BadBytes("is a depth image without data");
-  const cv::Mat values = uncompressed(data.substr(kHead), cv::IMREAD_UNCHANGED);
-  if (values.type() != CV_16UC1) throw BadBytes("is a depth image without 16 bits for each pixel");
+  const cv::Mat values = uncompressed16(data.substr(kHead));
   if (!are_metres) return values;
   float a = 0, b = 0;
   std::memcpy(&a, data.data() + 4, sizeof a);
@@ -107,9 +123,13 @@ cv::Mat uncompressedDepths(std::string_view data, bool are_metres) {
 
 }  // namespace
 
-bool isDepthEncoding(std::string_view encoding) {
-  return encoding == "16UC1" || encoding == "32FC1" || encoding == "mono16" ||
-         encoding.find("compressedDepth") != std::string_view::npos;
+ImageContent imageContentOf(std::string_view encoding, std::string_view topic) {
+  const std::string_view pixels = encoding.substr(0, encoding.find(';'));  // "16UC1; png compressed "
+  const bool is_depth =
+      pixels == "16UC1" || pixels == "32FC1" || encoding.find("compressedDepth") != std::string_view::npos;
+  if (is_depth) return ImageContent::depths;
+  if (pixels != "mono16") return ImageContent::picture;
+  return topic.find("depth") != std::string_view::npos ? ImageContent::depths : ImageContent::deep_grey;
 }
 
 cv::Mat pictureOf(const Value& message) {
@@ -119,15 +139,15 @@ cv::Mat pictureOf(const Value& message) {
   const cv::Mat pixels = pixelsOf(message, format);
   if (format.conversion < 0) return pixels;
   if (format.type == CV_8UC2 && pixels.cols % 2 != 0) throw BadBytes("is an image with half a pair of pixels");
-  cv::Mat picture;
-  cv::cvtColor(pixels, picture, format.conversion);
-  return picture;
+  return colourful(pixels, format.conversion);
 }
 
 cv::Mat depthsOf(const Value& message) {
   if (!message.has("encoding")) {
     const std::string_view format = message["format"].text();
-    return uncompressedDepths(message["data"].bytes(), format.find("32FC1") != std::string_view::npos);
+    const std::string_view data = message["data"].bytes();
+    if (format.find("compressedDepth") == std::string_view::npos) return uncompressed16(data);
+    return uncompressedDepths(data, format.find("32FC1") != std::string_view::npos);
   }
   const PixelFormat& format = formatOf(std::string(message["encoding"].text()));
   cv::Mat pixels = pixelsOf(message, format);

@@ -1,7 +1,6 @@
 #include "Survey.h"
 
 #include "Converted.h"
-#include "Images.h"
 
 namespace omnimapper::ros {
 
@@ -19,7 +18,7 @@ void addDelay(SeenSensor& sensor, std::int64_t header_time, std::int64_t recorde
 }
 
 std::string frameOfSensor(Role role, const Value& message, const Header& header) {
-  return role == Role::odometry ? frameName(message["child_frame_id"].text()) : header.frame;
+  return role == Role::odometry ? frameIn(message["child_frame_id"]) : header.frame;
 }
 
 void addCamera(const Value& info, const std::string& topic, const std::string& frame, Survey& survey) {
@@ -41,12 +40,11 @@ void look(const Value& message, const Channel& channel, Role role, std::int64_t 
   if (survey.sensors.size() >= kMostSensors && survey.sensors.count(key) == 0) return;
   SeenSensor& sensor = survey.sensors[key];
   sensor.role = role;
-  sensor.type = channel.type;
   sensor.header_frame = header.frame;
   ++sensor.messages;
   addDelay(sensor, header.time, recorded);
   if (role == Role::laser) sensor.sweep = sweepOf(message);
-  if (role == Role::image) sensor.is_depth = isDepthEncoding(message.either("encoding", "format").text());
+  if (role == Role::image) sensor.content = imageContentOf(message.either("encoding", "format").text(), channel.topic);
 }
 
 void lookAtTransforms(const Value& message, const Channel& channel, std::int64_t recorded, Survey& survey) {
@@ -57,7 +55,6 @@ void lookAtTransforms(const Value& message, const Channel& channel, std::int64_t
     if (is_static || (survey.sensors.size() >= kMostSensors && survey.sensors.count(key) == 0)) continue;
     SeenSensor& sensor = survey.sensors[key];
     sensor.role = Role::transforms;
-    sensor.type = channel.type;
     sensor.header_frame = one.parent;
     ++sensor.messages;
     addDelay(sensor, one.time, recorded);
@@ -78,7 +75,7 @@ std::vector<StampedTransform> transformsOf(const Value& message) {
     const Header header = headerOf(list[i]);
     try {
       transforms.push_back(
-          {header.frame, frameName(list[i]["child_frame_id"].text()), header.time, poseOf(list[i]["transform"])});
+          {header.frame, frameIn(list[i]["child_frame_id"]), header.time, poseOf(list[i]["transform"])});
     } catch (const BadBytes&) {
     }
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ChannelDecoder.h"
+#include "Images.h"
 #include "MessageReader.h"
 #include "Transforms.h"
 
@@ -20,14 +21,13 @@ using SensorKey = std::pair<std::string, std::string>;
 /// What a survey saw of a sensor.
 struct SeenSensor {
   Role role = Role::other;
-  std::string type;
   std::uint64_t messages = 0;
   std::string header_frame;  ///< of odometry: the frame in which its poses are; the key has the child frame
   std::vector<std::int64_t>
       delays;  ///< time of recording minus that of the header [ns], of the first headers with a time
-  std::uint64_t without_time = 0;  ///< headers whose time is 0
-  double sweep = 0;                ///< [s] of the last scan, as Converted's sweepOf()
-  bool is_depth = false;           ///< of images
+  std::uint64_t without_time = 0;                ///< headers whose time is 0
+  double sweep = 0;                              ///< [s] of the last scan, as Converted's sweepOf()
+  ImageContent content = ImageContent::picture;  ///< of images
 };
 
 /// The camera that a CameraInfo states.

@@ -155,6 +155,31 @@ TEST_F(RosCamera, compressedImagesAreRead) {
   EXPECT_NE(notes_.find("cannot be decoded"), std::string::npos) << notes_;
 }
 
+TEST_F(RosCamera, depthsAreAlsoReadOfAPlainPng) {
+  const cv::Mat values = (cv::Mat_<std::uint16_t>(2, 3) << 1000, 2000, 0, 1, 2, 3);
+  info("/depth/camera_info", "optical", 500);
+  compressed("/depth/image/compressed", "optical", 1, "16UC1; png compressed ", png(values));
+  const auto all = read();
+  ASSERT_EQ(all.size(), 1u) << notes_;
+  EXPECT_EQ(dynamic_cast<const CObservation3DRangeScan&>(*all[0]).rangeImage(0, 1), 2000);
+}
+
+TEST_F(RosCamera, greyValuesOf16BitsAreDepthsOnlyWhereTheTopicSaysSo) {
+  mount("base_link", "optical", optical_);
+  info("/depth/camera_info", "optical", 500);
+  info("/ir/camera_info", "optical", 500);
+  image("/depth/image_raw", "optical", 1, "mono16", depths({1000, 2000, 0, 4, 5, 6}));
+  image("/ir/image_raw", "optical", 1, "mono16", depths({1, 2, 3, 4, 5, 6}));
+  const auto all = read();
+  ASSERT_EQ(all.size(), 1u) << notes_;
+  const auto& scan = dynamic_cast<const CObservation3DRangeScan&>(*all[0]);
+  EXPECT_EQ(scan.rangeImage(0, 1), 2000);
+  EXPECT_FALSE(scan.hasIntensityImage);
+  EXPECT_NE(notes_.find("/ir/image_raw (sensor_msgs/Image): 1 message; left out: grey values of 16 bits"),
+            std::string::npos)
+      << notes_;
+}
+
 TEST_F(RosCamera, aCloudHasItsFinitePoints) {
   Serializer out(true);
   out.header(stamp(1), "lidar").uint(1, 4).uint(2, 4).uint(3, 4);
