@@ -38,7 +38,7 @@ void CameraObservations::keep(const std::string& topic, std::int64_t time, const
   constexpr std::size_t kMost = 40;
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 25;
   auto& pictures = pictures_[topic];
-  pictures.emplace_back(time, message);
+  pictures.emplace_back(time, detached(message));
   while (pictures.size() > 1 && (pictures.size() > kMost || pictures.size() * message.bytes.size() > kMostBytes))
     pictures.pop_front();
 }

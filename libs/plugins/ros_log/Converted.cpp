@@ -46,9 +46,15 @@ std::uint8_t qualityOf(int status) {
 
 }  // namespace
 
+std::string frameIn(const Value& text) {
+  constexpr std::size_t kLongest = 1000;  // [bytes]
+  if (text.text().size() > kLongest) throw BadBytes("has a frame whose name is longer than 1000 bytes");
+  return frameName(text.text());
+}
+
 Header headerOf(const Value& message) {
   const Value& header = message["header"];
-  return {frameName(header["frame_id"].text()), boundedTime(header["stamp"].nanoseconds())};
+  return {frameIn(header["frame_id"]), boundedTime(header["stamp"].nanoseconds())};
 }
 
 base::Stamp stampOf(std::int64_t nanoseconds) {
@@ -147,7 +153,7 @@ Converted odometryOf(const Value& message) {
   const double turn = twist["angular"]["z"].number();
   odometry->hasVelocities = std::isfinite(forward) && std::isfinite(left) && std::isfinite(turn);
   if (odometry->hasVelocities) odometry->velocityLocal = {forward, left, turn};
-  return {odometry, frameName(message["child_frame_id"].text()), {}};
+  return {odometry, frameIn(message["child_frame_id"]), {}};
 }
 
 }  // namespace omnimapper::ros

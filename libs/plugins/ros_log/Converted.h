@@ -24,6 +24,9 @@ struct Header {
   std::int64_t time = 0;
 };
 Header headerOf(const Value& message);
+/// The frame that a text names, without the slash that tf of ROS 1 has before it. Throws BadBytes for a name of more
+/// than 1000 bytes, as names are kept.
+std::string frameIn(const Value& text);
 
 base::Stamp stampOf(std::int64_t nanoseconds);
 

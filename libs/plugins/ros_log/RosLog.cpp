@@ -4,14 +4,14 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/refuse.h>
 
 #include <algorithm>
-#include <set>
 
 #include "CameraObservations.h"
 #include "LogFiles.h"
+#include "Mounting.h"
+#include "OdometryOfBase.h"
 #include "Plan.h"
 #include "ReorderBuffer.h"
 #include "TopicTable.h"
@@ -44,13 +44,16 @@ bool RosLog::recognizes(const source::LogLook& look) {
 class RosLog::Stream {
  public:
   Stream(const std::string& path, const RosLogOptions& options)
-      : files_(path),
+      : options_(options),
+        files_(path),
         reader_(files_.present, channels_),
         decoder_(channels_),
         survey_(Survey::of(reader_, channels_, decoder_)),
         plan_(path, survey_, options),
         camera_plan_(survey_),
         cameras_(camera_plan_, decoder_),
+        mounting_(plan_),
+        odometry_(plan_),
         transforms_(survey_.transforms) {
     decoder_.forgetBad();
     if (survey_.is_complete && !hasSomething())
@@ -149,7 +152,7 @@ class RosLog::Stream {
                  message.time,
                  number_++,
                  message.bytes.size(),
-                 message});
+                 detached(message)});
   }
 
   void add(Converted measured, const std::string& frame, Role role, const Value& value, const Message& message) {
@@ -162,7 +165,7 @@ class RosLog::Stream {
   static Converted poseObservation(const Value& value) {
     auto pose = mrpt::obs::CObservationRobotPose::Create();
     pose->pose.mean = geometry::toMrpt(innerPoseOf(value));
-    return {pose, value.has("child_frame_id") ? frameName(value["child_frame_id"].text()) : "", {}};
+    return {pose, value.has("child_frame_id") ? frameIn(value["child_frame_id"]) : "", {}};
   }
 
   void takeTransforms(const Value& value, const Message& message) {
@@ -204,7 +207,7 @@ class RosLog::Stream {
       return nullptr;
     }
     const bool is_odometry = waiting.role == Role::odometry || waiting.role == Role::transforms;
-    const auto reason = is_odometry ? moveToBase(waiting) : mount(waiting);
+    const auto reason = is_odometry ? odometry_.move(waiting, transforms_) : mounting_.mount(waiting, transforms_);
     const std::string label = plan_.labelOf(waiting.sensor);
     if (!reason.empty()) {
       table_.leftOut(channel, reason);
@@ -216,49 +219,6 @@ class RosLog::Stream {
     observation->timestamp = stampOf(waiting.time);
     report_.count(label, observation->GetRuntimeClass()->className, observation->timestamp);
     return observation;
-  }
-
-  // Why the sensor's pose is not known; empty if it is.
-  std::string mount(const Waiting& waiting) {
-    geometry::Se3 base_from_frame;
-    const std::string &base = plan_.baseFrame(), &frame = waiting.measured.frame;
-    if (waiting.role != Role::pose && (base.empty() || frame != base)) {
-      const std::string root = transforms_.chainFrom(frame).back();
-      const bool is_connected = !base.empty() && transforms_.connects(base, frame);
-      if (is_connected || (frame != root && isBaseFrame(root))) {
-        const std::string& from = is_connected ? base : root;
-        const auto found = transforms_.between(from, frame, waiting.time, kHeldBack);
-        if (!found) return "no transform from " + from + " to " + frame + " at that time";
-        base_from_frame = *found;
-        if (!is_connected) other_bases_.insert(root);
-      } else {
-        unmounted_.insert(waiting.sensor);
-        const bool is_optical = waiting.role == Role::image || frame.find("optical") != std::string::npos;
-        if (is_optical) base_from_frame = geometry::sensorFromOptical();
-      }
-    }
-    waiting.measured.observation->setSensorPose(geometry::toMrpt(base_from_frame * waiting.measured.frame_from_sensor));
-    return "";
-  }
-
-  // Odometry of another frame of the robot becomes that of the base. A mapper uses the odometry that comes first.
-  std::string moveToBase(const Waiting& waiting) {
-    const auto& chosen = plan_.odometry();
-    const bool is_chosen = waiting.role == Role::transforms || chosen.isOf(waiting.sensor.first);
-    if (!is_chosen && !has_odometry_ && (chosen.isTransform() || !chosen.topic.empty()))
-      return "before the first odometry that is used";
-    auto& last = last_odometry_[waiting.sensor];
-    if (waiting.role == Role::transforms && waiting.time <= last) return "a repetition";
-    last = waiting.time;
-    has_odometry_ = has_odometry_ || is_chosen;
-    const std::string &base = plan_.baseFrame(), &frame = waiting.measured.frame;
-    if (frame == base || base.empty() || !transforms_.connects(frame, base)) return "";
-    const auto frame_from_base = transforms_.between(frame, base, waiting.time, kHeldBack);
-    if (!frame_from_base) return "no transform from " + frame + " to " + base + " at that time";
-    auto& odometry = dynamic_cast<mrpt::obs::CObservationOdometry&>(*waiting.measured.observation);
-    const auto odom_from_frame = geometry::lift(geometry::fromMrpt(odometry.odometry));
-    odometry.odometry = mrpt::poses::CPose2D(geometry::toMrpt(geometry::project(odom_from_frame * *frame_from_base)));
-    return "";
   }
 
   void finish() {
@@ -275,8 +235,8 @@ class RosLog::Stream {
     report_.doubts = plan_.doubts();
     for (const auto& file : files_.missing)
       report_.doubts.push_back(file + " is missing, although metadata.yaml lists it");
-    noteUnmounted();
-    noteOtherBases();
+    doubtTruth();
+    mounting_.addTo(report_);
     const Damage damage = reader_.damage();
     report_.ending = damage.what.empty() ? SourceReport::Ending::complete
                      : damage.is_cut     ? SourceReport::Ending::truncated
@@ -285,24 +245,20 @@ class RosLog::Stream {
       report_.message = damage.what + ". What can be read was read; copy or download the log again for the rest.";
   }
 
-  void noteOtherBases() {
-    for (const auto& frame : other_bases_)
-      report_.notes.push_back("no transform connects " + frame + " with the base " + plan_.baseFrame() +
-                              "; they are taken to be the same");
+  // A tracker gives the poses of what it tracks.
+  void doubtTruth() {
+    const std::string& topic = options_.truth_topic;
+    const bool is_of_base = std::any_of(survey_.sensors.begin(), survey_.sensors.end(), [&](const auto& one) {
+      return one.first.first == topic && one.second.role == Role::odometry && one.first.second == plan_.baseFrame();
+    });
+    if (topic.empty() || is_of_base) return;
+    report_.doubts.push_back("the true poses of " + topic +
+                             " are those of the body that it names or tracks, which may not be the base: compare a "
+                             "trajectory with them by omnimapper-eval ate --solve-offset, and give them to a map only "
+                             "if that body is the base");
   }
 
-  // One sensor at a wrong place only moves the base; several contradict each other.
-  void noteUnmounted() {
-    std::string names;
-    for (const auto& sensor : unmounted_) names += (names.empty() ? "" : ", ") + plan_.labelOf(sensor);
-    if (names.empty()) return;
-    auto& lines = unmounted_.size() > 1 ? report_.doubts : report_.notes;
-    lines.push_back(
-        "the log does not say where on the robot these sensors are mounted, and they are taken to be at its "
-        "base, looking ahead: " +
-        names + "; their poses can be set for [mapper] sensors");
-  }
-
+  RosLogOptions options_;
   Channels channels_;
   LogFiles files_;
   MessageReader reader_;
@@ -311,18 +267,16 @@ class RosLog::Stream {
   Plan plan_;
   CameraPlan camera_plan_;
   CameraObservations cameras_;
+  Mounting mounting_;
+  OdometryOfBase odometry_;
   Transforms transforms_;
   ReorderBuffer buffer_;
   TopicTable table_;
   SourceReport report_;
   source::TruePoses truth_;
-  std::map<SensorKey, std::int64_t> last_odometry_;  // time [ns since 1970]
-  std::set<SensorKey> unmounted_;
-  std::set<std::string> other_bases_;
   std::uint64_t number_ = 0;
   std::int64_t pruned_ = 0;  // time of recording at which transforms were forgotten
-  bool has_odometry_ = false;
-  bool is_read_ = false;  // all messages are
+  bool is_read_ = false;     // all messages are
 };
 
 RosLog::RosLog(const std::string& path, const RosLogOptions& options)

@@ -4,6 +4,12 @@
 
 namespace omnimapper::ros {
 
+void TopicTable::count(const std::string& text, const std::string& others, Counts& counts) {
+  constexpr std::size_t kMost = 50, kLongest = 200;  // texts, [bytes]
+  const std::string shown = text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  ++counts[counts.size() < kMost || counts.count(shown) > 0 ? shown : others];
+}
+
 std::vector<std::string> TopicTable::lines() const {
   constexpr std::size_t kMostLines = 60;
   std::vector<std::string> lines;

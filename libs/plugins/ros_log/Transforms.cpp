@@ -37,7 +37,7 @@ void Transforms::add(const std::string& parent, const std::string& child, std::i
   if (edges_.size() >= kMostFrames && edges_.count(child) == 0) return;
   Edge& edge = edges_[child];
   if (edge.parent != parent) edge = {parent, is_static, false, {}};
-  parents_.insert(parent);
+  if (parents_.size() < kMostFrames) parents_.insert(parent);
   if (!edge.poses.empty() && !isNear(edge.poses.begin()->second, parent_from_child)) edge.has_moved = true;
   edge.is_static = is_static;
   if (is_static) edge.poses.clear();
@@ -99,11 +99,6 @@ bool Transforms::connects(const std::string& a, const std::string& b) const {
 
 bool Transforms::has(const std::string& frame) const {
   return edges_.count(frame) > 0 || parents_.count(frame) > 0;
-}
-
-bool Transforms::moves(const std::string& child) const {
-  const auto edge = edges_.find(child);
-  return edge != edges_.end() && edge->second.has_moved && !edge->second.is_static;
 }
 
 std::map<std::string, std::string> Transforms::movingFrames() const {

@@ -26,12 +26,9 @@ class Transforms {
   /// Whether the frames are connected.
   bool connects(const std::string& a, const std::string& b) const;
   bool has(const std::string& frame) const;
-  bool hasParent(const std::string& frame) const { return edges_.count(frame) > 0; }
   /// The frames from this one up to the root of its tree.
   std::vector<std::string> chainFrom(const std::string& frame) const;
-  /// Whether the pose of the frame in its parent changed.
-  bool moves(const std::string& child) const;
-  /// Frames with a parent that moved, and the number of their transforms.
+  /// The frames that moved in their parents, each with its parent.
   std::map<std::string, std::string> movingFrames() const;
 
   /// Forgets transforms before this time, but the last of each frame.

@@ -164,19 +164,26 @@ class Decoder {
 
  private:
   Value fieldOf(const Field& field) {
+    countValue();
     if (field.count == Field::Count::one) return one(field);
     const std::uint64_t count = field.count == Field::Count::fixed ? field.fixed_count : number(4);
     if (!field.message && field.primitive != Primitive::text) return array(field.primitive, count);
     Value value;
     auto& parts = value.content_.emplace<Value::Parts>();
     if (count > cursor_.left() && count > kMostEmpty) throw BadBytes("ends too early");
-    for (std::uint64_t i = 0; i < count; ++i) parts.values.push_back(one(field));
+    for (std::uint64_t i = 0; i < count; ++i) {
+      countValue();
+      parts.values.push_back(one(field));
+    }
     return value;
   }
 
-  Value one(const Field& field) {
+  void countValue() {
     constexpr std::size_t kMostValues = 4'000'000;
     if (++values_ > kMostValues) throw BadBytes("has more than 4 million values");
+  }
+
+  Value one(const Field& field) {
     if (field.message) return message(*field.message);
     Value value;
     if (field.primitive == Primitive::text) {

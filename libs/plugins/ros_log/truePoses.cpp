@@ -22,8 +22,7 @@ source::TruePoses truePosesOf(const std::string& topic, MessageReader& reader, c
     if (!value) continue;
     try {
       const Header header = headerOf(*value);
-      const std::string frame =
-          value->has("child_frame_id") ? frameName((*value)["child_frame_id"].text()) : header.frame;
+      const std::string frame = value->has("child_frame_id") ? frameIn((*value)["child_frame_id"]) : header.frame;
       poses.emplace_back(stampOf(plan.timeOf({topic, frame}, header.time, message->time)), innerPoseOf(*value));
     } catch (const BadBytes&) {  // a pose that is not valid
     }

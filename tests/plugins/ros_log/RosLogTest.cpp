@@ -186,7 +186,20 @@ TEST_F(RosLogOf, odometryOfAnotherFrameBecomesThatOfTheBase) {
   EXPECT_NEAR(all[0]->odometry.x(), 5, 1e-9);
   EXPECT_NEAR(all[0]->odometry.y(), 4, 1e-9);
   EXPECT_NEAR(all[0]->odometry.phi(), M_PI / 2, 1e-9);
-  EXPECT_NEAR(all[0]->velocityLocal.omega, 0.25, 1e-9);
+  EXPECT_FALSE(all[0]->hasVelocities) << "the wheels' frame moves sideways where the base turns";
+  options.base_frame = "wheels";
+  const auto of_wheels = readAs<CObservationOdometry>(options);
+  ASSERT_EQ(of_wheels.size(), 1u);
+  EXPECT_TRUE(of_wheels[0]->hasVelocities);
+  EXPECT_NEAR(of_wheels[0]->velocityLocal.omega, 0.25, 1e-9);
+}
+
+TEST_F(RosLogOf, anyNumberOfFramesIsNamedInBoundedMemory) {
+  for (int i = 0; i < 150; ++i) scan(0.01 * i, {-1, 1, 0.1F, 10, {1, 2}, "frame" + std::to_string(i)});
+  scan(2, {-1, 1, 0.1F, 10, {1, 2}, std::string(2000, 'f')});
+  EXPECT_EQ(read().size(), 150u);
+  EXPECT_TRUE(says(report_.doubts, ", and perhaps more; their poses can be set"));
+  EXPECT_TRUE(says(report_.notes, "has a frame whose name is longer than 1000 bytes"));
 }
 
 TEST_F(RosLogOf, odometryThatIsOnlyInTransformsIsFound) {
@@ -281,6 +294,10 @@ TEST_F(RosLogOf, posesAreGivenOrTrueOnlyOnRequest) {
   options = {};
   options.truth_topic = "/odom";
   EXPECT_EQ(read(options).size(), 1u);
+  EXPECT_TRUE(says(report_.doubts, "the true poses of /odom are those of the body"));
+  options.base_frame = "base_link";
+  EXPECT_EQ(read(options).size(), 1u);
+  EXPECT_FALSE(says(report_.doubts, "true poses")) << "they are those of the base";
   RosLog log(path_, options);
   ASSERT_EQ(log.truth().size(), 2u);
   const auto between = log.truthAt(base::stampFromUnix(1.6e9) + base::durationFromSeconds(1.05));

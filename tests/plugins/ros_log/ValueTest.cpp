@@ -79,6 +79,19 @@ TEST(RosValue, aMessageThatEndsEarlyOrStatesTooMuchIsRefused) {
   EXPECT_THROW(decoded(definition.layout(), std::string("\0\x0b\0\0", 4), Encoding::cdr), BadBytes);
 }
 
+TEST(RosValue, arraysWithoutElementsCountAsValues) {
+  // 50,000 parts of a byte with a hundred fields each: 5 million values.
+  std::string text = "Part[] parts\n===\nMSG: test_msgs/Part\nuint8 a\n";
+  for (int i = 1; i < 100; ++i) text += "uint8[0] none" + std::to_string(i) + "\n";
+  const Definition definition("test_msgs/List", text);
+  const auto listOf = [](std::size_t parts) {
+    return Serializer(false).uint(parts, 4).raw(std::string(parts, '\0')).bytes();
+  };
+  const std::string few = listOf(100), many = listOf(50'000);
+  EXPECT_EQ(decoded(definition.layout(), few, Encoding::ros1)["parts"].size(), 100u);
+  EXPECT_THROW(decoded(definition.layout(), many, Encoding::ros1), BadBytes);
+}
+
 TEST(RosValue, aFieldThatIsMissingIsNamed) {
   const Definition definition("test_msgs/Two", "uint8 a\n");
   const auto value = decoded(definition.layout(), std::string(1, '\1'), Encoding::ros1);
