@@ -17,11 +17,11 @@ using namespace omnimapper;
 
 namespace {
 
-mrpt::obs::CObservationRobotPose poseObservation(base::Stamp stamp, const geometry::Se3& world_from_base) {
+mrpt::obs::CObservationRobotPose poseObservation(base::Stamp stamp, const geometry::Se3& true_pose) {
   mrpt::obs::CObservationRobotPose pose;
   pose.timestamp = stamp;
   pose.sensorLabel = "poses";
-  pose.pose.mean = geometry::toMrpt(world_from_base);
+  pose.pose.mean = geometry::toMrpt(true_pose);
   return pose;
 }
 

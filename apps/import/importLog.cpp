@@ -1,6 +1,7 @@
 #include "importLog.h"
 
 #include <omnimapper/base/AtomicFile.h>
+#include <omnimapper/base/Names.h>
 #include <omnimapper/geometry/TumLine.h>
 #include <omnimapper/source/RawlogWriter.h>
 #include <omnimapper/source/SourceFactory.h>
@@ -46,15 +47,16 @@ base::ExitCode importLog(const Arguments& arguments) {
       arguments.output, [&](source::RawlogWriter& rawlog) { posed = copyLog(*log, arguments, rawlog); },
       source::ColourImages::jpeg);
   const auto report = log->report();
-  std::cout << report.text();
+  std::cout << base::printableLines(report.text());
   if (arguments.poses) std::cout << "observations with a true pose in the rawlog: " << posed << "\n";
   if (!truth.empty()) {
     const auto file = std::filesystem::path(arguments.output).replace_extension().string() + ".truth.tum";
     base::writeFile(file, [&](std::ostream& out) {
-      for (const auto& [stamp, world_from_base] : truth) out << geometry::tumLine(stamp, world_from_base);
+      for (const auto& [stamp, pose] : truth) out << geometry::tumLine(stamp, pose);
     });
-    std::cout << "ground truth of the base (x forward, z up): " << file << ", " << truth.size() << " poses\n";
+    std::cout << "ground truth that the log has: " << file << ", " << truth.size() << " poses\n";
   }
-  for (const auto& doubt : report.doubts) std::cerr << "omnimapper-import: warning: " << doubt << "\n";
+  for (const auto& doubt : report.doubts)
+    std::cerr << "omnimapper-import: warning: " << base::printableLines(doubt) << "\n";
   return report.exitCode();
 }
