@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <sstream>
 
 namespace omnimapper::map {
@@ -17,6 +18,19 @@ std::string trimmed(const std::string& text) {
 std::string quoted(const std::string& text) {
   constexpr std::size_t kMost = 200;
   return "'" + base::printable(text.substr(0, kMost)) + "'";
+}
+
+/// The verb of a command and its texts, of which "rename" and "name" have two around " = ".
+std::vector<std::string> wordsOf(const std::string& command) {
+  const std::string text = trimmed(command);
+  const auto blank = text.find(' ');
+  std::vector<std::string> words{text.substr(0, blank)};
+  const std::string rest = blank == std::string::npos ? "" : trimmed(text.substr(blank));
+  if (rest.empty()) return words;
+  const auto equals = words.front() == "rename" || words.front() == "name" ? rest.find(" = ") : std::string::npos;
+  words.push_back(trimmed(rest.substr(0, equals)));
+  if (equals != std::string::npos) words.push_back(trimmed(rest.substr(equals + 3)));
+  return words;
 }
 
 }  // namespace
@@ -42,13 +56,18 @@ std::optional<NamedLandmark> namedLandmark(const std::string& command) {
 }
 
 std::string LabelEdits::commandOf(const std::vector<std::string>& words) {
-  const std::string verb = words.empty() ? "" : words.front();
-  if (verb == "undo" && words.size() == 1) return verb;
-  if (verb == "delete" && words.size() == 2) return verb + " " + words[1];
-  if (verb == "rename" && words.size() == 3 && words[1].find(" = ") == std::string::npos)
-    return verb + " " + words[1] + " = " + words[2];
-  const std::string command = verb == "name" && words.size() == 3 ? verb + " " + words[1] + " = " + words[2] : "";
-  return namedLandmark(command) ? command : "";
+  std::vector<std::string> plain;
+  for (const auto& word : words) plain.push_back(trimmed(word));
+  const auto is_none = [](const std::string& word) { return whyNoLabel(word).has_value(); };
+  if (plain.empty() || std::any_of(plain.begin(), plain.end(), is_none)) return {};
+  std::string command = plain.front();
+  for (std::size_t i = 1; i < plain.size(); ++i) command += (i == 1 ? " " : " = ") + plain[i];
+  static const std::map<std::string, std::size_t> sizes{{"name", 3}, {"rename", 3}, {"delete", 2}, {"undo", 1}};
+  const auto size = sizes.find(plain.front());
+  if (size == sizes.end() || plain.size() != size->second || wordsOf(command) != plain) return {};
+  if (plain.front() != "name") return command;
+  const auto named = namedLandmark(command);
+  return named && toString(named->id) == plain[1] ? command : "";
 }
 
 void LabelEdits::keep() {
@@ -83,18 +102,15 @@ void LabelEdits::forgetQuestion() {
 }
 
 LabelEdits::Outcome LabelEdits::edit(const std::string& command) {
-  const std::string text = trimmed(command);
-  const auto blank = text.find(' ');
-  const std::string verb = text.substr(0, blank), rest = blank == std::string::npos ? "" : trimmed(text.substr(blank));
-  if (verb == "rename") {
-    const auto equals = rest.find(" = ");
-    if (equals == std::string::npos) return {false, "rename needs OLD = NEW"};
-    return rename(trimmed(rest.substr(0, equals)), rest.substr(equals + 3));
-  }
-  if (verb == "delete") return remove(rest);
-  if (verb == "choose") return choose(rest);
-  if (verb == "undo" && rest.empty()) return undo();
-  return {false, "no edit of labels: " + quoted(text)};
+  const auto words = wordsOf(command);
+  const std::string& verb = words.front();
+  const bool has_one_text = words.size() == 2;
+  if (verb == "rename" && words.size() == 3) return rename(words[1], words[2]);
+  if (verb == "rename") return {false, "rename needs OLD = NEW"};
+  if (verb == "delete") return remove(has_one_text ? words[1] : "");
+  if (verb == "choose") return choose(has_one_text ? words[1] : "");
+  if (verb == "undo" && words.size() == 1) return undo();
+  return {false, "no edit of labels: " + quoted(trimmed(command))};
 }
 
 LabelEdits::Outcome LabelEdits::rename(const std::string& from, const std::string& name) {

@@ -22,6 +22,13 @@ void addPoints(const Extent& extent, std::vector<Vector2d>& points) {
   for (const auto& outline : extent.outlines) points.insert(points.end(), outline.begin(), outline.end());
 }
 
+std::vector<Vector2d> pointsOf(const Place& place) {
+  std::vector<Vector2d> points;
+  addPoints(place.extent, points);
+  if (points.empty()) points.push_back(place.position.head<2>());
+  return points;
+}
+
 // Landmarks are numbered from 0 on, so the places that are none are numbered from the largest number down.
 base::LandmarkId idOfNone(std::uint16_t session, std::size_t number) {
   return {session, std::numeric_limits<std::uint32_t>::max() - static_cast<std::uint32_t>(number)};
@@ -37,7 +44,8 @@ Place regionOf(const std::string& text, const std::vector<const Place*>& parts, 
   region.first_seen = parts.front()->first_seen;
   std::vector<Vector2d> points;
   for (const Place* part : parts) {
-    addPoints(part->extent, points);
+    const auto of_part = pointsOf(*part);
+    points.insert(points.end(), of_part.begin(), of_part.end());
     region.extent.bottom = std::min(region.extent.bottom, part->extent.bottom);
     region.extent.top = std::max(region.extent.top, part->extent.top);
     region.measurements += part->measurements;
@@ -45,7 +53,8 @@ Place regionOf(const std::string& text, const std::vector<const Place*>& parts, 
     region.last_seen = std::max(region.last_seen, part->last_seen);
   }
   const auto hull = geometry::convexHull(points);
-  const Vector2d middle = geometry::centroid(hull).value_or(hull.front());
+  const auto centroid = geometry::centroid(hull);
+  const Vector2d middle = centroid ? *centroid : hull.front();
   region.extent.outlines = {hull};
   region.position << middle, 0.5 * (region.extent.bottom + region.extent.top);
   return region;

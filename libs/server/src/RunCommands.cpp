@@ -34,7 +34,10 @@ void RunCommands::stop(base::Stamp now) {
 
 void RunCommands::label(const std::vector<std::string>& words, base::Stamp now) {
   const std::string text = map::LabelEdits::commandOf(words);
-  if (text.empty()) refuseCommand("a change of labels is one of: name ID TEXT, rename OLD NEW, delete TEXT, undo");
+  if (text.empty())
+    refuseCommand(
+        "a change of labels is one of: name ID TEXT, rename OLD NEW, delete TEXT, undo; a text has 1 to 200 bytes and "
+        "no control characters, and the old name no \" = \"");
   give(obs::CommandKind::edit, text, 0, now);
 }
 

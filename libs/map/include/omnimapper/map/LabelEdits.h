@@ -44,7 +44,8 @@ class LabelEdits {
   /// and "undo".
   Outcome edit(const std::string& command);
   /// The text of a command for "rename", OLD, NEW; "delete", LABEL; "undo"; or "name", ID, TEXT, which is for something
-  /// that knows the landmarks (namedLandmark()). Empty if the words are none of these, or a text would be misread.
+  /// that knows the landmarks (namedLandmark()). Empty if the words are none of these, a text may be no label, or one
+  /// would be misread.
   static std::string commandOf(const std::vector<std::string>& words);
   Outcome rename(const std::string& from, const std::string& to);
   Outcome remove(const std::string& name);
