@@ -5,7 +5,9 @@
 #include <omnimapper/live/SensorDriver.h>
 #include <omnimapper/obs/CommandTable.h>
 #include <omnimapper/testing/Fixtures.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 namespace omnimapper::drivers::command_file_test {
@@ -75,6 +77,56 @@ TEST_F(CommandFileTest, WhatExpiredOrIsRepeatedOrIsNoCommandIsRejected) {
   EXPECT_EQ(sensor_.leftOut(), 6U);
   for (const char* reason : {"1 that expired", "1 whose stamp", "1 not later", "2 that are no commands", "1 of more"})
     EXPECT_NE(sensor_.leftOutByReason().find(reason), std::string::npos) << sensor_.leftOutByReason();
+}
+
+TEST_F(CommandFileTest, AStopIsGivenWhateverTheClocksSay) {
+  sensor_.initialize();
+  const base::Stamp before = live::hostNow();
+  append(columns_ + row(-5, "go_to", "kitchen") + row(100, "stop", "read late") +
+         row(-3600, "stop", "of another clock") + row(3, "stop", "expired", 2) + row(0, "stop", "before the goal") +
+         row(0, "go_to", "before the goal"));
+  sensor_.doProcess();
+  int stops = 0;
+  for (const auto& [stamp, object] : sensor_.getObservations()) {
+    const auto command = std::dynamic_pointer_cast<obs::CObservationCommand>(object);
+    ASSERT_TRUE(command);
+    if (command->kind != obs::CommandKind::stop) continue;
+    ++stops;
+    EXPECT_TRUE(before <= command->timestamp && command->timestamp <= live::hostNow()) << command->text;
+  }
+  EXPECT_EQ(stops, 4);
+  EXPECT_EQ(sensor_.leftOut(), 1U) << "a goal is rejected: " << sensor_.leftOutByReason();
+}
+
+/// While it exists, this process has the rights of a user who is not root.
+class WithoutRoot {
+ public:
+  WithoutRoot() { set(65534); }
+  ~WithoutRoot() { set(0); }
+  WithoutRoot(const WithoutRoot&) = delete;
+  WithoutRoot& operator=(const WithoutRoot&) = delete;
+
+ private:
+  void set(uid_t user) const {
+    if (!is_root_) return;
+    EXPECT_EQ(::seteuid(user), 0);
+  }
+  const bool is_root_ = ::geteuid() == 0;
+};
+
+TEST_F(CommandFileTest, AFileThatCannotBeOpenedIsReported) {
+  sensor_.initialize();
+  append(columns_ + row(0, "stop", ""));
+  std::filesystem::permissions(file_, std::filesystem::perms::none);
+  const WithoutRoot user;
+  for (const bool begins : {false, true}) {
+    try {
+      begins ? sensor_.initialize() : sensor_.doProcess();
+      ADD_FAILURE() << "it was read";
+    } catch (const base::Error& error) {
+      EXPECT_NE(std::string(error.what()).find("another user"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST_F(CommandFileTest, AFileThatIsReplacedIsReadFromItsBeginning) {

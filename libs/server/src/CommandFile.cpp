@@ -8,10 +8,23 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 
 namespace omnimapper::server {
 
 namespace {
+
+/// The stamp with which a row begins; that of no time if it begins with none.
+base::Stamp stampOfRow(const std::string& row) {
+  const auto comma = row.find(',');
+  if (comma == std::string::npos) return {};
+  try {
+    const auto stamp = base::parseUnix(row.substr(0, comma));
+    return base::isValid(stamp) ? stamp : base::Stamp();
+  } catch (const base::Error&) {
+    return {};
+  }
+}
 
 /// A file that is open for appending.
 class Appending {
@@ -32,20 +45,42 @@ class Appending {
 
   bool isEmpty() const { return size_ == 0; }
   /// Whether the last line has no end, because a writer was killed.
-  bool isCutOff() const {
-    char last = '\n';
-    return size_ > 0 && ::pread(file_, &last, 1, size_ - 1) == 1 && last != '\n';
+  bool isCutOff() const { return !isEmpty() && bytesAt(size_ - 1, 1) != "\n"; }
+  /// Whether the first line names the columns of the rows that are written here.
+  bool hasColumns() const {
+    const std::string columns = obs::kCommandColumns, first = bytesAt(0, columns.size() + 1);
+    return first == columns || first == columns + "\n";
+  }
+  /// The latest stamp of the last rows.
+  base::Stamp lastStamp() const {
+    constexpr off_t kMost = 16384;
+    const off_t begin = std::max<off_t>(0, size_ - kMost);
+    std::istringstream lines(bytesAt(begin, static_cast<std::size_t>(size_ - begin)));
+    std::string line;
+    std::getline(lines, line);  // the columns, or a part of a row
+    base::Stamp last;
+    while (std::getline(lines, line)) last = std::max(last, stampOfRow(line));
+    return last;
   }
   /// Writes all or nothing.
   void add(const std::string& bytes) {
-    const bool is_written = ::write(file_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
-    if (is_written && ::fsync(file_) == 0) return;
-    const std::string why = std::strerror(errno);
-    if (::ftruncate(file_, size_) != 0) size_ = 0;
+    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+    std::string why = written < 0 ? std::strerror(errno) : "";
+    if (why.empty() && written < static_cast<ssize_t>(bytes.size())) why = "there is no room for all of it";
+    if (why.empty() && ::fsync(file_) != 0) why = std::strerror(errno);
+    if (why.empty()) return;
+    if (::ftruncate(file_, size_) != 0) why += "; a part of it is in the table";
     throw base::Error(base::ExitCode::disk_full, path_ + ": the command cannot be written: " + why);
   }
 
  private:
+  std::string bytesAt(off_t position, std::size_t count) const {
+    std::string bytes(count, '\0');
+    const ssize_t read = ::pread(file_, bytes.data(), bytes.size(), position);
+    bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read)));
+    return bytes;
+  }
+
   const std::string& path_;
   int file_;
   off_t size_ = 0;  // [bytes] before something is added
@@ -54,12 +89,15 @@ class Appending {
 }  // namespace
 
 void CommandFile::append(obs::CObservationCommand command) {
-  command.timestamp = std::max(command.timestamp, last_ + base::Duration(1));
   Appending file(path_);
+  if (!file.isEmpty() && !file.hasColumns())
+    throw base::Error(base::ExitCode::unwritable_output,
+                      path_ + ": is no table of commands that this program began, for its first line is another one; " +
+                          "name a new file");
+  command.timestamp = std::max(command.timestamp, file.lastStamp() + base::Duration(1));
   std::string bytes = file.isCutOff() ? "\n" : "";
   if (file.isEmpty()) bytes = std::string(obs::kCommandColumns) + "\n";
   file.add(bytes + obs::commandRow(command) + "\n");
-  last_ = command.timestamp;
 }
 
 }  // namespace omnimapper::server

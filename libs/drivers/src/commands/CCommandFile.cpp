@@ -6,7 +6,9 @@
 #include <omnimapper/obs/CommandTable.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -21,14 +23,32 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = 65536, kLongestLine = 4096;  // [bytes]
 
+[[noreturn]] void refuseFile(const std::string& file, const std::string& reason) {
+  throw base::Error(base::ExitCode::unreadable_input,
+                    file + ": commands cannot be read: " + reason + "; is it a file that another user wrote?");
+}
+
+/// 0 for a file that is not there yet.
 std::uint64_t sizeOf(const std::string& file) {
-  std::error_code missing;
-  const auto size = std::filesystem::file_size(file, missing);
-  return missing || !std::filesystem::is_regular_file(file, missing) ? 0 : size;
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) {
+    if (!error || status.type() == std::filesystem::file_type::not_found) return 0;
+    refuseFile(file, error.message());
+  }
+  const auto size = std::filesystem::is_regular_file(status) ? std::filesystem::file_size(file, error) : 0;
+  return error ? 0 : size;
+}
+
+std::ifstream opened(const std::string& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuseFile(file, std::strerror(errno));
+  return in;
 }
 
 std::string firstLine(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
+  auto in = opened(file);
   std::string line(kLongestLine, '\0');
   in.read(line.data(), static_cast<std::streamsize>(line.size()));
   line.resize(static_cast<std::size_t>(in.gcount()));
@@ -76,7 +96,7 @@ std::string CCommandFile::appended() {
     begun_.clear();
   }
   if (size == position_) return {};
-  std::ifstream in(options_.file, std::ios::binary);
+  auto in = opened(options_.file);
   in.seekg(static_cast<std::streamoff>(position_));
   std::string bytes(std::min<std::uint64_t>(size - position_, kMostAtOnce), '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -105,11 +125,14 @@ void CCommandFile::take(const std::string& line) {
   std::istringstream table(columns_ + line);
   try {
     auto command = std::make_shared<obs::CObservationCommand>(obs::commandIn(base::CsvTable(table, options_.file), 0));
-    if (const auto why = whyNot(*command)) {
+    const auto why = whyNot(*command);
+    if (why && command->kind != obs::CommandKind::stop) {
       ++left_out_[*why];
       return;
     }
-    last_ = command->timestamp;
+    // A robot is stopped whatever the clocks say: those who heed it must not take it for an old command.
+    if (why) command->timestamp = live::hostNow();
+    last_ = std::max(last_, command->timestamp);
     command->sensorLabel = m_sensorLabel;
     appendObservation(command);
   } catch (const base::Error&) {

@@ -24,7 +24,9 @@ struct CommandFileOptions {
 /// while the run goes on, as obs::CObservationCommand. What was in the file before initialize() belongs to an earlier
 /// run and is not given. A row is rejected and counted if it is no command; if its stamp is more than
 /// `max_clock_offset` from this machine's clock; if it expired before it was read; or if its stamp is not later than
-/// that of the last command, so that no row is given twice. A line that has no end yet is read when it has one.
+/// that of the last command, so that no row is given twice. A `stop` is never rejected: where another command would be,
+/// it gets the time at which it was read. A line that has no end yet is read when it has one. A file that is there and
+/// cannot be opened is an Error(unreadable_input) of initialize() and doProcess().
 ///
 /// This driver starts no thread. doProcess() takes at most 64 KiB, and never waits.
 class CCommandFile : public mrpt::hwdrivers::CGenericSensor, public CheckedSensor {

@@ -12,14 +12,14 @@ class CommandFile {
   /// Does not touch the file before the first command.
   explicit CommandFile(std::string path) : path_(std::move(path)) {}
 
-  /// Appends a command; it is on the disk when this returns. Its stamp is moved to after that of the last command, so
-  /// that stamps increase. Throws Error(unwritable_output) if the file cannot be opened or is no regular file, and
-  /// Error(disk_full) if it cannot be written; the file then has no part of the command.
+  /// Appends a command; it is on the disk when this returns. Its stamp is moved to after those of the last rows of the
+  /// file, so that stamps increase. Throws Error(unwritable_output) if the file cannot be opened, is no regular file,
+  /// or has another first line than obs::kCommandColumns, under which the row would be misread, and Error(disk_full) if
+  /// it cannot be written; the file then has no part of the command.
   void append(obs::CObservationCommand command);
 
  private:
   std::string path_;
-  base::Stamp last_;
 };
 
 }  // namespace omnimapper::server
