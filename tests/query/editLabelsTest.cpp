@@ -1,5 +1,8 @@
 #include <omnimapper/map/LabelledPlaces.h>
 #include <omnimapper/query/Find.h>
+#include <omnimapper/query/editRooms.h>
+
+#include <thread>
 
 #include "MapWithFrames.h"
 #include "omnimapper/query/editLabels.h"
@@ -140,6 +143,25 @@ TEST_F(EditLabels, WhatIsNoChangeIsRefusedWithAReason) {
     const std::string said = refusal(words);
     EXPECT_NE(said.find(reason), std::string::npos) << said;
   }
+}
+
+TEST_F(EditLabels, NoChangeOfSeveralAtOnceIsLost) {
+  constexpr int kChanges = 10;
+  building::Building building;
+  building.storeys = {*map_.rooms};
+  putFile(folder_ / "rooms.json", building::encodeRooms(building));
+  const auto give = [&](const std::string& who) {
+    map::LabelEdits history;
+    for (int i = 0; i < kChanges; ++i)
+      editLabels(folder_.path(), {{"name", "1", "1", who + std::to_string(i)}, who, {}}, history);
+  };
+  std::thread anna([&] { give("anna"); });
+  std::thread ben([&] { give("ben"); });
+  for (int i = 0; i < kChanges; ++i) editRooms(folder_.path(), {"rename", "room 1", "room of " + std::to_string(i)});
+  anna.join();
+  ben.join();
+  EXPECT_EQ(labels().labels.size(), 2U * kChanges);
+  EXPECT_EQ(openMap(map_.file).rooms->rooms.front().name, "room of 9");
 }
 
 TEST_F(EditLabels, AMapThatIsStillMadeIsNotChanged) {

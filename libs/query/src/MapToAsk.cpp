@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kCheckpoint[] = "checkpoint.omnimap";
+
 [[noreturn]] void refuseMap(const std::string& file, const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, file + ": " + reason);
 }
@@ -24,7 +26,7 @@ std::string mapFileAt(const std::string& path) {
   if (path.empty())
     throw base::Error(base::ExitCode::command_line, "MAP is empty: name the folder of a map, or its map.omnimap");
   if (!fs::is_directory(path, none)) return path;
-  const fs::path map = fs::path(path) / "map.omnimap", checkpoint = fs::path(path) / "checkpoint.omnimap";
+  const fs::path map = fs::path(path) / "map.omnimap", checkpoint = fs::path(path) / kCheckpoint;
   // While a live run goes on, or after it crashed, there is only its checkpoint.
   if (!fs::exists(map, none) && fs::exists(checkpoint, none)) return checkpoint;
   if (!fs::exists(map, none))
@@ -57,6 +59,10 @@ std::optional<building::Storey> roomsIn(const map::MapSection& section) {
 }
 
 }  // namespace
+
+bool isCheckpoint(const std::string& file) {
+  return fs::path(file).filename() == kCheckpoint;
+}
 
 MapToAsk openMap(const std::string& path) {
   MapToAsk opened;

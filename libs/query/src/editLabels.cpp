@@ -15,6 +15,8 @@
 #include <map>
 #include <utility>
 
+#include "MapLock.h"
+
 namespace omnimapper::query {
 
 namespace {
@@ -148,8 +150,9 @@ void placeLabels(const Labels& labels, LabelledMapFile& map) {
 
 std::string editLabels(const std::string& path, const LabelEdit& edit, map::LabelEdits& history) {
   const std::string file = openMap(path).file;
-  if (std::filesystem::path(file).filename() == "checkpoint.omnimap")
+  if (isCheckpoint(file))
     throw base::Error(base::ExitCode::unreadable_input, "the run that makes this map has not ended");
+  const MapLock lock(std::filesystem::path(file).parent_path().string());
   LabelledMapFile map = readLabels(file);
   map::LabelEdits edits = history;
   if (edits.now().toBytes() != map.labels.toBytes()) edits = {};

@@ -25,4 +25,7 @@ struct MapToAsk {
 /// it is missing, damaged, of a later version, or has no places because an earlier OmniMapper wrote it.
 MapToAsk openMap(const std::string& path);
 
+/// Whether that is the map file of a live run that goes on, or that crashed.
+bool isCheckpoint(const std::string& file);
+
 }  // namespace omnimapper::query
