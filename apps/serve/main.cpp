@@ -62,8 +62,10 @@ int serve(const Arguments& arguments) {
   server::ServedMap map(arguments.map);
   server::StaticFiles files(program::shippedFolder("web"));
   server::MapSite* answering = nullptr;
-  server::HttpServer http(arguments.address, arguments.port, {},
-                          [&](const server::HttpRequest& request) { return answering->answer(request); });
+  server::HttpServer http(
+      arguments.address, arguments.port, {},
+      [&](const server::HttpRequest& request) { return answering->answer(request); },
+      [&](const server::HttpRequest& request) { return answering->isStop(request); });
   auto hosts = server::hostsAt(arguments.address, http.port());
   hosts.insert(hosts.end(), arguments.hosts.begin(), arguments.hosts.end());
   std::optional<server::RunCommands> commands;

@@ -1,6 +1,9 @@
 #include <omnimapper/base/Error.h>
+#include <omnimapper/testing/Fixtures.h>
 
 #include <atomic>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <random>
@@ -16,8 +19,10 @@ namespace {
 /// A server in a thread of its own, which answers with method, path and body.
 class Running {
  public:
-  explicit Running(const HttpLimits& limits = {})
-      : server_("127.0.0.1", 0, limits, [this](const HttpRequest& request) { return answer(request); }),
+  explicit Running(const HttpLimits& limits = {}, HttpServer::Condition is_urgent = {})
+      : server_(
+            "127.0.0.1", 0, limits, [this](const HttpRequest& request) { return answer(request); },
+            std::move(is_urgent)),
         thread_([this] { server_.run([this] { return stopped_.load(); }, [this] { sendWaiting(); }); }) {}
   ~Running() {
     stopped_ = true;
@@ -42,6 +47,7 @@ class Running {
     HttpResponse response{200, "text/plain", request.method + " " + request.path + " " + request.body};
     response.is_event_stream = request.path == "/events";
     if (response.is_event_stream) response.body = "data: first\n\n";
+    if (request.path == "/file") response.file = request.values.at("name");
     return response;
   }
   void sendWaiting() {
@@ -150,6 +156,63 @@ TEST(HttpServer, RequestsBeyondTheRateAreRefused) {
     EXPECT_EQ(statusOf(server.talk(std::string("GET / HTTP/1.1\r\n") + kClose)), "HTTP/1.1 200");
   EXPECT_EQ(statusOf(server.talk(std::string("GET / HTTP/1.1\r\n") + kClose)), "HTTP/1.1 429");
   EXPECT_EQ(server.answered(), 5);
+}
+
+TEST(HttpServer, UrgentRequestsAreAnsweredBeyondTheRate) {
+  HttpLimits limits;
+  limits.requests_at_once = 1;
+  limits.requests_per_s = 1e-3;
+  Running server(limits, [](const HttpRequest& request) { return request.method == "POST"; });
+  const auto status = [&](const std::string& method) {
+    return statusOf(server.talk(method + " / HTTP/1.1\r\nContent-Length: 0\r\n" + kClose));
+  };
+  EXPECT_EQ(status("GET"), "HTTP/1.1 200");
+  EXPECT_EQ(status("GET"), "HTTP/1.1 429");
+  EXPECT_EQ(status("POST"), "HTTP/1.1 200");
+  EXPECT_EQ(status("POST"), "HTTP/1.1 200");
+}
+
+/// Memory of this process that is in use [bytes].
+double residentBytes() {
+  std::ifstream in("/proc/self/statm");
+  double all = 0, resident = 0;
+  in >> all >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(HttpServer, AFileIsSentAsItIs) {
+  const testing::ScratchFolder folder;
+  std::ofstream(folder / "a.ply", std::ios::binary) << "ply\r\n" << std::string(10000, '\0') << "end";
+  Running server;
+  const std::string target = "/file?name=" + (folder / "a.ply");
+  Client client(server.port());
+  for (int i = 0; i < 2; ++i) {
+    client.send("GET " + target + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    const std::string answer = client.readTo("end");
+    EXPECT_NE(answer.find("Content-Length: 10008\r\n"), std::string::npos) << answer.substr(0, 200);
+    EXPECT_EQ(answer.substr(answer.size() - 10008, 6), std::string("ply\r\n\0", 6));
+  }
+  const std::string head = server.talk("HEAD " + target + " HTTP/1.1\r\n" + kClose);
+  EXPECT_NE(head.find("Content-Length: 10008\r\n"), std::string::npos) << head;
+  EXPECT_EQ(head.substr(head.size() - 4), "\r\n\r\n");
+  EXPECT_EQ(statusOf(server.talk("GET " + target + "x HTTP/1.1\r\n" + kClose)), "HTTP/1.1 404");
+}
+
+TEST(HttpServer, ClientsThatDoNotReadAFileCostNoMemory) {
+  constexpr int kClients = 8;
+  constexpr double kBytes = 48 << 20;
+  const testing::ScratchFolder folder;
+  std::ofstream(folder / "large.ply");
+  std::filesystem::resize_file(folder / "large.ply", static_cast<std::uintmax_t>(kBytes));
+  Running server;
+  const double before = residentBytes();
+  std::vector<std::unique_ptr<Client>> clients;
+  for (int i = 0; i < kClients; ++i) {
+    clients.push_back(std::make_unique<Client>(server.port()));
+    clients.back()->send("GET /file?name=" + (folder / "large.ply") + " HTTP/1.1\r\nHost: a\r\n\r\n");
+    EXPECT_EQ(statusOf(clients.back()->readTo("\r\n\r\n")), "HTTP/1.1 200");
+  }
+  EXPECT_LT(residentBytes() - before, kBytes) << "less than one copy of the file";
 }
 
 TEST(HttpServer, EventsReachEveryOpenStream) {

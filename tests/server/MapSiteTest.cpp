@@ -77,7 +77,23 @@ TEST_F(MapSiteTest, ThePageAndTheMapAreServed) {
   EXPECT_EQ(served.answer(get("/api/picture?id=0:1")).body, "a picture");
   EXPECT_EQ(served.answer(get("/api/points")).status, 404);
   query::putFile(folder_ / "points.ply", "ply and points");
-  EXPECT_EQ(served.answer(get("/api/points?revision=1")).body, "ply and points");
+  EXPECT_EQ(served.answer(get("/api/points?solid=1")).file, folder_ / "points.ply");
+}
+
+TEST_F(MapSiteTest, PagesAreToldWhenTheFilesOfTheViewInThreeDimensionsChange) {
+  auto served = site();
+  std::string warning;
+  const auto solid = [&] { return json::parse(served.answer(get("/api/map")).body)["solid"]; };
+  EXPECT_EQ(solid(), nullptr) << "there are none";
+  query::putFile(folder_ / "landmarks.ply", "ply");
+  EXPECT_NE(served.update(warning), "");
+  const auto first = solid();
+  ASSERT_TRUE(first.is_string());
+  EXPECT_EQ(served.answer(change("/api/label", {"name", "0:2", "bed 1"})).status, 200);
+  EXPECT_EQ(solid(), first) << "a name changes no file of them";
+  query::putFile(folder_ / "landmarks.ply", "ply, and more");
+  EXPECT_NE(served.update(warning), "");
+  EXPECT_NE(solid(), first);
 }
 
 TEST_F(MapSiteTest, NoPathFromOutsideBecomesAFileName) {
@@ -166,6 +182,35 @@ TEST_F(MapSiteTest, ALiveRunIsToldWhereToGoOnceAndToStopAtOnce) {
   EXPECT_EQ(stop.kind, obs::CommandKind::stop);
 }
 
+TEST_F(MapSiteTest, OnlyThePageOfTheUserPassesTheRateWithStop) {
+  const MapSite served(
+      ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+      [] { return base::stampFromUnix(1700000000); }, RunCommands(folder_ / "commands.csv"));
+  const HttpRequest stop = change("/api/stop", json::array());
+  EXPECT_TRUE(served.isStop(stop));
+  EXPECT_FALSE(site().isStop(stop)) << "no run takes commands";
+  HttpRequest other = stop;
+  other.cookie.clear();
+  EXPECT_FALSE(served.isStop(other)) << "without the token";
+  other = stop;
+  other.method = "GET";
+  EXPECT_FALSE(served.isStop(other));
+  EXPECT_FALSE(served.isStop(change("/api/go", json::array())));
+}
+
+TEST_F(MapSiteTest, NamesForASavedMapAreNoCommandsHoweverItIsCalled) {
+  std::filesystem::copy_file(map_.file, folder_ / "home.omnimap");
+  const std::string file = folder_ / "commands.csv";
+  for (const auto& path : {folder_.path() + "//map.omnimap", folder_ / "home.omnimap"}) {
+    MapSite served(
+        ServedMap(path), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+        [] { return base::stampFromUnix(1700000000); }, RunCommands(file));
+    EXPECT_EQ(served.answer(change("/api/label", {"name", "0:2", "bed 1"})).status, 200);
+    EXPECT_EQ(json::parse(served.answer(get("/api/map")).body)["places"][2]["properties"]["name"], "bed 1") << path;
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(MapSiteTest, NamesForAMapThatIsStillMadeAreCommands) {
   std::filesystem::rename(map_.file, folder_ / "checkpoint.omnimap");
   const std::string file = folder_ / "commands.csv";
@@ -174,7 +219,8 @@ TEST_F(MapSiteTest, NamesForAMapThatIsStillMadeAreCommands) {
       [] { return base::stampFromUnix(1700000000); }, RunCommands(file));
   for (const auto& words : {json{"name", "0:2", "bed"}, json{"rename", "bed", "couch"}, json{"delete", "couch"}})
     EXPECT_EQ(served.answer(change("/api/label", words)).status, 200) << words;
-  for (const auto& words : {json{"name", "1", "2", "spot"}, json{"name", "bed", "x"}, json{"rename", "a = b", "c"}})
+  for (const auto& words : {json{"name", "1", "2", "spot"}, json{"name", "bed", "x"}, json{"rename", "a = b", "c"},
+                            json{"rename", "a =", "b"}, json{"delete", std::string(201, 'x')}})
     EXPECT_EQ(served.answer(change("/api/label", words)).status, 400) << words;
   const base::CsvTable table(file);
   ASSERT_EQ(table.size(), 3U);
@@ -200,6 +246,32 @@ TEST_F(MapSiteTest, ALineThatWasCutOffSpoilsNoOther) {
   EXPECT_EQ(line, "1700000000.0000000,stop,,any,,0.000,0.0000,0.0000,0.0000");
   std::filesystem::create_symlink(file, folder_ / "link.csv");
   EXPECT_THROW(CommandFile(folder_ / "link.csv").append(stop), base::Error) << "a link is not followed";
+}
+
+TEST_F(MapSiteTest, StampsOfCommandsIncreaseAlsoWhenTheServerBeginsAgainWithAClockThatWasSetBack) {
+  const std::string file = folder_ / "commands.csv";
+  obs::CObservationCommand stop;
+  stop.kind = obs::CommandKind::stop;
+  for (const double now : {1700000000, 1699999000, 1699999500}) {
+    stop.timestamp = base::stampFromUnix(now);
+    CommandFile(file).append(stop);
+  }
+  const base::CsvTable table(file);
+  ASSERT_EQ(table.size(), 3U);
+  for (std::size_t i : {1U, 2U})
+    EXPECT_EQ(obs::commandIn(table, i).timestamp, base::stampFromUnix(1700000000) + base::Duration(i));
+}
+
+TEST_F(MapSiteTest, ATableWithOtherColumnsIsNotAppendedTo) {
+  const std::string file = folder_ / "commands.csv", bytes = "stamp_s,kind\n1700000000,stop\n";
+  query::putFile(file, bytes);
+  obs::CObservationCommand stop;
+  stop.kind = obs::CommandKind::stop;
+  stop.timestamp = base::stampFromUnix(1700000000);
+  const std::string said = query::refusalOf([&] { CommandFile(file).append(stop); }, base::ExitCode::unwritable_output);
+  EXPECT_NE(said.find("name a new file"), std::string::npos) << said;
+  std::ifstream in(file);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), bytes);
 }
 
 TEST_F(MapSiteTest, WhatCannotBeReadIsNamedWithoutWhereItIs) {

@@ -33,8 +33,9 @@ HttpRequest requestOf(http::request<http::string_body>& message) {
   return request;
 }
 
-http::response<http::string_body> messageOf(const HttpResponse& response) {
-  http::response<http::string_body> message(static_cast<http::status>(response.status), kHttp11);
+template <class Body = http::string_body>
+http::response<Body> messageOf(const HttpResponse& response) {
+  http::response<Body> message(static_cast<http::status>(response.status), kHttp11);
   message.set(http::field::content_type, response.content_type);
   for (const auto& [name, value] : response.fields) message.set(name, value);
   return message;
@@ -101,24 +102,48 @@ void HttpConnection::answerRequest(error_code error) {
   if (!readTarget(std::string(message.target()), request)) return refuse(400, "The address of the request is damaged.");
   const HttpResponse response = host_.answer(request);
   if (response.is_event_stream && !is_head) return beginStream(response);
-  write(response, is_head, message.keep_alive());
+  if (response.file.empty()) return write(response, is_head, message.keep_alive());
+  writeFile(response, is_head, message.keep_alive());
 }
 
 void HttpConnection::refuse(int status, const std::string& sentence) {
   write(refusal(status, sentence), false, false);
 }
 
+template <class Message>
+void HttpConnection::send(Message& message, bool keep_alive) {
+  message.keep_alive(keep_alive);
+  stream_.expires_after(std::chrono::seconds(host_.limits().answer_s));
+  http::async_write(stream_, message, [self = shared_from_this(), keep_alive](error_code error, std::size_t) {
+    if (error || !keep_alive) return self->close();
+    self->file_answer_.reset();
+    self->readRequest();
+  });
+}
+
 void HttpConnection::write(const HttpResponse& response, bool is_head, bool keep_alive) {
   answer_ = messageOf(response);
-  answer_->keep_alive(keep_alive);
   answer_->body() = response.body;
   answer_->prepare_payload();
   if (is_head) answer_->body().clear();
-  stream_.expires_after(std::chrono::seconds(host_.limits().answer_s));
-  http::async_write(stream_, *answer_, [self = shared_from_this(), keep_alive](error_code error, std::size_t) {
-    if (error || !keep_alive) return self->close();
-    self->readRequest();
-  });
+  send(*answer_, keep_alive);
+}
+
+// A file is read while it is sent, so that no client makes the server keep it in memory.
+void HttpConnection::writeFile(const HttpResponse& response, bool is_head, bool keep_alive) {
+  http::file_body::value_type file;
+  error_code error;
+  file.open(response.file.c_str(), beast::file_mode::scan, error);
+  if (error) return write(refusal(404, "This file of the map is not there any more."), is_head, keep_alive);
+  if (is_head) {
+    answer_ = messageOf(response);
+    answer_->content_length(file.size());
+    return send(*answer_, keep_alive);
+  }
+  file_answer_ = messageOf<http::file_body>(response);
+  file_answer_->body() = std::move(file);
+  file_answer_->prepare_payload();
+  send(*file_answer_, keep_alive);
 }
 
 void HttpConnection::beginStream(const HttpResponse& response) {

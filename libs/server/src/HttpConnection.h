@@ -5,6 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/file_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
@@ -45,12 +46,16 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
   using Answer = boost::beast::http::response<boost::beast::http::string_body>;
+  using FileAnswer = boost::beast::http::response<boost::beast::http::file_body>;
 
   void readRequest();
   void readRest();
   void answerRequest(boost::beast::error_code error);
   void answerDamaged(boost::beast::error_code error);
   void write(const HttpResponse& response, bool is_head, bool keep_alive);
+  void writeFile(const HttpResponse& response, bool is_head, bool keep_alive);
+  template <class Message>
+  void send(Message& message, bool keep_alive);
   void beginStream(const HttpResponse& response);
   void writeStream();
   void watchForEnd();
@@ -60,6 +65,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   HttpHost& host_;
   std::optional<Parser> parser_;
   std::optional<Answer> answer_;
+  std::optional<FileAnswer> file_answer_;
   std::deque<std::string> unsent_;
   std::size_t unsent_bytes_ = 0;
   char ignored_ = 0;

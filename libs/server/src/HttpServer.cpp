@@ -52,9 +52,10 @@ bool isLoopback(const std::string& address) {
 
 class HttpServer::Connections : public HttpHost {
  public:
-  Connections(const tcp::endpoint& endpoint, const HttpLimits& limits, Handler handler)
+  Connections(const tcp::endpoint& endpoint, const HttpLimits& limits, Handler handler, Condition is_urgent)
       : limits_(limits),
         handler_(std::move(handler)),
+        is_urgent_(std::move(is_urgent)),
         acceptor_(listen(context_, endpoint)),
         timer_(context_),
         rate_(limits_) {}
@@ -63,9 +64,8 @@ class HttpServer::Connections : public HttpHost {
   const HttpLimits& limits() const override { return limits_; }
 
   HttpResponse answer(const HttpRequest& request) override {
-    // Who wants a robot to stop is always heard.
-    if (request.path != "/api/stop" && !rate_.take())
-      return refusal(429, "There are too many requests; wait a second.");
+    const bool is_urgent = is_urgent_ && is_urgent_(request);
+    if (!is_urgent && !rate_.take()) return refusal(429, "There are too many requests; wait a second.");
     return handler_(request);
   }
 
@@ -130,6 +130,7 @@ class HttpServer::Connections : public HttpHost {
 
   HttpLimits limits_;
   Handler handler_;
+  Condition is_urgent_;
   asio::io_context context_{1};
   tcp::acceptor acceptor_;
   asio::steady_timer timer_;
@@ -139,8 +140,10 @@ class HttpServer::Connections : public HttpHost {
   int silent_ticks_ = 0;
 };
 
-HttpServer::HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits, Handler handler)
-    : connections_(std::make_unique<Connections>(endpointOf(address, port), limits, std::move(handler))) {}
+HttpServer::HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits, Handler handler,
+                       Condition is_urgent)
+    : connections_(
+          std::make_unique<Connections>(endpointOf(address, port), limits, std::move(handler), std::move(is_urgent))) {}
 HttpServer::~HttpServer() = default;
 
 std::uint16_t HttpServer::port() const {

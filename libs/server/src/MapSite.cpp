@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr char kJson[] = "application/json";
+constexpr char kJson[] = "application/json", kStop[] = "/api/stop";
 
 std::string dumped(const Json& json) {
   return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
@@ -83,6 +83,10 @@ HttpResponse MapSite::answer(const HttpRequest& request) {
   return response;
 }
 
+bool MapSite::isStop(const HttpRequest& request) const {
+  return commands_ && request.method == "POST" && request.path == kStop && !access_.refused(request);
+}
+
 // Where the map is on this machine is nothing for a page, so names of files are those in the folder of the map.
 HttpResponse MapSite::refusedBecause(const base::Error& error) const {
   std::string sentence = error.what();
@@ -124,9 +128,11 @@ HttpResponse MapSite::question(const HttpRequest& request) const {
 }
 
 HttpResponse MapSite::ply(const std::string& name) const {
-  const auto bytes = map_.fileOfRun(name);
-  if (!bytes) return refusal(404, "The map has no such file, or it is too large for a page.");
-  return {200, "application/octet-stream", *bytes};
+  const auto file = map_.fileOfRun(name);
+  if (!file) return refusal(404, "The map has no such file, or it is too large for a page.");
+  HttpResponse response{200, "application/octet-stream", ""};
+  response.file = *file;
+  return response;
 }
 
 HttpResponse MapSite::me(const HttpRequest& request) const {
@@ -142,8 +148,8 @@ HttpResponse MapSite::picture(const HttpRequest& request) const {
 }
 
 std::string MapSite::editLabels(const std::vector<std::string>& words) {
-  const bool is_live = map_.map().file != map_.map().folder + "/map.omnimap";
-  if (!is_live || !commands_) return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
+  if (!query::isCheckpoint(map_.map().file) || !commands_)
+    return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
   commands_->label(words, clock_());
   return "the run was told; the name is in the map with its next checkpoint";
 }
@@ -173,7 +179,7 @@ HttpResponse MapSite::change(const HttpRequest& request) {
     return ticket();
   else if (commands_ && request.path == "/api/go")
     done = goTo(changeWords(request.body));
-  else if (commands_ && request.path == "/api/stop")
+  else if (commands_ && request.path == kStop)
     done = stop();
   else
     return refusal(404, "Nothing at this address can be changed.");

@@ -1,5 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/InputFile.h>
+#include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/draw/Image.h>
 #include <omnimapper/query/MapDocument.h>
 #include <omnimapper/query/MapGrid.h>
@@ -56,6 +57,25 @@ std::optional<query::GridMap> gridOf(const std::string& folder) {
   }
 }
 
+/// The path of a file that a page may ask for; none if there is none.
+std::optional<std::string> smallFile(const std::string& folder, const std::string& name) {
+  constexpr std::uintmax_t kMost = std::uintmax_t{64} << 20;
+  const std::string file = (fs::path(folder) / name).string();
+  std::error_code missing;
+  if (!fs::is_regular_file(file, missing) || fs::file_size(file, missing) > kMost) return std::nullopt;
+  return file;
+}
+
+/// What changes when the files of the view in 3D are replaced; null if there are none.
+Json solidOf(const std::string& folder) {
+  std::string stamps;
+  for (const char* name : {"points.ply", "landmarks.ply"}) {
+    const auto file = smallFile(folder, name);
+    if (file) stamps += std::string(name) + " " + stampOf(*file) + " ";
+  }
+  return stamps.empty() ? Json(nullptr) : Json(stamps);
+}
+
 /// The file of the picture of an object, by the id of its landmark; none if there is none.
 std::optional<std::string> pictureFile(const std::string& folder, std::string id) {
   std::replace(id.begin(), id.end(), ':', '-');
@@ -90,7 +110,7 @@ ServedMap::ServedMap(std::string path) : path_(std::move(path)) {
 }
 
 bool ServedMap::update(std::string& warning) {
-  const std::string now = stampOf(map_.file) + stampOf((fs::path(map_.folder) / "map.omnimap").string());
+  const std::string now = stampOfFiles(map_);
   if (now == stamp_) return false;
   try {
     load();
@@ -102,13 +122,18 @@ bool ServedMap::update(std::string& warning) {
   }
 }
 
+std::string ServedMap::stampOfFiles(const query::MapToAsk& map) const {
+  return stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string()) + solidOf(map.folder).dump();
+}
+
 void ServedMap::load() {
   auto map = query::openMap(path_);
-  const std::string stamp = stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string());
+  const std::string stamp = stampOfFiles(map);
   const auto grid = gridOf(map.folder);
   Json document = Json::parse(query::mapDocument(map));
   document["revision"] = revision_ + 1;
   document["grid"] = grid ? placeOf(*grid) : Json(nullptr);
+  document["solid"] = solidOf(map.folder);
   for (auto& place : document["places"])
     place["has_picture"] = pictureFile(map.folder, place["id"].get<std::string>()).has_value();
   std::string trajectory = trajectoryOf(map.folder).dump() + "\n";
@@ -122,11 +147,8 @@ void ServedMap::load() {
 }
 
 std::optional<std::string> ServedMap::fileOfRun(const std::string& name) const {
-  constexpr std::uintmax_t kMost = std::uintmax_t{64} << 20;
-  const fs::path file = fs::path(map_.folder) / name;
-  std::error_code missing;
-  if (!fs::is_regular_file(file, missing) || fs::file_size(file, missing) > kMost) return std::nullopt;
-  return base::readInput(file.string(), "part of the map");
+  const auto file = smallFile(map_.folder, name);
+  return file ? std::optional(base::committedPath(*file)) : std::nullopt;
 }
 
 std::optional<std::string> ServedMap::pictureOf(const std::string& id) const {

@@ -23,6 +23,7 @@ struct HttpResponse {
   std::string body;
   std::vector<std::pair<std::string, std::string>> fields = {};  ///< further header fields
   bool is_event_stream = false;  ///< the connection stays open for HttpServer::send(); `body` is its first event
+  std::string file = {};         ///< a file that is sent in place of `body`, piece by piece; empty: `body` is sent
 };
 
 /// An answer that refuses a request, with a sentence for people.

@@ -31,11 +31,14 @@ bool isLoopback(const std::string& address);
 class HttpServer {
  public:
   using Handler = std::function<HttpResponse(const HttpRequest&)>;
+  using Condition = std::function<bool(const HttpRequest&)>;
 
   /// Listens on a numeric address; port 0 takes a free one. Throws Error(out_of_range) for an address that is none, and
   /// Error(unreadable_input), naming address and remedy, if it cannot be listened on, for example because the port is
-  /// in use. The handler must not throw; it is called by run().
-  HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits, Handler handler);
+  /// in use. The handler must not throw; it is called by run(). So is `is_urgent`: requests for which it is true are
+  /// not counted among those of HttpLimits::requests_per_s.
+  HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits, Handler handler,
+             Condition is_urgent = {});
   ~HttpServer();
 
   std::uint16_t port() const;

@@ -27,6 +27,9 @@ class MapSite {
   /// Answers any request; never throws.
   HttpResponse answer(const HttpRequest& request);
 
+  /// Whether the request stops the robot of a live run, and may do so.
+  bool isStop(const HttpRequest& request) const;
+
   /// Reads the map again if it changed. The event for the pages, or empty if there is nothing new. `warning` is for the
   /// terminal.
   std::string update(std::string& warning);

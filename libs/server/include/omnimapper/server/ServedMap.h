@@ -13,14 +13,15 @@ class ServedMap {
   /// `path` is the folder of a map, or a map file. Throws as query::openMap() does.
   explicit ServedMap(std::string path);
 
-  /// Reads the map again if its file is another one than before; whether it is. If it cannot be read, the one of before
+  /// Reads the map again if its files are others than before; whether they are. If it cannot be read, the one of before
   /// stays, and `warning` says why.
   bool update(std::string& warning);
 
   const query::MapToAsk& map() const { return map_; }
   /// Changes with each map that is read.
   int revision() const { return revision_; }
-  /// query::mapDocument() with the revision and the place of the grid.
+  /// query::mapDocument() with the revision, the place of the grid, and "solid": a text that changes with the files of
+  /// the view in 3D (points.ply and landmarks.ply), null if there is none.
   const std::string& document() const { return document_; }
   /// The occupancy grid as a PNG file with three colours: black is occupied, white free, grey unknown. Empty if the map
   /// has none yet.
@@ -31,16 +32,18 @@ class ServedMap {
 
   /// The picture of an object, by the id of its landmark, "0:12"; none if it has none.
   std::optional<std::string> pictureOf(const std::string& id) const;
-  /// A file in the folder of the map, of at most 64 MiB; none if there is none. `name` must not come from outside.
+  /// The path of a file in the folder of the map, of at most 64 MiB; none if there is none. `name` must not come from
+  /// outside.
   std::optional<std::string> fileOfRun(const std::string& name) const;
 
  private:
   void load();
+  std::string stampOfFiles(const query::MapToAsk& map) const;
 
   std::string path_;
   query::MapToAsk map_;
   std::string document_, grid_png_, trajectory_;
-  std::string stamp_;  // of the file that was read
+  std::string stamp_;  // of the files that were read
   int revision_ = 0;
 };
 
