@@ -64,7 +64,6 @@ async function load(isOwn = false) {
     source.trajectory(), map.grid ? source.gridImage(map.revision) : null, source.rights()]);
   plan.show(map, image, walk);
   panel.take(map, rights);
-  await view.refresh();
   byId('stop').hidden = !rights.may_drive;
   paintLayers(byId('toggles'), map, plan);
   byId('list').replaceChildren(listOf(map, (chosen) => choose(chosen, null, true)));
@@ -73,6 +72,7 @@ async function load(isOwn = false) {
   const time = map.map_time ? new Date(map.map_time) : null;
   const isDated = time && time.getFullYear() > 1990; // the clock of some logs begins at 0
   say(`${map.rooms.length} rooms, ${map.places.length} landmarks${isDated ? `, as of ${time.toLocaleString()}` : ''}`);
+  await view.refresh().catch((error) => say(error.message, true)); // the map is drawn all the same
 }
 
 async function find(text) {

@@ -6,14 +6,14 @@ import { source } from './source.js';
 /** `button` changes the view; `plan` is what is seen first, and knows the map. */
 export class Dimension {
   constructor(canvas, button, plan) {
-    Object.assign(this, { canvas, button, plan, solid: null, shown: null });
+    Object.assign(this, { canvas, button, plan, solid: null, files: null, shown: null });
   }
 
   get isSolid() {
     return !this.canvas.hidden;
   }
 
-  /** Throws an Error with a sentence if there is nothing to show, or the browser cannot. */
+  /** Throws an Error with a sentence if the files do not come, or the browser cannot show them. */
   async toggle() {
     if (this.isSolid) return this.set(false);
     this.set(true);
@@ -31,22 +31,28 @@ export class Dimension {
     this.button.setAttribute('aria-pressed', String(isSolid));
   }
 
-  // Fetches what is new since the view was shown last.
+  // Fetches the files of the view unless they were fetched before.
   async fill() {
     const { map, trajectory } = this.plan;
-    if (this.shown === map.revision) return this.choose(this.plan.chosen);
-    const [points, surfaces] = await Promise.all(['points', 'surfaces'].map((name) => source.ply(name, map.revision)));
-    if (!points && !surfaces) throw new Error('This map has no view in 3D: its run wrote neither points.ply nor landmarks.ply.');
+    if (this.shown === map) return this.choose(this.plan.chosen);
     this.solid ??= new Solid(this.canvas);
-    this.solid.show(points && readPly(points), surfaces && readPly(surfaces), trajectory);
+    if (this.files?.solid !== map.solid) {
+      const [points, surfaces] = await Promise.all(['points', 'surfaces'].map((name) => source.ply(name, map.solid)));
+      this.files = { solid: map.solid, points: points && readPly(points), surfaces: surfaces && readPly(surfaces) };
+    }
+    this.solid.show(this.files.points, this.files.surfaces, trajectory);
     if (this.shown === null) this.solid.showAll(this.plan.bounds());
-    this.shown = map.revision;
+    this.shown = map;
     this.choose(this.plan.chosen);
     this.canvas.dataset.revision = map.revision;
   }
 
-  refresh() {
-    return this.isSolid ? this.fill() : undefined;
+  /** After another map was read. Without files of the view in 3D there is no button. */
+  async refresh() {
+    const { map } = this.plan;
+    this.button.hidden = !map.solid;
+    if (!map.solid) this.set(false);
+    if (this.isSolid) await this.fill();
   }
 
   choose(chosen) {

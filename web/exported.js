@@ -10,7 +10,6 @@ export const onlyLooks = 'This page is a copy of a map: it may only look.';
 export const mapDocument = async () => data().map;
 export const trajectory = async () => data().trajectory;
 export const rights = async () => ({ may_change: false, may_drive: false });
-export const ply = async () => null; // a copy has no view in 3D
 export const pictureAddress = (id) => `picture-${id.replace(':', '-')}.png`;
 export const [edit, label, ticket, goTo, stop] = Array(5).fill(refuse);
 

@@ -1,12 +1,15 @@
 // What the page asks the server for. Each function throws an Error with a sentence for people.
 
-async function ask(address, options) {
-  let answer;
+async function reach(address, options) {
   try {
-    answer = await fetch(address, options);
+    return await fetch(address, options);
   } catch {
     throw new Error('The server does not answer.');
   }
+}
+
+async function ask(address, options) {
+  const answer = await reach(address, options);
   if (!answer.ok) throw new Error((await answer.text()).trim() || `The server refused (${answer.status}).`);
   return answer;
 }
@@ -20,10 +23,12 @@ export const rights = async () => (await ask('api/me')).json();
 export const question = async (text) => (await ask('api/query?q=' + encodeURIComponent(text))).json();
 export const pictureAddress = (id) => 'api/picture?id=' + encodeURIComponent(id);
 
-/** The bytes of a PLY file of the map, "points" or "surfaces"; null if it has none. */
-export async function ply(name, revision) {
-  const answer = await fetch(`api/${name}?revision=${revision}`);
-  return answer.ok ? answer.arrayBuffer() : null;
+/** The bytes of a PLY file of the map, "points" or "surfaces"; null if it has none. `solid` is that of the map. */
+export async function ply(name, solid) {
+  const answer = await reach(`api/${name}?solid=${encodeURIComponent(solid)}`);
+  if (answer.status === 404) return null;
+  if (!answer.ok) throw new Error(`The server refused the ${name} of the view in 3D (${answer.status}).`);
+  return answer.arrayBuffer();
 }
 
 /** The picture of the occupancy grid. */

@@ -44,7 +44,31 @@ TEST_F(ExportPage, TheFolderHasThePageAndTheMapAndNoPathOfThisMachine) {
   EXPECT_EQ(data["map"]["places"].size(), 6U);
   EXPECT_EQ(data["grid"].get<std::string>().rfind("data:image/png;base64,iVBOR", 0), 0U);
   EXPECT_EQ(map.find(folder_.path()), std::string::npos);
+  EXPECT_EQ(data["map"]["solid"], nullptr) << "a copy has no view in 3D";
   EXPECT_EQ(read(out + "/picture-0-1.png"), "a picture");
+}
+
+TEST_F(ExportPage, ASecondCopyHasNoPictureOfWhatIsGone) {
+  write();
+  std::filesystem::create_directory(folder_ / "objects");
+  query::putFile(folder_ / "objects/0-1.png", "a picture");
+  const std::string out = folder_ / "out";
+  exportPage(folder_.path(), testing::sourceFile("web"), out);
+  query::putFile(out + "/picture-of-my-cat.png", "a cat");
+  std::filesystem::remove(folder_ / "objects/0-1.png");
+  exportPage(folder_.path(), testing::sourceFile("web"), out);
+  EXPECT_FALSE(std::filesystem::exists(out + "/picture-0-1.png"));
+  EXPECT_EQ(read(out + "/picture-of-my-cat.png"), "a cat") << "it is not of a copy";
+}
+
+TEST_F(ExportPage, ThePageThatComesWithTheProgramIsNotOverwritten) {
+  write();
+  const std::string page = folder_ / "web";
+  std::filesystem::copy(testing::sourceFile("web"), page);
+  std::filesystem::create_directory_symlink(page, folder_ / "link");
+  EXPECT_NE(query::refusalOf([&] { exportPage(folder_.path(), page, folder_ / "link"); }, base::ExitCode::command_line),
+            "");
+  EXPECT_EQ(read(page + "/index.html"), read(testing::sourceFile("web/index.html")));
 }
 
 TEST_F(ExportPage, TheFolderOfTheMapIsNotWrittenInto) {

@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <ostream>
+#include <regex>
 #include <system_error>
+#include <vector>
 
 #include "bundled.h"
 
@@ -33,6 +36,22 @@ std::map<std::string, std::string> filesOf(const std::string& folder) {
   return files;
 }
 
+void refuseSame(const std::string& output, const std::string& folder, const std::string& what) {
+  std::error_code missing;
+  if (fs::equivalent(output, folder, missing))
+    throw base::Error(base::ExitCode::command_line, output + ": is " + what + "; name another one");
+}
+
+/// Removes the pictures of an earlier copy, which may be of things that are gone.
+void removePictures(const std::string& folder) {
+  static const std::regex picture(R"(picture-\d+-\d+\.png)");
+  std::vector<fs::path> old;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (std::regex_match(entry.path().filename().string(), picture)) old.push_back(entry.path());
+  for (const auto& file : old) fs::remove(file, missing);
+}
+
 void put(const std::string& folder, const std::string& name, const std::string& bytes) {
   base::writeFile((fs::path(folder) / name).string(), [&](std::ostream& out) { out << bytes; });
 }
@@ -42,9 +61,16 @@ std::string trimmedEnd(std::string text) {
   return text;
 }
 
+// A copy has no view in 3D.
+std::string documentOf(const ServedMap& map) {
+  auto document = nlohmann::ordered_json::parse(map.document());
+  document["solid"] = nullptr;
+  return document.dump();
+}
+
 std::string dataOf(const ServedMap& map) {
   const std::string grid = map.gridPng().empty() ? "" : "data:image/png;base64," + draw::encodeBase64(map.gridPng());
-  return "globalThis.omnimapperMap = {\n\"map\": " + trimmedEnd(map.document()) +
+  return "globalThis.omnimapperMap = {\n\"map\": " + documentOf(map) +
          ",\n\"trajectory\": " + trimmedEnd(map.trajectory()) + ",\n\"grid\": \"" + grid + "\"\n};\n";
 }
 
@@ -54,9 +80,9 @@ void exportPage(const std::string& path, const std::string& page_folder, const s
   const ServedMap map(path);
   const auto files = filesOf(page_folder);
   base::makeWritableFolder(output);
-  std::error_code missing;
-  if (fs::equivalent(output, map.map().folder, missing))
-    throw base::Error(base::ExitCode::command_line, output + ": is the folder of the map; name another one");
+  refuseSame(output, map.map().folder, "the folder of the map");
+  refuseSame(output, page_folder, "the folder of the page that comes with this program");
+  removePictures(output);
   for (const auto& place : map.map().places.places) {
     std::string id = toString(place.id);
     const auto picture = map.pictureOf(id);

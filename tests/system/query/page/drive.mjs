@@ -1,7 +1,7 @@
 // Drives the page of a map in a browser as people do. Usage: node drive.mjs PUPPETEER PROGRAMS MAP SCRATCH
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, utimesSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { startBrowser } from './browser.mjs';
 import { startServer } from './server.mjs';
@@ -120,6 +120,35 @@ async function showInThreeDimensions(visitor) {
   await visitor.sees((root) => root.querySelector('#solid').hidden);
 }
 
+async function changeInThreeDimensions(visitor) {
+  step('in 3D a change fetches no files again; files that do not come fail no change');
+  const { page } = visitor, files = [];
+  const refuse = (request) => {
+    const isFile = /api\/(points|surfaces)/.test(request.url());
+    if (isFile) files.push(request.url());
+    return isFile ? request.abort() : request.continue();
+  };
+  const rename = async (from, to) => {
+    await visitor.presses('#list', from);
+    await visitor.fills('Name of the room', to);
+    await visitor.presses('#panel', 'Rename');
+    await visitor.seesText('#list', to);
+    await visitor.seesText('#panel .done', to);
+  };
+  await page.setRequestInterception(true);
+  page.on('request', refuse);
+  await visitor.presses('#zoom', '3D');
+  await rename('room 2', 'study');
+  assert.deepEqual(files, []);
+  utimesSync(join(map, 'points.ply'), new Date(), new Date());
+  await visitor.seesText('#state', 'does not answer');
+  await rename('study', 'library');
+  assert.equal(await page.$('#panel .bad'), null);
+  page.off('request', refuse);
+  await page.setRequestInterception(false);
+  await visitor.presses('#zoom', 'Plan');
+}
+
 async function darkColours(visitor) {
   step('the page is dark where the browser is');
   const before = await visitor.page.evaluate(() => getComputedStyle(document.body).backgroundColor);
@@ -151,6 +180,7 @@ async function openACopy(browser) {
   const folder = join(scratch, 'copy');
   execFileSync(join(programs, 'omnimapper-export'), ['page', map, folder]);
   const guest = await Visitor.arrive(browser, `file://${folder}/index.html`, complaints);
+  assert.ok(await guest.page.$eval('#dimension', (each) => each.hidden), 'a copy has no view in 3D');
   await guest.asks('desk');
   await guest.presses('#panel', 'table "desk"');
   await guest.seesText('#panel', 'may only look');
@@ -160,8 +190,9 @@ async function openACopy(browser) {
 }
 
 const { browser, stop } = await startBrowser(puppeteer, join(scratch, 'profile'));
-let server = await startServer(program, map, 0, ['--commands', commands]);
+let server = null;
 try {
+  server = await startServer(program, map, 0, ['--commands', commands]);
   const desk = await Visitor.arrive(browser, server.address, complaints);
   step('the first picture is there');
   const tablet = await Visitor.arrive(browser, server.address, complaints, { width: 360, height: 740, isTouch: true });
@@ -173,6 +204,7 @@ try {
   await showAPath(desk);
   await phone(tablet);
   await showInThreeDimensions(desk);
+  await changeInThreeDimensions(desk);
   await darkColours(desk);
   server = await surviveTheServer([desk, tablet], server);
   await openACopy(browser);
@@ -180,5 +212,5 @@ try {
   step('done');
 } finally {
   await stop();
-  await server.kill('SIGTERM');
+  await server?.kill('SIGTERM');
 }
