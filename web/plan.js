@@ -1,5 +1,6 @@
 // The map from above, on a canvas.
 import { areaOf, distanceToPath, distanceToPlace, isInside } from './geometry.js';
+import { Gestures } from './gestures.js';
 import { givenName } from './names.js';
 
 const LEAST_SCALE = 2, MOST_SCALE = 2000; // pixels per metre
@@ -18,8 +19,7 @@ export class Plan {
     this.hidden = new Set();
     this.scale = 50;
     this.middle = [0, 0];
-    this.pointers = new Map();
-    this.listen();
+    new Gestures(this);
     new ResizeObserver(() => this.resize()).observe(canvas);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.recolour());
   }
@@ -128,66 +128,11 @@ export class Plan {
     return [this.middle[0] + (x - width / 2) / this.scale, this.middle[1] - (y - height / 2) / this.scale];
   }
 
-  listen() {
-    const at = (event) => {
-      const box = this.canvas.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
-    this.canvas.addEventListener('pointerdown', (event) => {
-      this.canvas.setPointerCapture(event.pointerId);
-      this.pointers.set(event.pointerId, at(event));
-      this.moved = this.pointers.size > 1;
-    });
-    this.canvas.addEventListener('pointermove', (event) => this.drag(event.pointerId, at(event)));
-    this.canvas.addEventListener('pointerup', (event) => {
-      const isTouch = this.pointers.size === 1 && !this.moved;
-      this.pointers.delete(event.pointerId);
-      if (isTouch) this.touch(at(event));
-    });
-    this.canvas.addEventListener('pointercancel', (event) => this.pointers.delete(event.pointerId));
-    this.canvas.addEventListener('wheel', (event) => {
-      event.preventDefault();
-      this.zoom(Math.exp(-event.deltaY * 0.0015), at(event));
-    }, { passive: false });
-    this.canvas.addEventListener('keydown', (event) => this.key(event));
-  }
-
-  drag(id, now) {
-    const before = this.pointers.get(id);
-    if (!before) return;
-    const others = [...this.pointers].filter(([other]) => other !== id).map(([, point]) => point);
-    if (others.length > 0) {
-      const [other] = others;
-      const spread = (point) => Math.hypot(point[0] - other[0], point[1] - other[1]);
-      if (spread(before) > 0) this.zoom(spread(now) / spread(before), other);
-    } else if (this.moved || Math.hypot(now[0] - before[0], now[1] - before[1]) > 4) {
-      this.moved = true;
-      this.middle = [this.middle[0] - (now[0] - before[0]) / this.scale, this.middle[1] + (now[1] - before[1]) / this.scale];
-      this.isWhole = false;
-      this.draw();
-    } else {
-      return;
-    }
-    this.pointers.set(id, now);
-  }
-
-  key(event) {
-    const step = 60 / this.scale;
-    const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] };
-    if (moves[event.key]) {
-      this.middle = [this.middle[0] + moves[event.key][0], this.middle[1] + moves[event.key][1]];
-      this.isWhole = false;
-      this.draw();
-    } else if (event.key === '+' || event.key === '=') {
-      this.zoom(1.25);
-    } else if (event.key === '-') {
-      this.zoom(0.8);
-    } else if (event.key === '0') {
-      this.showAll();
-    } else {
-      return;
-    }
-    event.preventDefault();
+  /** Moves the view by a way in the map [m]. */
+  move([x, y]) {
+    this.middle = [this.middle[0] + x, this.middle[1] + y];
+    this.isWhole = false;
+    this.draw();
   }
 
   touch(pixel) {
