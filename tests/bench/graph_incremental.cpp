@@ -1,15 +1,13 @@
 // Public pose graphs, a pose at a time: each step adds the pose, from its odometry edge, and every edge to earlier
-// poses. Prints a Markdown table of the processor time of a step, and how far the cost after each tenth step is above
+// poses. Prints a Markdown table of the processor time of a step, and how far the cost is above
 // the batch minimum of the graph so far.
 //
 //   OPENBLAS_NUM_THREADS=1 OMP_THREAD_LIMIT=1 bench-graph_incremental [runs [relinearize_beyond [every
 //   [substitute_beyond [graph]]]]]
 //
 // The time of a step is the median of the runs. Batch minima are computed at 20 steps, evenly spread.
-#include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/graph/Between.h>
 #include <omnimapper/graph/G2o.h>
-#include <omnimapper/graph/IncrementalSolver.h>
+#include <omnimapper/graph/PoseByPose.h>
 #include <omnimapper/graph/Solver.h>
 #include <omnimapper/testing/Fixtures.h>
 
@@ -22,53 +20,7 @@
 namespace {
 
 using namespace omnimapper;
-using base::VariableId;
 using graph::Graph;
-
-/// The graph of a file as it grows.
-class Growth {
- public:
-  explicit Growth(const Graph& whole) : whole_(whole) {
-    for (const auto& [id, record] : whole.variables()) order_.push_back(id);
-    factors_.resize(order_.size());
-    for (const auto& [id, record] : whole.factors()) {
-      std::size_t last = 0;
-      for (const auto variable : record.variables) last = std::max(last, placeOf(variable));
-      factors_[last].push_back(id);
-    }
-  }
-  std::size_t steps() const { return order_.size(); }
-
-  /// Adds pose number `i` and its edges to `graph`, whose values before are those of `solver`.
-  std::vector<base::FactorId> add(std::size_t i, const graph::IncrementalSolver& solver, Graph& graph) const {
-    const auto& record = whole_.variable(order_[i]);
-    Eigen::VectorXd value = record.value;
-    if (i > 0)
-      for (const auto id : factors_[i]) {
-        const auto& edge = whole_.factor(id);
-        if (edge.variables.size() != 2 || edge.variables[0] != order_[i - 1]) continue;
-        const Eigen::VectorXd before =
-            solver.contains(order_[i - 1]) ? solver.value(order_[i - 1]) : graph.value(order_[i - 1]);
-        if (const auto* planar = dynamic_cast<const graph::BetweenSe2*>(edge.factor.get()))
-          value = graph::toValue(graph::se2FromValue(before.data()) * planar->measured());
-        else if (const auto* spatial = dynamic_cast<const graph::BetweenSe3*>(edge.factor.get()))
-          value = graph::toValue(graph::se3FromValue(before.data()) * spatial->measured());
-        break;
-      }
-    graph.addVariable(record.kind, value, record.fixed);
-    std::vector<base::FactorId> added;
-    for (const auto id : factors_[i]) added.push_back(graph.addFactor(whole_.factor(id)));
-    return added;
-  }
-
- private:
-  std::size_t placeOf(VariableId id) const {
-    return static_cast<std::size_t>(std::lower_bound(order_.begin(), order_.end(), id) - order_.begin());
-  }
-  const Graph& whole_;
-  std::vector<VariableId> order_;
-  std::vector<std::vector<base::FactorId>> factors_;
-};
 
 struct Run {
   std::vector<double> seconds;  // of each step
@@ -84,26 +36,26 @@ double processorSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Run runOnce(const Growth& growth, const graph::IncrementalOptions& options, bool compares) {
+Run runOnce(const Graph& whole, const graph::IncrementalOptions& options, bool compares) {
   Run run;
   graph::IncrementalSolver solver(options);
-  Graph graph;
+  graph::PoseByPose growth(whole);
   const std::size_t spacing = std::max<std::size_t>(growth.steps() / 20 / 10 * 10, 10);
   for (std::size_t i = 0; i < growth.steps(); ++i) {
-    const auto added = growth.add(i, solver, graph);
+    const auto added = growth.grow(solver);
     if (added.empty()) continue;
     const double start = processorSeconds();
-    run.eliminated += solver.update(graph, {added, {}, {}}).eliminated;
+    run.eliminated += solver.update(growth.graph(), {added, {}, {}}).eliminated;
     run.seconds.push_back(processorSeconds() - start);
     if (!compares || i % spacing != 0) continue;
-    Graph batch = graph;
+    Graph batch = growth.graph();
     solver.store(batch);
     const double cost = batch.cost();
     solve(batch);
     run.above.push_back(cost / batch.cost() - 1);
   }
-  solver.store(graph);
-  run.final_chi2 = graph::g2oChi2(graph);
+  solver.store(growth.graph());
+  run.final_chi2 = graph::g2oChi2(growth.graph());
   return run;
 }
 
@@ -115,9 +67,8 @@ double quantile(std::vector<double> numbers, double share) {
 void bench(const char* name, int runs, const graph::IncrementalOptions& options) {
   const Graph whole =
       graph::readG2o(*omnimapper::testing::sharedData(std::string("posegraphs/") + name + ".g2o")).graph;
-  const Growth growth(whole);
   std::vector<Run> all;
-  for (int i = 0; i < runs; ++i) all.push_back(runOnce(growth, options, i == 0));
+  for (int i = 0; i < runs; ++i) all.push_back(runOnce(whole, options, i == 0));
   std::vector<double> steps;
   for (std::size_t i = 0; i < all.front().seconds.size(); ++i) {
     std::vector<double> times;

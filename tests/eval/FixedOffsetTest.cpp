@@ -44,6 +44,18 @@ TEST(FixedOffset, OfAPartAndAClockIsFound) {
   EXPECT_NE(describe(found).find("0.0300 s ahead"), std::string::npos) << describe(found);
 }
 
+TEST(FixedOffset, ClocksAtWhichFewPosesHaveAReferenceAreNotBetter) {
+  // The estimate has an error of 5 cm that no offset explains; the reference is shorter and has a gap of 4 s.
+  Trajectory estimate = drive(0), reference;
+  for (std::size_t i = 0; i < estimate.size(); ++i)
+    estimate[i].world_from_body.translation.x() += i % 2 == 0 ? 0.05 : -0.05;
+  for (std::size_t i = 0; i < 160; ++i)
+    if (i < 60 || i >= 100) reference.push_back(drive(0)[i]);
+  const auto found = fitFixedOffset(estimate, reference, base::durationFromSeconds(0.2));
+  EXPECT_LT(std::abs(found.clock), 0.05);
+  EXPECT_LT(found.body_from_part.translation.norm(), 0.05);
+}
+
 TEST(FixedOffset, NeedsPosesWithinTheReference) {
   EXPECT_THROW(fitFixedOffset(drive(0), drive(100), base::durationFromSeconds(0.2)), base::Error);
 }

@@ -65,6 +65,20 @@ TEST(IncrementalSolver, GrowsWithASphereToTheBatchMinimum) {
   expectGrowthEndsAtBatchMinimum(sphereWorld(6, 12, 2, 0.02, 0.01));
 }
 
+TEST(IncrementalSolver, LooksAtAllThatMovedSinceItLookedLast) {
+  World2 world = gridWorld(300, 1, {0.02, 0.02, 0.01});
+  Noise noise(7);
+  disturb(world, noise, 0.1);
+  IncrementalSolver each({0.01, 1, 0}), seldom({0.01, 7, 0});
+  for (const auto& [last, factors] : byLastVariable(world.graph))
+    for (IncrementalSolver* solver : {&each, &seldom}) solver->update(world.graph, {factors, {}, {}});
+  for (int i = 0; i < 14; ++i) seldom.update(world.graph, {});
+  Graph minimum = world.graph, found = world.graph;
+  seldom.store(found);
+  solve(minimum);
+  EXPECT_LT(found.cost(), 1.01 * minimum.cost()) << "of what moved between the looks, some is linearized where it was";
+}
+
 TEST(IncrementalSolver, TouchesOnlyWhatAChangeAffects) {
   World2 world = gridWorld(400, 3, {0.02, 0.02, 0.01});
   IncrementalSolver solver;

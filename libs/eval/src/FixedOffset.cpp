@@ -3,7 +3,11 @@
 #include <omnimapper/eval/FixedOffset.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace omnimapper::eval {
@@ -17,6 +21,7 @@ using Matrix13d = Eigen::Matrix<double, 13, 13>;
 
 constexpr double kLever = 0.3;  // [m] by which rotation errors count
 constexpr int kFewest = 10;     // poses
+constexpr double kKept = 0.9;   // share of the poses within the reference at first that a shift of the clock must keep
 
 // The unknowns. A pose's change is in its tangent.
 struct Guess {
@@ -31,7 +36,7 @@ struct Guess {
 class Fit {
  public:
   Fit(const Trajectory& estimate, const Trajectory& reference, base::Duration longest_gap)
-      : estimate_(estimate), reference_(reference), longest_gap_(longest_gap) {}
+      : estimate_(estimate), reference_(reference), longest_gap_(longest_gap), first_(posesWithin(0).size()) {}
 
   // Of the poses that lie within the reference at the guess's clock.
   std::vector<std::size_t> posesWithin(double clock) const {
@@ -52,10 +57,16 @@ class Fit {
     }
     return all;
   }
+  // The mean of squared errors, which clocks at which fewer poses have a reference do not lower.
+  double cost(const Guess& guess) const {
+    const auto poses = posesWithin(guess.offset.clock);
+    if (static_cast<double>(poses.size()) < kKept * static_cast<double>(first_))
+      return std::numeric_limits<double>::infinity();
+    return errors(guess, poses).squaredNorm() / static_cast<double>(poses.size());
+  }
   // Levenberg and Marquardt; the damping keeps what is not determined where it is.
   std::pair<Guess, double> solved(Guess guess) const {
-    double damping = 1e-3;
-    double best = errors(guess, posesWithin(guess.offset.clock)).squaredNorm();
+    double damping = 1e-3, best = cost(guess);
     for (int iteration = 0; iteration < 60 && damping < 1e6; ++iteration) {
       const auto poses = posesWithin(guess.offset.clock);
       const Eigen::VectorXd before = errors(guess, poses);
@@ -64,14 +75,14 @@ class Fit {
       normal.diagonal().array() += damping;
       const Vector13d step = -normal.ldlt().solve(jacobian.transpose() * before);
       const Guess next = guess.plus(step);
-      const double error = errors(next, poses).squaredNorm();
-      if (!(error < before.squaredNorm())) {
+      const double next_cost = cost(next);
+      if (!(next_cost < best)) {
         damping *= 10;
         continue;
       }
-      const bool is_small = before.squaredNorm() - error < 1e-12 * (1 + error);
+      const bool is_small = best - next_cost < 1e-12 * (1 + next_cost);
       guess = next;
-      best = error;
+      best = next_cost;
       damping = std::max(1e-9, damping / 10);
       if (is_small) break;
     }
@@ -94,6 +105,7 @@ class Fit {
   const Trajectory& estimate_;
   const Trajectory& reference_;
   base::Duration longest_gap_;
+  std::size_t first_;  // number of poses within the reference before its clock is moved
 };
 
 }  // namespace

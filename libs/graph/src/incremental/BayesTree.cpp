@@ -5,8 +5,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "EliminationOrder.h"
-
 namespace omnimapper::graph {
 
 void BayesTree::addBound(const std::vector<int>& unknowns, std::vector<int>& all) const {
@@ -64,66 +62,45 @@ std::vector<int> BayesTree::removeTop(const std::vector<int>& unknowns, std::vec
   return affected;
 }
 
-std::size_t BayesTree::replaceTop(const std::vector<int>& unknowns, const std::vector<int>& last) {
-  std::vector<int> orphans;
-  const std::vector<int> affected = removeTop(unknowns, orphans);
-  if (affected.empty()) return 0;
+/// The terms that bind unknowns of `affected` alone, and the orphans: what they bind, as places in `affected`. The
+/// other terms are in the orphans.
+BayesTree::Top BayesTree::gather(std::vector<int> affected, std::vector<int> orphans) {
+  Top top{std::move(affected), {}, std::move(orphans), {}};
   place_.resize(static_cast<std::size_t>(terms_.size()), -1);
-  for (std::size_t i = 0; i < affected.size(); ++i) place_[affected[i]] = static_cast<int>(i);
-
-  // The terms that bind these unknowns alone; the others are in the orphans.
+  for (std::size_t i = 0; i < top.affected.size(); ++i) place_[top.affected[i]] = static_cast<int>(i);
+  const auto addSet = [&](const std::vector<int>& bound) {
+    top.sets.emplace_back();
+    for (const int each : bound) top.sets.back().push_back(place_[each]);
+  };
   ++round_;
-  std::vector<int> taken;
-  std::vector<std::vector<int>> sets;
-  for (const int unknown : affected)
+  for (const int unknown : top.affected)
     for (const int term : terms_.unknown(unknown).terms) {
       if (term >= static_cast<int>(visited_.size())) visited_.resize(static_cast<std::size_t>(term) + 1, 0);
       if (visited_[term] == round_) continue;
       visited_[term] = round_;
       const auto& bound = terms_.term(term).unknowns;
       if (std::any_of(bound.begin(), bound.end(), [&](int each) { return place_[each] < 0; })) continue;
-      taken.push_back(term);
-      sets.emplace_back();
-      for (const int each : bound) sets.back().push_back(place_[each]);
+      top.terms.push_back(term);
+      addSet(bound);
     }
-  for (const int orphan : orphans) {
-    sets.emplace_back();
-    for (const int each : cliques_[orphan].separator) sets.back().push_back(place_[each]);
-  }
-  std::vector<bool> is_last(affected.size(), false);
-  for (const int unknown : last)
-    if (place_[unknown] >= 0) is_last[place_[unknown]] = true;
-  const auto supernodes = orderElimination(static_cast<int>(affected.size()), sets, is_last);
+  for (const int orphan : top.orphans) addSet(cliques_[orphan].separator);
+  return top;
+}
 
-  // Each set belongs to the supernode that eliminates the first of its nodes.
-  std::vector<int> order(affected.size()), supernode_of(affected.size()), clique_of(supernodes.size());
+/// Makes the cliques of these supernodes, with the orphans below them; returns for each the terms that it eliminates.
+std::vector<std::vector<int>> BayesTree::build(const Top& top, const std::vector<Supernode>& supernodes,
+                                               const std::vector<int>& clique_of) {
+  std::vector<int> order(top.affected.size()), supernode_of(top.affected.size());
   int next = 0;
   for (std::size_t i = 0; i < supernodes.size(); ++i) {
-    clique_of[i] = newClique();
+    Clique& clique = cliques_[clique_of[i]];
     for (const int node : supernodes[i].frontals) {
       supernode_of[node] = static_cast<int>(i);
       order[node] = next++;
+      clique.frontals.push_back(top.affected[node]);
+      terms_.unknown(top.affected[node]).clique = clique_of[i];
     }
-  }
-  std::vector<std::vector<int>> terms_of(supernodes.size());
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const int first =
-        *std::min_element(sets[i].begin(), sets[i].end(), [&](int a, int b) { return order[a] < order[b]; });
-    const int owner = supernode_of[first];
-    if (i < taken.size()) {
-      terms_of[owner].push_back(taken[i]);
-    } else {
-      const int orphan = orphans[i - taken.size()];
-      cliques_[orphan].parent = clique_of[owner];
-      cliques_[clique_of[owner]].children.push_back(orphan);
-    }
-  }
-  for (const int unknown : affected) place_[unknown] = -1;
-  for (std::size_t i = 0; i < supernodes.size(); ++i) {
-    Clique& clique = cliques_[clique_of[i]];
-    for (const int node : supernodes[i].frontals) clique.frontals.push_back(affected[node]);
-    for (const int node : supernodes[i].separator) clique.separator.push_back(affected[node]);
-    for (const int unknown : clique.frontals) terms_.unknown(unknown).clique = clique_of[i];
+    for (const int node : supernodes[i].separator) clique.separator.push_back(top.affected[node]);
     setOffsets(clique);
     if (supernodes[i].parent < 0) {
       roots_.push_back(clique_of[i]);
@@ -132,8 +109,38 @@ std::size_t BayesTree::replaceTop(const std::vector<int>& unknowns, const std::v
       cliques_[clique.parent].children.push_back(clique_of[i]);
     }
   }
+  // Each set belongs to the supernode that eliminates the first of its nodes.
+  std::vector<std::vector<int>> terms_of(supernodes.size());
+  for (std::size_t i = 0; i < top.sets.size(); ++i) {
+    const auto& set = top.sets[i];
+    const int owner =
+        supernode_of[*std::min_element(set.begin(), set.end(), [&](int a, int b) { return order[a] < order[b]; })];
+    if (i < top.terms.size()) {
+      terms_of[owner].push_back(top.terms[i]);
+    } else {
+      const int orphan = top.orphans[i - top.terms.size()];
+      cliques_[orphan].parent = clique_of[owner];
+      cliques_[clique_of[owner]].children.push_back(orphan);
+    }
+  }
+  return terms_of;
+}
+
+std::size_t BayesTree::replaceTop(const std::vector<int>& unknowns, const std::vector<int>& last) {
+  std::vector<int> orphans;
+  std::vector<int> affected = removeTop(unknowns, orphans);
+  if (affected.empty()) return 0;
+  const Top top = gather(std::move(affected), std::move(orphans));
+  std::vector<bool> is_last(top.affected.size(), false);
+  for (const int unknown : last)
+    if (place_[unknown] >= 0) is_last[place_[unknown]] = true;
+  for (const int unknown : top.affected) place_[unknown] = -1;
+  const auto supernodes = orderElimination(static_cast<int>(top.affected.size()), top.sets, is_last);
+  std::vector<int> clique_of;
+  for (std::size_t i = 0; i < supernodes.size(); ++i) clique_of.push_back(newClique());
+  const auto terms_of = build(top, supernodes, clique_of);
   for (std::size_t i = 0; i < supernodes.size(); ++i) eliminate(clique_of[i], terms_of[i]);
-  return affected.size();
+  return top.affected.size();
 }
 
 int BayesTree::newClique() {
@@ -236,41 +243,6 @@ void BayesTree::eliminate(int number, const std::vector<int>& terms) {
   clique.remainder = remainder;
 }
 
-std::vector<int> BayesTree::substitute(double beyond) {
-  std::vector<int> computed, open = roots_;
-  std::vector<bool> changed(static_cast<std::size_t>(terms_.size()), false);
-  Eigen::VectorXd right;
-  while (!open.empty()) {
-    Clique& clique = cliques_[open.back()];
-    open.pop_back();
-    const bool is_reached =
-        std::any_of(clique.separator.begin(), clique.separator.end(), [&](int unknown) { return changed[unknown]; });
-    // What is new hangs below nothing that is old.
-    if (!is_reached && !clique.is_new) continue;
-    const auto size = clique.factor.rows() - 1;
-    right = -clique.factor.row(size).transpose();
-    for (std::size_t i = 0; i < clique.separator.size(); ++i) {
-      const Unknown& unknown = terms_.unknown(clique.separator[i]);
-      right.noalias() -=
-          clique.factor.middleRows(clique.offsets[clique.frontals.size() + i], unknown.size).transpose() *
-          unknown.delta;
-    }
-    clique.factor.topRows(clique.frontal_size).triangularView<Eigen::Lower>().transpose().solveInPlace(right);
-    for (std::size_t i = 0; i < clique.frontals.size(); ++i) {
-      Unknown& unknown = terms_.unknown(clique.frontals[i]);
-      const auto delta = right.segment(clique.offsets[i], unknown.size);
-      computed.push_back(clique.frontals[i]);
-      // Small changes add up until they are handed down.
-      if ((delta - unknown.delta).lpNorm<Eigen::Infinity>() <= beyond) continue;
-      changed[clique.frontals[i]] = true;
-      unknown.delta = delta;
-    }
-    clique.is_new = false;
-    open.insert(open.end(), clique.children.begin(), clique.children.end());
-  }
-  return computed;
-}
-
 void BayesTree::clear() {
   for (int i = 0; i < terms_.size(); ++i) terms_.unknown(i).clique = -1;
   cliques_.clear();
@@ -283,32 +255,6 @@ std::vector<int> BayesTree::unknowns() const {
   for (int i = 0; i < terms_.size(); ++i)
     if (terms_.unknown(i).clique >= 0) all.push_back(i);
   return all;
-}
-
-BayesTree::HalfSolved BayesTree::halfSolve(int number) const {
-  const Unknown& unknown = terms_.unknown(number);
-  HalfSolved solved;
-  // What is left for the unknowns above, by their numbers.
-  std::unordered_map<int, Eigen::MatrixXd> right;
-  right[number] = Eigen::MatrixXd::Identity(unknown.size, unknown.size);
-  for (int at = unknown.clique; at >= 0; at = cliques_[at].parent) {
-    const Clique& clique = cliques_[at];
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(clique.frontal_size, unknown.size);
-    for (std::size_t i = 0; i < clique.frontals.size(); ++i) {
-      const auto found = right.find(clique.frontals[i]);
-      if (found != right.end()) rows.middleRows(clique.offsets[i], found->second.rows()) = found->second;
-    }
-    clique.factor.topRows(clique.frontal_size).triangularView<Eigen::Lower>().solveInPlace(rows);
-    for (std::size_t i = 0; i < clique.separator.size(); ++i) {
-      const int size = terms_.unknown(clique.separator[i]).size;
-      Eigen::MatrixXd& left = right[clique.separator[i]];
-      if (left.size() == 0) left = Eigen::MatrixXd::Zero(size, unknown.size);
-      left.noalias() -= clique.factor.middleRows(clique.offsets[clique.frontals.size() + i], size) * rows;
-    }
-    solved.cliques.push_back(at);
-    solved.rows.push_back(std::move(rows));
-  }
-  return solved;
 }
 
 }  // namespace omnimapper::graph

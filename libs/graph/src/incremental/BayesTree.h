@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "EliminationOrder.h"
 #include "LinearTerms.h"
 
 namespace omnimapper::graph {
@@ -51,6 +52,15 @@ class BayesTree {
   HalfSolved halfSolve(int unknown) const;
 
  private:
+  /// What is eliminated anew.
+  struct Top {
+    std::vector<int> affected;           // unknowns
+    std::vector<int> terms, orphans;     // that bind them; cliques that stay
+    std::vector<std::vector<int>> sets;  // what each term, and then each orphan, binds, as places in `affected`
+  };
+  Top gather(std::vector<int> affected, std::vector<int> orphans);
+  std::vector<std::vector<int>> build(const Top& top, const std::vector<Supernode>& supernodes,
+                                      const std::vector<int>& clique_of);
   std::vector<int> removeTop(const std::vector<int>& unknowns, std::vector<int>& orphans);
   void eliminate(int clique, const std::vector<int>& terms);
   void assemble(const Clique& clique, const std::vector<int>& terms, Eigen::MatrixXd& front);

@@ -35,9 +35,10 @@ struct IncrementalSolver::State {
       throw;
     }
     summary.relinearized = far.size();
-    recent = tree.substitute(substitute_beyond);
-    for (const int number : recent)
+    const auto computed = tree.substitute(substitute_beyond);
+    for (const int number : computed)
       summary.largest_step = std::max(summary.largest_step, terms.unknown(number).delta.lpNorm<Eigen::Infinity>());
+    unlooked.insert(unlooked.end(), computed.begin(), computed.end());
     return summary;
   }
   int numberInTree(base::VariableId id) const {
@@ -52,8 +53,8 @@ struct IncrementalSolver::State {
   IncrementalOptions options;
   LinearTerms terms;
   BayesTree tree{terms};
-  std::vector<int> recent;  // unknowns whose deltas were computed in the last step
-  bool is_cleared = false;  // an update failed: the next one eliminates all unknowns
+  std::vector<int> unlooked;  // unknowns whose deltas were computed since an update looked how far they are
+  bool is_cleared = false;    // an update failed: the next one eliminates all unknowns
   int updates = 0;
 };
 
@@ -94,14 +95,20 @@ IncrementalSummary IncrementalSolver::update(const Graph& graph, const GraphChan
       if (number >= 0) touch(state.terms.term(number).unknowns);
     }
   std::vector<int> far;
-  if (++state.updates % std::max(state.options.relinearize_every, 1) == 0)
-    far = state.moved(state.recent, state.options.relinearize_beyond);
+  if (++state.updates % std::max(state.options.relinearize_every, 1) == 0) {
+    auto& unlooked = state.unlooked;
+    std::sort(unlooked.begin(), unlooked.end());
+    unlooked.erase(std::unique(unlooked.begin(), unlooked.end()), unlooked.end());
+    far = state.moved(unlooked, state.options.relinearize_beyond);
+    unlooked.clear();
+  }
   return state.step(std::move(touched), far, state.options.substitute_beyond);
 }
 
 bool IncrementalSolver::converge(double tolerance, int max_steps) {
   const SingleThreadedBlas one_thread;
   State& state = *state_;
+  if (state.is_cleared) return false;
   for (int i = 0; i < max_steps; ++i) {
     const auto far = state.moved(state.tree.unknowns(), tolerance);
     if (far.empty()) return true;

@@ -28,8 +28,7 @@ struct GraphChanges {
 
 /// What one update did.
 struct IncrementalSummary {
-  std::size_t eliminated = 0;    ///< variables that were eliminated anew, of those in the tree
-  std::size_t variables = 0;     ///< variables in the tree
+  std::size_t eliminated = 0;    ///< variables that were eliminated anew
   std::size_t relinearized = 0;  ///< variables that moved too far from where they were linearized
   double largest_step = 0;       ///< of any entry of a tangent, from where it is linearized [m or rad]
 };
@@ -57,7 +56,7 @@ class IncrementalSolver {
   /// for example one that removes what was added.
   IncrementalSummary update(const Graph& graph, const GraphChanges& changes);
   /// Repeats steps, with every variable linearized anew that moves by more than `tolerance` [m or rad], until none does
-  /// or `max_steps` are done. Returns whether none does.
+  /// or `max_steps` are done. Returns whether none does; false after an update that failed.
   bool converge(double tolerance = 1e-6, int max_steps = 20);
 
   /// Whether a factor of positive weight binds the variable, and it is not fixed.
