@@ -50,7 +50,9 @@ TEST(BagOfPython3Rosbag, isReadWithAllItsSensors) {
     EXPECT_EQ(imu[0]->get(mrpt::obs::IMU_Z_ACC), 9.81);
     const auto fixes = withLabel<mrpt::obs::CObservationGPS>(all, "fix");
     ASSERT_EQ(fixes.size(), 4u);
-    EXPECT_EQ(fixes[0]->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields.latitude_degrees, 48.5);
+    // A copy, because the fields of MRPT are packed.
+    const double latitude = fixes[0]->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields.latitude_degrees;
+    EXPECT_EQ(latitude, 48.5);
   }
 }
 
