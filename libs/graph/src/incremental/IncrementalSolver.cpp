@@ -151,7 +151,7 @@ Eigen::MatrixXd IncrementalSolver::jointCovariance(const std::vector<base::Varia
         --b;
         block.noalias() += halves[i].rows[a].transpose() * halves[j].rows[b];
       }
-      covariance.block(offsets[j], offsets[i], block.cols(), block.rows()) = block.transpose();
+      if (j < i) covariance.block(offsets[j], offsets[i], block.cols(), block.rows()) = block.transpose();
     }
   return covariance;
 }
