@@ -190,8 +190,11 @@ TEST_F(KinectSensorTest, aDepthCameraThatFallsSilentIsReportedAndOpenedAgain) {
   ASSERT_TRUE(silent) << "its session could not be made";
   const auto ended = silent->wait();
   ASSERT_EQ(ended.code, 0) << testing::toString(ended);
-  EXPECT_NE(ended.out.find("sensor [kinect] is lost: the Kinect has sent no depth image for 0.4 s"), std::string::npos)
-      << ended.out;
+  // On a busy machine it is noticed later.
+  const std::string lost = "sensor [kinect] is lost: the Kinect has sent no depth image for ";
+  const auto lost_at = ended.out.find(lost);
+  ASSERT_NE(lost_at, std::string::npos) << ended.out;
+  EXPECT_GE(std::stod(ended.out.substr(lost_at + lost.size())), 0.4) << ended.out;
   const auto back = ended.out.find("sensor [kinect] is back");
   ASSERT_NE(back, std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("sensor [kinect] is lost: USB reports that the Kinect is gone", back), std::string::npos)
