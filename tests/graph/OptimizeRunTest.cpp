@@ -102,6 +102,33 @@ TEST_F(OptimizeRunTest, WhatCannotBeSolvedIsRefused) {
   }
 }
 
+TEST_F(OptimizeRunTest, NumbersNeedNotFollowTheEdges) {
+  // 0 - 3 - 1 - 2, where the edge to 1 comes from 3, and that to 3 is written backwards.
+  std::ofstream(request_.input) << "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nVERTEX_SE2 2 0 0 0\nVERTEX_SE2 3 0 0 0\n"
+                                   "EDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\nEDGE_SE2 3 1 1 0 0 1 0 0 1 0 1\n"
+                                   "EDGE_SE2 3 0 -1 0 0 1 0 0 1 0 1\n";
+  request_.method = OptimizeRequest::Method::incremental;
+  EXPECT_TRUE(runOptimize(request_).converged);
+  const G2oContent written = readG2o(request_.output + "/optimized.g2o");
+  EXPECT_NEAR(written.graph.value(written.ids.at(3)).x(), 1, 1e-9);
+  EXPECT_NEAR(written.graph.value(written.ids.at(1)).x(), 2, 1e-9);
+  EXPECT_NEAR(written.graph.value(written.ids.at(2)).x(), 3, 1e-9);
+}
+
+TEST_F(OptimizeRunTest, APartThatNothingHoldsIsNamedByItsVertex) {
+  std::ofstream(request_.input) << "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 40 41 1 0 0 1 0 0 1 0 1\n";
+  for (const auto method : {OptimizeRequest::Method::batch, OptimizeRequest::Method::incremental}) {
+    request_.method = method;
+    try {
+      runOptimize(request_);
+      FAIL() << "a part that nothing holds was solved";
+    } catch (const base::Error& error) {
+      EXPECT_EQ(error.code(), base::ExitCode::unreadable_input);
+      EXPECT_NE(std::string(error.what()).find("vertex 40"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST_F(OptimizeRunTest, AnInterruptEndsIt) {
   request_.method = OptimizeRequest::Method::incremental;
   request_.progress = [](double) { return false; };

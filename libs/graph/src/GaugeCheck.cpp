@@ -27,7 +27,7 @@ void flood(const Graph& graph, std::vector<VariableId> open, std::unordered_set<
 
 }  // namespace
 
-void checkGauge(const Graph& graph) {
+std::optional<VariableId> unconstrainedVariable(const Graph& graph) {
   std::unordered_set<VariableId> reached;
   std::vector<VariableId> tied;
   for (const auto& [id, record] : graph.factors()) {
@@ -39,10 +39,15 @@ void checkGauge(const Graph& graph) {
   }
   flood(graph, std::move(tied), reached);
   for (const auto& [id, record] : graph.factors())
-    if (record.weight > 0 && reached.count(record.variables[0]) == 0)
-      throw base::Error(base::ExitCode::internal,
-                        "graph: variable " + toString(record.variables[0]) +
-                            " and the variables connected to it are not constrained: fix one of them or add a prior");
+    if (record.weight > 0 && reached.count(record.variables[0]) == 0) return record.variables[0];
+  return std::nullopt;
+}
+
+void checkGauge(const Graph& graph) {
+  if (const auto variable = unconstrainedVariable(graph))
+    throw base::Error(base::ExitCode::internal,
+                      "graph: variable " + toString(*variable) +
+                          " and the variables connected to it are not constrained: fix one of them or add a prior");
 }
 
 }  // namespace omnimapper::graph

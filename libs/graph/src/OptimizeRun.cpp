@@ -12,6 +12,7 @@
 #include <ostream>
 #include <vector>
 
+#include "GaugeCheck.h"
 #include "omnimapper/graph/G2o.h"
 #include "omnimapper/graph/Initialization.h"
 #include "omnimapper/graph/Marginals.h"
@@ -41,6 +42,7 @@ class OptimizeRun {
     if (content_.graph.factors().size() == 0)
       throw base::Error(base::ExitCode::nothing_to_map,
                         request.input + ": has no edges, so that there is nothing to do");
+    refuseUnconstrained();
     base::makeWritableFolder(request.output);
     if (request.closure_loss.kind() != Loss::Kind::none) setLosses();
     chi2_before_ = g2oChi2(content_.graph);
@@ -57,6 +59,15 @@ class OptimizeRun {
   }
 
  private:
+  void refuseUnconstrained() const {
+    const auto variable = unconstrainedVariable(content_.graph);
+    if (!variable) return;
+    for (const auto& [number, id] : content_.ids)
+      if (id == *variable)
+        throw base::Error(base::ExitCode::unreadable_input,
+                          request_.input + ": no edges lead from a fixed vertex or a prior to vertex " +
+                              std::to_string(number) + ": add an edge, or a row FIX " + std::to_string(number));
+  }
   /// The file's numbers tell which poses follow each other.
   void setLosses() {
     std::map<base::VariableId, std::int64_t> number_of;

@@ -30,7 +30,8 @@ struct OptimizeResult {
 
 /// The work of omnimapper-optimize: moves the poses and points of a graph to a minimum of its cost and writes
 /// optimized.g2o, poses.csv and, if incremental, steps.csv with the time of each step. Throws as readG2o(), solve() and
-/// base::writeFile() do, and Error(nothing_to_map) for a graph without edges.
+/// base::writeFile() do, Error(nothing_to_map) for a graph without edges, and
+/// Error(unreadable_input), naming a vertex, for one of which a part is not held.
 OptimizeResult runOptimize(const OptimizeRequest& request);
 
 }  // namespace omnimapper::graph
