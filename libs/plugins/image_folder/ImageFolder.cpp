@@ -34,6 +34,15 @@ bool isImage(const std::string& path) {
   return isPicture(path) && fs::path(path).stem().extension() != ".mask";
 }
 
+// Whether depth images are among the images, of which the first thousand are looked at.
+bool holdsDepths(const LogLook& look) {
+  constexpr int kMostLooks = 1000;
+  int looks = 0;
+  return std::any_of(look.entries.begin(), look.entries.end(), [&](const std::string& entry) {
+    return isPicture(entry) && ++looks <= kMostLooks && isDeepGrey((fs::path(look.path) / entry).string());
+  });
+}
+
 bool isText(const std::string& path) {
   const std::string extension = extensionOf(path);
   return extension == ".txt" || extension == ".csv" || extension == ".json" || extension == ".md";
@@ -43,6 +52,10 @@ mrpt::obs::CObservationImage::Ptr imageIn(const std::string& file, double focal_
   std::error_code error;
   if (!fs::is_regular_file(file, error)) refuse(file, "is no regular file");
   if (const auto why = whyTooLarge(file)) refuse(file, *why);
+  if (isDeepGrey(file))
+    refuse(file,
+           "has 16 bits of grey, as depth images have, and is no photograph; folders of such images are read as the "
+           "format rgbd_folder");
   if (isCutOff(file)) refuse(file, "its end is missing, so it was cut off; copy it again");
   auto image = mrpt::obs::CObservationImage::Create();
   bool is_decoded = false;
@@ -76,9 +89,11 @@ const base::OptionTable<ImageFolderOptions>& ImageFolderOptions::table() {
 bool ImageFolder::recognizes(const LogLook& look) {
   const auto& entries = look.entries;
   return look.is_folder && std::any_of(entries.begin(), entries.end(), isImage) &&
-         std::all_of(entries.begin(), entries.end(), [&](const std::string& entry) {
-           return (isPicture(entry) && entry.find(".depth.") == std::string::npos) || isText(entry);
-         });
+         std::all_of(entries.begin(), entries.end(),
+                     [&](const std::string& entry) {
+                       return (isPicture(entry) && entry.find(".depth.") == std::string::npos) || isText(entry);
+                     }) &&
+         !holdsDepths(look);
 }
 
 void ImageFolder::noteAtEnd(SourceReport& report) const {

@@ -16,15 +16,15 @@ struct ImageFolderOptions {
 };
 
 /// Streams the JPEG and PNG images of a folder as CObservationImage, except NAME.mask.png, which marks the signs in the
-/// image NAME. Images of 16 bits, grey ones and those with an alpha channel become three channels of 8 bits. Files that
-/// are no images, images that were cut off, and images whose header states more pixels than any camera has are left
-/// out. The camera is a pinhole whose axis goes through the middle of the image; cameraPose is level, with z forward
-/// along the base's x.
+/// image NAME. Colours of 16 bits, grey images of 8 and those with an alpha channel become three channels of 8 bits.
+/// Files that are no images, images with 16 bits of grey, which are depths, images that were cut off, and images whose
+/// header states more pixels than any camera has are left out. The camera is a pinhole whose axis goes through the
+/// middle of the image; cameraPose is level, with z forward along the base's x.
 class ImageFolder : public FolderSource {
  public:
   static constexpr const char* kName = "image_folder";
   static constexpr const char* kSummary = "a folder of JPEG or PNG images of one camera";
-  /// A folder of images that has no other files than texts beside them.
+  /// A folder of images that has no other files than texts beside them, and no depth images.
   static bool recognizes(const LogLook& look);
 
   /// Throws Error(unreadable_input) for a folder without such images.

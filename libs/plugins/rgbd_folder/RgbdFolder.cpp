@@ -1,7 +1,6 @@
 #include "RgbdFolder.h"
 
 #include <mrpt/obs/CObservation3DRangeScan.h>
-#include <omnimapper/base/InputFile.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/geometry/OpticalFrame.h>
 #include <omnimapper/source/ImageFile.h>
@@ -9,15 +8,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
+#include "CameraFile.h"
 #include "RgbdFolderForms.h"
 
 namespace omnimapper::source {
@@ -47,52 +44,79 @@ const std::map<std::string, Intrinsics>& knownIntrinsics() {
   return known;
 }
 
-// The number after "fx:", "fx =" or "\"fx\":" in a text; none if there is none.
-std::optional<double> numberNamed(const std::string& name, const std::string& text) {
-  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-    if (at > 0 && isWord(text[at - 1])) continue;
-    const std::size_t sign = text.find_first_not_of("\"' \t", at + name.size());
-    if (sign == std::string::npos || (text[sign] != ':' && text[sign] != '=')) continue;
-    const std::size_t begin = text.find_first_not_of(" \t", sign + 1);
-    if (begin == std::string::npos) continue;
-    double value = 0;
-    const auto result = std::from_chars(text.data() + begin, text.data() + text.size(), value);
-    if (result.ec == std::errc()) return value;
+mrpt::img::TCamera cameraOf(const Intrinsics& intrinsics) {
+  mrpt::img::TCamera camera;
+  camera.setIntrinsicParamsFromValues(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
+  if (intrinsics.lens != std::array<double, 5>{}) {
+    camera.distortion = mrpt::img::DistortionModel::plumb_bob;
+    std::copy(intrinsics.lens.begin(), intrinsics.lens.end(), camera.dist.begin());
   }
-  return std::nullopt;
+  return camera;
 }
 
-Intrinsics readIntrinsics(const std::string& path) {
+CameraFile namedCameraFile(const std::string& path) {
   if (!std::filesystem::exists(path)) {
     refuse(path,
            "is neither the name of a known camera (freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni) nor a "
            "file");
   }
-  std::istringstream text(base::readInput(path));
-  const auto fx = numberNamed("fx", text.str()), fy = numberNamed("fy", text.str()), cx = numberNamed("cx", text.str()),
-             cy = numberNamed("cy", text.str());
-  if (fx && fy && cx && cy) {
-    Intrinsics named{*fx, *fy, *cx, *cy};
-    const char* names[] = {"k1", "k2", "p1", "p2", "k3"};
-    for (std::size_t i = 0; i < named.lens.size(); ++i) named.lens[i] = numberNamed(names[i], text.str()).value_or(0);
-    return named;
-  }
-  double values[4];
-  for (double& value : values) {
-    if (!(text >> value)) refuse(path, "holds neither fx, fy, cx, cy by name nor four numbers");
-  }
-  return {values[0], values[1], values[2], values[3]};
+  auto file = readCameraFile(path);
+  if (!file)
+    refuse(path, "holds neither fx, fy, cx, cy by name nor four numbers, nor the matrix of a camera in a known form");
+  return *file;
 }
 
-Intrinsics intrinsicsOf(const std::string& folder, const std::string& name) {
+// Whether a folder is the part of a data set that has its camera's file one folder above.
+bool isPartOfFolderAbove(const std::filesystem::path& folder) {
+  const std::string name = folder.filename().string();
+  return name == "depth" || name == "depths" || name.rfind("seq", 0) == 0;
+}
+
+std::optional<CameraFile> cameraFileBeside(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::absolute(path + "/.").lexically_normal().parent_path();
+  std::vector<std::string> folders{folder.string()};
+  for (const char* depths : {"depth", "depths"}) folders.push_back((folder / depths).string());
+  auto found = cameraFileIn(folders);
+  if (!found && isPartOfFolderAbove(folder)) found = cameraFileIn({folder.parent_path().string()});
+  return found;
+}
+
+// The camera as the option names it, as a file beside the images states it, or of the data set that the folder's path
+// names.
+CameraFile cameraFor(const std::string& folder, const std::string& option, const std::string& by_name) {
+  const std::string& name = option.empty() ? by_name : option;
+  const auto beside = option.empty() ? cameraFileBeside(folder) : std::nullopt;
+  if (beside) return *beside;
   if (name.empty()) {
     refuse(folder,
-           "does not show which camera took its images; name the camera with --intrinsics of omnimapper-import, or as "
-           "[source_rgbd_folder] intrinsics in the INI (freiburg1, ..., or a file with fx, fy, cx, cy)");
+           "does not show which camera took its images, and no file beside them states its intrinsics; put "
+           "camera_info.yaml of ROS, Open3D's JSON, or intrinsics.K.txt with fx 0 cx, 0 fy cy, 0 0 1 there, or name "
+           "the camera with --intrinsics of omnimapper-import, or as [source_rgbd_folder] intrinsics in the INI "
+           "(freiburg1, ..., or a file with fx, fy, cx, cy)");
   }
   const auto known = knownIntrinsics().find(name);
-  return known != knownIntrinsics().end() ? known->second : readIntrinsics(name);
+  return known != knownIntrinsics().end() ? CameraFile{name, cameraOf(known->second), 0} : namedCameraFile(name);
+}
+
+// Intrinsics of images of another size make a map that is wrong and looks right.
+void refuseOtherSize(const CameraFile& file, const std::vector<RgbdPair>& pairs) {
+  if (pairs.empty() || knownIntrinsics().count(file.path) > 0) return;
+  const auto size = imageSizeIn(pairs.front().depth);
+  const auto& camera = file.camera;
+  if (!size) return;
+  const bool is_other =
+      camera.ncols > 0 && camera.nrows > 0 && (camera.ncols != size->width || camera.nrows != size->height);
+  const bool is_outside = !(camera.cx() > 0 && camera.cx() < static_cast<double>(size->width) && camera.cy() > 0 &&
+                            camera.cy() < static_cast<double>(size->height));
+  if (!is_other && !is_outside) return;
+  refuse(file.path,
+         (is_other
+              ? "is of images of " + std::to_string(camera.ncols) + " x " + std::to_string(camera.nrows) + " pixels"
+              : "states a centre of " + base::fixed(camera.cx(), 1) + ", " + base::fixed(camera.cy(), 1) + " pixels") +
+             ", but " + pairs.front().depth + " has " + std::to_string(size->width) + " x " +
+             std::to_string(size->height) +
+             "; give the intrinsics of the depth images with --intrinsics of omnimapper-import, or as "
+             "[source_rgbd_folder] intrinsics");
 }
 
 bool load(mrpt::img::CImage& image, const std::string& path, int how) {
@@ -112,12 +136,14 @@ const base::OptionTable<RgbdFolderOptions>& RgbdFolderOptions::table() {
       base::OptionTable<Options>()
           .text("intrinsics", &Options::intrinsics,
                 "The camera: freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file with fx, fy, cx, "
-                "cy and the lens (k1, k2, p1, p2, k3). Empty: chosen by the name of the folder.")
+                "cy and the lens (k1, k2, p1, p2, k3), or with camera_info of ROS or intrinsics of Open3D. Empty: as a "
+                "file beside the images states, else chosen by the name of the folder.")
           .number("tolerance_s", &Options::largest_difference, base::Range::notNegative(),
                   "Largest difference between the stamps of depth and colour, and of an image and its true pose.")
-          .number("depth_units_per_m", &Options::depth_units, base::Range::notNegative(),
-                  "Units of a depth image per metre; 0: 1000 for 7-Scenes and if the colour images are in image/, else "
-                  "5000.")
+          .number(
+              "depth_units_per_m", &Options::depth_units, base::Range::notNegative(),
+              "Units of a depth image per metre; 0: DepthMapFactor of the camera's file if it has one, 5000 for TUM "
+              "and ICL-NUIM (with rgb/), else 1000.")
           .number("rate_hz", &Options::rate, base::Range::positive(), "Rate of images without stamps.")
           .text("label", &Options::label, "Sensor label.");
   return table;
@@ -126,14 +152,12 @@ const base::OptionTable<RgbdFolderOptions>& RgbdFolderOptions::table() {
 RgbdFolder::RgbdFolder(const std::string& folder, const RgbdFolderOptions& options)
     : options_(options), depth_counts_(kDepthValues, 0) {
   auto content = readRgbdFolder(folder, options);
-  camera_name_ = options.intrinsics.empty() ? content.usual_intrinsics : options.intrinsics;
-  const Intrinsics intrinsics = intrinsicsOf(folder, camera_name_);
-  camera_.setIntrinsicParamsFromValues(intrinsics.fx, intrinsics.fy, intrinsics.cx, intrinsics.cy);
-  if (intrinsics.lens != std::array<double, 5>{}) {
-    camera_.distortion = mrpt::img::DistortionModel::plumb_bob;
-    std::copy(intrinsics.lens.begin(), intrinsics.lens.end(), camera_.dist.begin());
-  }
-  if (options_.depth_units <= 0) options_.depth_units = content.usual_depth_units;
+  const CameraFile file = cameraFor(folder, options.intrinsics, content.usual_intrinsics);
+  refuseOtherSize(file, content.pairs);
+  camera_name_ = file.path;
+  camera_ = file.camera;
+  if (options_.depth_units <= 0)
+    options_.depth_units = file.depth_units_per_m > 0 ? file.depth_units_per_m : content.usual_depth_units;
   pairs_ = std::move(content.pairs);
   unpaired_ = static_cast<std::size_t>(
       std::count_if(pairs_.begin(), pairs_.end(), [](const RgbdPair& pair) { return pair.colour.empty(); }));

@@ -19,8 +19,8 @@ struct RgbdFolderOptions {
   double largest_difference = 0.02;  ///< [s] largest difference between the stamps of a pair's depth and colour image
   double depth_units = 0;            ///< depth values per metre; 0: as usual for the form of the folder, see RgbdFolder
   double rate = 30;                  ///< images per second, if they have no stamps [1/s]
-  /// freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file that has fx, fy, cx and cy: four numbers,
-  /// or OpenCV's "Camera.fx: 535.4". Empty: determined by the folder's form and name.
+  /// freiburg1, freiburg2, freiburg3, icl_nuim, 7_scenes, openni, or a file that CameraFile reads. Empty: as a file
+  /// beside the images states, else determined by the folder's name.
   std::string intrinsics;
   static const base::OptionTable<RgbdFolderOptions>& table();
 };
@@ -36,21 +36,25 @@ struct RgbdPair {
 ///  - TUM RGB-D: depth.txt and rgb.txt with "stamp file" lines, and groundtruth.txt with "stamp x y z qx qy qz qw"
 ///    lines. If there is truth_cam_poses.txt instead of groundtruth.txt, the stamps of the images are running numbers;
 ///    the stamps of the poses replace them line by line. 5000 depth values per metre.
-///  - Pairs of equal names without stamps, in the order of their numbers: depth/1.png with rgb/1.png (as ICL-NUIM
-///    itself has them; 5000 depth values per metre), or depth/00001.png with image/00001.jpg (ICL-NUIM as Open3D and
-///    Redwood have it; 1000 depth values per metre).
+///  - depth/ or depths/ with rgb/, color/, colour/, image/ or images/, whose images belong together if their names or,
+///    if all are Unix times, their times agree; without such a folder depths alone; also a folder of nothing but depth
+///    images. Names that are no times are in the order of their numbers. 5000 depth values per metre if the camera is
+///    that of TUM or ICL-NUIM and the pictures are in rgb/, else 1000.
 ///  - associations.txt with lines "1 depth/1.png 1 rgb/1.png", where the numbers are running numbers or stamps (as
 ///    ICL-NUIM itself has them). 5000 depth values per metre.
 ///  - 7-Scenes: frame-000001.depth.png, .color.png or .color.jpg, and .pose.txt (4 x 4 matrix). 1000 depth values per
 ///    metre.
-/// A depth image without a colour image of its time is handed out without colour.
+/// A depth image without a colour image of its time is handed out without colour. The camera is that of the option,
+/// else that of a file in the folder or in its folder of depths (one folder above if the folder's name is depth, depths
+/// or seq...), else that of the public data set that the folder's path names; it is never assumed.
 class RgbdFolder : public ObservationSource {
  public:
   static constexpr const char* kName = "rgbd_folder";
   static constexpr const char* kSummary = "a folder of RGB-D images";
   static bool recognizes(const LogLook& look);
 
-  /// Throws Error(unreadable_input) if the folder has no known form, a list cannot be read, or intrinsics are missing.
+  /// Throws Error(unreadable_input) if the folder has no known form, a list cannot be read, or intrinsics are missing,
+  /// contradictory or of images of another size.
   explicit RgbdFolder(const std::string& folder, const RgbdFolderOptions& options = {});
 
   /// Pairs whose images cannot be read are left out and counted as missing images.

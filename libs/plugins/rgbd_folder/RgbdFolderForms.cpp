@@ -10,6 +10,10 @@
 #include <map>
 #include <sstream>
 
+#include "ImagesByName.h"
+#include "cameraByName.h"
+#include "pairImages.h"
+
 namespace omnimapper::source {
 
 namespace fs = std::filesystem;
@@ -54,75 +58,6 @@ std::vector<std::pair<base::Stamp, geometry::Se3>> readPoses(const fs::path& pat
   return poses;
 }
 
-using Image = std::pair<base::Stamp, std::string>;
-
-/// Pairs each depth image with the colour image nearest in time. A colour image is paired with its nearest depth image
-/// only; the others stay without colour.
-std::vector<RgbdPair> pairImages(const fs::path& folder, const std::vector<Image>& depths,
-                                 const std::vector<Image>& colours, double largest_difference) {
-  struct Candidate {
-    double difference;
-    std::size_t depth, colour;
-  };
-  std::vector<Candidate> candidates;
-  for (std::size_t d = 0; d < depths.size(); ++d) {
-    for (std::size_t c = 0; c < colours.size(); ++c) {
-      const double difference = std::abs(base::secondsBetween(depths[d].first, colours[c].first));
-      if (difference <= largest_difference) candidates.push_back({difference, d, c});
-    }
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.difference < b.difference; });
-  std::vector<bool> colour_taken(colours.size(), false);
-  std::vector<std::string> colour_of(depths.size());
-  for (const Candidate& candidate : candidates) {
-    if (colour_taken[candidate.colour] || !colour_of[candidate.depth].empty()) continue;
-    colour_taken[candidate.colour] = true;
-    colour_of[candidate.depth] = (folder / colours[candidate.colour].second).string();
-  }
-  std::vector<RgbdPair> pairs;
-  for (std::size_t d = 0; d < depths.size(); ++d)
-    pairs.push_back({depths[d].first, (folder / depths[d].second).string(), colour_of[d]});
-  return pairs;
-}
-
-// Whether a folder's path contains `word` as a whole word, with no letter beside it and no digit beside its number:
-// "vehicles" and "iclr" do not contain "icl", and "fr12" does not contain "fr1".
-bool hasWord(const fs::path& folder, const std::string& word) {
-  const std::string name = fs::absolute(folder).lexically_normal().string();
-  const auto goesOn = [](char inside, char beside) {
-    const auto of = [](char c, auto is) { return is(static_cast<unsigned char>(c)) != 0; };
-    const auto isDigit = [](int c) { return std::isdigit(c); };
-    const auto isLetter = [](int c) { return std::isalpha(c); };
-    return of(beside, isLetter) || (of(inside, isDigit) && of(beside, isDigit));
-  };
-  for (std::size_t at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    const bool begins = at == 0 || !goesOn(word.front(), name[at - 1]);
-    if (begins && (end == name.size() || !goesOn(word.back(), name[end]))) return true;
-  }
-  return false;
-}
-
-std::string freiburgOf(const fs::path& folder) {
-  for (const char number : {'1', '2', '3'}) {
-    for (const char* word : {"freiburg", "fr"}) {
-      if (hasWord(folder, word + std::string(1, number))) return std::string("freiburg") + number;
-    }
-  }
-  // A renamed folder still names the camera at the top of its lists: "# file: 'rgbd_dataset_freiburg1_rpy.bag'".
-  std::ifstream list(folder / "depth.txt");
-  constexpr int kHeading = 3;
-  std::string line;
-  for (int i = 0; i < kHeading && std::getline(list, line); ++i) {
-    const std::size_t at = line.find("freiburg");
-    if (line.rfind('#', 0) != 0 || at == std::string::npos || at + 8 >= line.size()) continue;
-    const char number = line[at + 8];
-    if (number >= '1' && number <= '3') return std::string("freiburg") + number;
-  }
-  return "";
-}
-
 RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& options) {
   RgbdFolderContent content;
   auto depths = readList(folder / "depth.txt"), colours = readList(folder / "rgb.txt");
@@ -137,57 +72,7 @@ RgbdFolderContent readTum(const fs::path& folder, const RgbdFolderOptions& optio
     for (std::size_t i = 0; i < known.size(); ++i) depths[i].first = colours[i].first = known[i].first;
   }
   content.pairs = pairImages(folder, depths, colours, options.largest_difference);
-  content.usual_intrinsics = freiburgOf(folder);
-  return content;
-}
-
-// Sorts names that are numbers by their value: 2 before 10.
-struct ByNumber {
-  bool operator()(const std::string& a, const std::string& b) const {
-    const auto isNumber = [](const std::string& name) {
-      return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c); });
-    };
-    const bool a_is_number = isNumber(a), b_is_number = isNumber(b);
-    if (a_is_number != b_is_number) return a_is_number;
-    const auto digits = [](const std::string& name) {
-      return name.substr(std::min(name.find_first_not_of('0'), name.size()));
-    };
-    const std::string a_digits = digits(a), b_digits = digits(b);
-    if (!a_is_number || a_digits == b_digits) return a < b;
-    return a_digits.size() != b_digits.size() ? a_digits.size() < b_digits.size() : a_digits < b_digits;
-  }
-};
-
-std::map<std::string, std::string, ByNumber> filesByStem(const fs::path& folder) {
-  std::map<std::string, std::string, ByNumber> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) files[entry.path().stem().string()] = entry.path().string();
-  }
-  return files;
-}
-
-base::Stamp stampOfImage(std::size_t index, const RgbdFolderOptions& options) {
-  constexpr double kFirst = 1e9;  // [s] an arbitrary time, as the images have none
-  return base::stampFromUnix(kFirst) + base::durationFromSeconds(static_cast<double>(index) / options.rate);
-}
-
-RgbdFolderContent readEqualNames(const fs::path& folder, const RgbdFolderOptions& options) {
-  RgbdFolderContent content;
-  const auto depths = filesByStem(folder / "depth");
-  const bool has_rgb = fs::is_directory(folder / "rgb");
-  const auto colours = filesByStem(folder / (has_rgb ? "rgb" : "image"));
-  content.usual_depth_units = has_rgb ? 5000 : 1000;
-  std::size_t index = 0;
-  for (const auto& [stem, depth] : depths) {
-    const auto colour = colours.find(stem);
-    content.pairs.push_back({stampOfImage(index++, options), depth, colour == colours.end() ? "" : colour->second});
-  }
-  if (std::all_of(content.pairs.begin(), content.pairs.end(), [](const auto& pair) { return pair.colour.empty(); })) {
-    refuse(folder,
-           "no image in depth/ has the name of one in rgb/ or image/; in a TUM RGB-D folder, where images are named by "
-           "their stamps, depth.txt and rgb.txt list which ones belong together: are they missing?");
-  }
-  if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
+  content.usual_intrinsics = cameraByName(folder);
   return content;
 }
 
@@ -216,8 +101,7 @@ RgbdFolderContent readAssociations(const fs::path& path, const RgbdFolderOptions
     }
   }
   if (content.pairs.empty()) refuse(path, "lists no images");
-  content.usual_intrinsics = freiburgOf(folder);
-  if (hasWord(folder, "icl") || hasWord(folder, "ICL")) content.usual_intrinsics = "icl_nuim";
+  content.usual_intrinsics = cameraByName(folder);
   return content;
 }
 
@@ -232,10 +116,10 @@ geometry::Se3 readMatrix(const fs::path& path) {
 
 RgbdFolderContent readSevenScenes(const fs::path& folder, const RgbdFolderOptions& options) {
   RgbdFolderContent content;
-  content.usual_intrinsics = "7_scenes";
+  content.usual_intrinsics = cameraByName(folder);
   content.usual_depth_units = 1000;
   std::vector<std::string> stems;
-  for (const auto& [stem, path] : filesByStem(folder)) {
+  for (const auto& [stem, path] : filesByStem(folder, ".png")) {
     const std::string end = ".depth";
     if (stem.size() > end.size() && stem.compare(stem.size() - end.size(), end.size(), end) == 0)
       stems.push_back(stem.substr(0, stem.size() - end.size()));
@@ -259,14 +143,10 @@ bool isSevenScenes(const LogLook& look) {
   });
 }
 
-bool isOfEqualNames(const LogLook& look) {
-  return look.has("depth") && (look.has("rgb") || look.has("image"));
-}
-
 }  // namespace
 
 bool RgbdFolder::recognizes(const LogLook& look) {
-  return look.has("depth.txt") || look.has("associations.txt") || isOfEqualNames(look) || isSevenScenes(look);
+  return look.has("depth.txt") || look.has("associations.txt") || isSevenScenes(look) || hasDepthsByName(look);
 }
 
 RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions& options) {
@@ -281,14 +161,15 @@ RgbdFolderContent readRgbdFolder(const fs::path& folder, const RgbdFolderOptions
     refuse(folder, "has rgb.txt but no depth.txt: a TUM RGB-D folder needs both");
   else if (look.has("associations.txt"))
     content = readAssociations(folder / "associations.txt", options);
-  else if (isOfEqualNames(look))
-    content = readEqualNames(folder, options);
   else if (isSevenScenes(look))
     content = readSevenScenes(folder, options);
+  else if (hasDepthsByName(look))
+    content = readImagesByName(look, options);
   else
     refuse(folder,
            "is no folder of RGB-D images in a known form. Known are depth.txt with rgb.txt (TUM), associations.txt, "
-           "depth/ with rgb/ or image/ (ICL-NUIM), and frame-*.depth.png (7-Scenes); it " +
+           "depth/ or depths/ alone or with rgb/, color/ or image/, a folder of nothing but depth images (PNG with 16 "
+           "bits of grey), and frame-*.depth.png (7-Scenes); it " +
                describeInput(folder));
   std::stable_sort(content.pairs.begin(), content.pairs.end(),
                    [](const RgbdPair& a, const RgbdPair& b) { return a.stamp < b.stamp; });

@@ -1,12 +1,11 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/source/FolderSource.h>
+#include <omnimapper/source/NamedTimes.h>
 #include <omnimapper/source/describeInput.h>
 #include <omnimapper/source/refuse.h>
 
 #include <algorithm>
 #include <filesystem>
-
-#include "NamedTimes.h"
 
 namespace omnimapper::source {
 

@@ -1,17 +1,12 @@
 
 #include <omnimapper/source/ImageFile.h>
 
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 
 namespace omnimapper::source {
 
 namespace {
-
-struct Size {
-  std::uint64_t width = 0, height = 0;
-};
 
 // Reads a number whose most significant byte comes first.
 std::uint64_t numberAt(const std::string& bytes, std::size_t at, std::size_t size) {
@@ -32,10 +27,10 @@ bool isJpeg(const std::string& head) {
 }
 
 // The first chunk of a PNG is its header: width and height, four bytes each.
-std::optional<Size> sizeOfPng(const std::string& head) {
+std::optional<ImageSize> sizeOfPng(const std::string& head) {
   constexpr std::size_t kWidthAt = 16, kHeightAt = 20;
   if (head.size() < kHeightAt + 4 || head.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) return std::nullopt;
-  return Size{numberAt(head, kWidthAt, 4), numberAt(head, kHeightAt, 4)};
+  return ImageSize{numberAt(head, kWidthAt, 4), numberAt(head, kHeightAt, 4)};
 }
 
 // After its first eight bytes a PNG consists of chunks: four bytes of length, four of name, the data, four of checksum.
@@ -52,7 +47,7 @@ bool hasPngEnd(std::istream& in) {
 }
 
 struct Jpeg {
-  Size size;             // 0 x 0 if no frame is found
+  ImageSize size;        // 0 x 0 if no frame is found
   bool is_whole = true;  // also if that cannot be determined
 };
 
@@ -90,13 +85,24 @@ Jpeg readJpeg(std::istream& in) {
 
 }  // namespace
 
-std::optional<std::string> whyTooLarge(const std::string& path) {
-  constexpr std::uint64_t kMostPixels = 1 << 26;  // 8192 x 8192
+std::optional<ImageSize> imageSizeIn(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const auto head = read(in, 24);
-  const Size size = isJpeg(head) ? readJpeg(in).size : sizeOfPng(head).value_or(Size());
-  if (size.width == 0 || size.height <= kMostPixels / size.width) return std::nullopt;
-  return "has " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+  const auto size = isJpeg(head) ? readJpeg(in).size : sizeOfPng(head).value_or(ImageSize());
+  return size.width == 0 || size.height == 0 ? std::nullopt : std::optional(size);
+}
+
+bool isDeepGrey(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const auto head = read(in, 26);  // after the size, a byte with the bits of a channel and one with the kind of pixels
+  return sizeOfPng(head) && head.size() == 26 && head[24] == 16 && head[25] == 0;
+}
+
+std::optional<std::string> whyTooLarge(const std::string& path) {
+  constexpr std::uint64_t kMostPixels = 1 << 26;  // 8192 x 8192
+  const auto size = imageSizeIn(path);
+  if (!size || size->height <= kMostPixels / size->width) return std::nullopt;
+  return "has " + std::to_string(size->width) + " x " + std::to_string(size->height) +
          " pixels, more than any camera has";
 }
 

@@ -1,4 +1,4 @@
-#include "NamedTimes.h"
+#include <omnimapper/source/NamedTimes.h>
 
 #include <algorithm>
 #include <cstdlib>

@@ -92,13 +92,17 @@ TEST_F(RgbdFolderTest, pairsOfEqualNamesAndSevenScenesAreForms) {
   EXPECT_DOUBLE_EQ(scan->cameraParams.fx(), 500.5);
   EXPECT_FLOAT_EQ(scan->rangeUnits, 0.001f) << "as Open3D has ICL-NUIM";
   std::filesystem::rename(folder_ / "image", folder_ / "rgb");
+  EXPECT_EQ(RgbdFolder(folder_.path(), options).depthUnits(), 1000);
+  options.intrinsics = "icl_nuim";
   EXPECT_EQ(RgbdFolder(folder_.path(), options).depthUnits(), 5000) << "as ICL-NUIM has itself";
 
   std::filesystem::remove_all(folder_ / "depth");
+  std::filesystem::remove_all(folder_ / "rgb");
   writeDepth("frame-000000.depth.png", 1000);
   writeColour("frame-000000.color.png", 9);
   writeText("frame-000000.pose.txt", "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n");
   RgbdFolder seven_scenes(folder_.path());
+  EXPECT_EQ(seven_scenes.cameraName(), folder_ / "camera.yaml") << "that beside the images";
   ASSERT_EQ(seven_scenes.truth().size(), 1U);
   EXPECT_TRUE(seven_scenes.truth().front().second.translation.isApprox(Eigen::Vector3d(5, 6, 7)));
   const auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(seven_scenes.next());
@@ -140,6 +144,9 @@ TEST_F(RgbdFolderTest, aCameraIsKnownByAWordOfTheFoldersName) {
     writeColour(folder + "/image/1.png", 9);
   }
   EXPECT_EQ(RgbdFolder(folder_ / "my_icl_room").cameraName(), "icl_nuim");
+  for (const std::string folder : {"chess/seq-01", "lab/seq-01"}) writeDepth(folder + "/frame-000000.depth.png", 700);
+  EXPECT_EQ(RgbdFolder(folder_ / "chess/seq-01").cameraName(), "7_scenes");
+  EXPECT_THROW(RgbdFolder(folder_ / "lab/seq-01"), base::Error) << "others name their images so, too";
   EXPECT_THROW(RgbdFolder(folder_ / "vehicles"), base::Error);
   EXPECT_THROW(RgbdFolder(folder_ / "iclr"), base::Error);
 }
@@ -205,12 +212,57 @@ TEST_F(RgbdFolderTest, itsFormsAreRecognizedAndSaid) {
     EXPECT_TRUE(isRecognized(folder)) << folder;
     EXPECT_NE(describeInput(folder_ / folder).find("is a folder of RGB-D images, which -r reads"), std::string::npos);
   }
-  writeText("halves/depth/1.png", "");
-  EXPECT_FALSE(isRecognized("halves")) << "depth images alone";
+  writeText("alone/depth/1.png", "");
+  writeDepth("bare/1.png", 700);
+  writeText("bare/intrinsics.K.txt", "");
+  for (const char* folder : {"alone", "bare"}) EXPECT_TRUE(isRecognized(folder)) << folder;
+  writeColour("bare/2.png", 9);
+  EXPECT_FALSE(isRecognized("bare")) << "photographs are among them";
   writeText("parent/inner/depth.txt", "");
   EXPECT_FALSE(isRecognized("parent"));
   EXPECT_NE(describeInput(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),
             std::string::npos);
+}
+
+TEST_F(RgbdFolderTest, foldersAsPeopleHaveThemTakeTheCameraBesideTheirImages) {
+  for (const std::string pictures : {"color", "rgb", ""}) {
+    const std::string folder = "of_" + pictures, depths = folder + (pictures == "rgb" ? "/depths/" : "/depth/");
+    for (const std::string number : {"2", "10"}) {
+      writeDepth(depths + number + ".png", 1500);
+      if (!pictures.empty()) writeColour(folder + "/" + pictures + "/" + number + ".png", 9);
+    }
+    writeText(depths + "notes.txt", "no image");
+    EXPECT_THROW(RgbdFolder(folder_ / folder), base::Error) << "no camera";
+    writeText(folder + "/info.json", R"({"width": 4, "height": 3, "K": [5, 0, 1.5, 0, 6, 1.25, 0, 0, 1]})");
+    RgbdFolder source(folder_ / folder);
+    ASSERT_EQ(source.pairs().size(), 2U);
+    EXPECT_EQ(source.unpaired(), pictures.empty() ? 2U : 0U);
+    EXPECT_EQ(source.cameraName(), folder_ / (folder + "/info.json"));
+    const auto scan = std::dynamic_pointer_cast<CObservation3DRangeScan>(source.next());
+    ASSERT_TRUE(scan);
+    EXPECT_EQ(scan->cameraParams.fy(), 6);
+    EXPECT_FLOAT_EQ(scan->rangeImage(0, 0) * scan->rangeUnits, 1.5F);
+    EXPECT_EQ(RgbdFolder(folder_ / depths).cameraName(), folder_ / (folder + "/info.json")) << "one folder above";
+  }
+}
+
+TEST_F(RgbdFolderTest, imagesNamedByTimesArePairedByThem) {
+  writeDepth("depth/1305031102.10.png", 700);
+  writeDepth("depth/1305031102.15.png", 700);
+  writeColour("rgb/1305031102.11.png", 9);
+  const RgbdFolder source(folder_.path(), freiburg1());
+  ASSERT_EQ(source.pairs().size(), 2U);
+  EXPECT_EQ(base::formatUnix(source.pairs()[1].stamp, 2), "1305031102.15");
+  EXPECT_EQ(source.pairs()[0].colour, folder_ / "rgb/1305031102.11.png");
+  EXPECT_EQ(source.unpaired(), 1U);
+}
+
+TEST_F(RgbdFolderTest, aCameraOfImagesOfAnotherSizeIsRefused) {
+  writeDepth("depth/1.png", 700);
+  writeText("camera.json", R"({"width": 8, "height": 6, "K": [5, 0, 1.5, 0, 6, 1.25, 0, 0, 1]})");
+  EXPECT_NE(failure().find("camera.json: is of images of 8 x 6 pixels, but "), std::string::npos) << failure();
+  writeText("camera.json", R"({"K": [5, 0, 4.5, 0, 6, 1.25, 0, 0, 1]})");
+  EXPECT_NE(failure().find("states a centre of 4.5, 1.2 pixels, but "), std::string::npos) << failure();
 }
 
 TEST_F(RgbdFolderTest, whatIsWrongIsSaidWithItsPlace) {
@@ -258,6 +310,22 @@ TEST(RgbdFolderRecording, aLivingRoomIsAsLargeAsOne) {
   EXPECT_EQ(source.cameraName(), "icl_nuim");
   while (source.next()) continue;
   EXPECT_NEAR(source.medianDepth().value(), 1.75, 0.01);
+}
+
+TEST(RgbdFolderRecording, aCameraBesideTheImagesIsTaken) {
+  const auto shelf = testing::sharedData("rgbd/apc_shelf25"), pointing = testing::sharedData("people/pointing");
+  OMNIMAPPER_NEEDS(shelf && pointing);
+  const RgbdFolder by_rows(*shelf);
+  EXPECT_EQ(by_rows.pairs().size(), 25U);
+  EXPECT_EQ(by_rows.truth().size(), 25U);
+  EXPECT_EQ(by_rows.camera().fx(), 615.1951904296875) << "not that of 7-Scenes, whose names these images have";
+  EXPECT_EQ(by_rows.camera().cy(), 247.51919555664062);
+  RgbdFolder by_columns(*pointing);
+  EXPECT_EQ(by_columns.pairs().size(), 38U);
+  EXPECT_EQ(by_columns.unpaired(), 0U);
+  EXPECT_EQ(by_columns.camera().cx(), 317.3921203613281);
+  while (by_columns.next()) continue;
+  EXPECT_NEAR(by_columns.medianDepth().value(), 2, 1) << "a man who sits at a table";
 }
 
 TEST(RgbdFolderRecording, keyFramesTakeTheStampsOfTheirPoses) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,16 @@ namespace omnimapper::source {
 /// kilobytes can state so, and a decoder allocates that memory first. None if the file may be decoded, and for files of
 /// other kinds.
 std::optional<std::string> whyTooLarge(const std::string& path);
+
+/// Width and height of an image [px].
+struct ImageSize {
+  std::uint64_t width = 0, height = 0;
+};
+/// The size that the header of a PNG or JPEG file states; none for a file of another kind or without such a header.
+std::optional<ImageSize> imageSizeIn(const std::string& path);
+
+/// Whether a file is a PNG with one channel of 16 bits, as depth images are.
+bool isDeepGrey(const std::string& path);
 
 /// Whether the end of a PNG or JPEG file is missing; a decoder would silently fill the rest with grey. It is missing in
 /// whole images of some cameras, too.
