@@ -271,6 +271,17 @@ TEST(FramesSection, laterVersionsAndStrangeBytesAreRefused) {
     EXPECT_NE(std::string(error.what()).find("CObservationRobotPast"), std::string::npos) << error.what();
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line: " << error.what();
   }
+  // Its trajectory can be read all the same.
+  const map::Map whole = awkwardMap(), bare = map::bareFramesFromSection(section);
+  ASSERT_EQ(bare.key_frames.size(), whole.key_frames.size());
+  for (std::size_t i = 0; i < whole.key_frames.size(); ++i) {
+    const map::KeyFrame &a = bare.key_frames[i], &b = whole.key_frames[i];
+    EXPECT_EQ(a.stamp, b.stamp);
+    EXPECT_EQ(a.map_from_base.getRotationMatrix(), b.map_from_base.getRotationMatrix());
+    EXPECT_EQ(a.dependents.size(), b.dependents.size());
+    EXPECT_EQ(a.reference, b.reference);
+    EXPECT_TRUE(a.observations.empty() && a.cloud.empty());
+  }
 }
 
 }  // namespace

@@ -115,16 +115,17 @@ KeyFrame readFrame(ByteReader& in, std::uint32_t version) {
   return frame;
 }
 
-FramePose readFramePose(ByteReader& in, std::uint32_t version) {
+// A key frame without its observations and its cloud, which are skipped.
+KeyFrame readBareFrame(ByteReader& in, std::uint32_t version) {
   constexpr std::uint64_t kBytesOfPoint = 9;
-  const KeyFrame head = readHead(in);
+  KeyFrame frame = readHead(in);
   for (std::uint64_t left = in.uint(4); left > 0; --left) in.block();
-  if (version > 1) in.uint(1);
+  frame.reference = version == 1 || in.uint(1) != 0;
   if (version >= 3) in.raw(in.uint(4) * kBytesOfPoint);
-  bool is_finite = head.map_from_base.getRotationMatrix().asEigen().allFinite();
-  for (int i = 0; i < 3; ++i) is_finite = is_finite && std::isfinite(head.map_from_base[i]);
+  bool is_finite = frame.map_from_base.getRotationMatrix().asEigen().allFinite();
+  for (int i = 0; i < 3; ++i) is_finite = is_finite && std::isfinite(frame.map_from_base[i]);
   if (!is_finite) refuse(kFramesName, "has a pose that is not finite: the file is damaged");
-  return {head.id, head.map_from_base};
+  return frame;
 }
 
 // Reads each key frame of a section by `read`.
@@ -205,9 +206,17 @@ Map framesFromSection(const MapSection& section) {
   return mapOf(readAll(section, readFrame));
 }
 
+Map bareFramesFromSection(const MapSection& section) {
+  auto frames = readAll(section, readBareFrame);
+  if (frames.empty()) refuse(kFramesName, "has no key frame");
+  return mapOf(std::move(frames));
+}
+
 std::vector<FramePose> framePosesFromSection(const MapSection& section) {
-  auto poses = readAll(section, readFramePose);
-  if (poses.empty()) refuse(kFramesName, "has no key frame");
+  const auto frames = readAll(section, readBareFrame);
+  if (frames.empty()) refuse(kFramesName, "has no key frame");
+  std::vector<FramePose> poses;
+  for (const auto& frame : frames) poses.push_back({frame.id, frame.map_from_base});
   return poses;
 }
 

@@ -47,6 +47,9 @@ MapSection framesToSection(const Map& map);
 std::uint64_t uncompressedSize(const MapSection& frames);
 /// A map that has only these key frames. Throws Error(unreadable_input) if the bytes are not frames of a known version.
 Map framesFromSection(const MapSection& section);
+/// The same without observations and clouds, which are not read: what trajectories need. At least one key frame. Throws
+/// Error(unreadable_input) as framesFromSection(), and if a pose is not finite.
+Map bareFramesFromSection(const MapSection& section);
 
 /// Where a key frame is.
 struct FramePose {
