@@ -34,15 +34,6 @@ bool isImage(const std::string& path) {
   return isPicture(path) && fs::path(path).stem().extension() != ".mask";
 }
 
-// Whether depth images are among the images, of which the first thousand are looked at.
-bool holdsDepths(const LogLook& look) {
-  constexpr int kMostLooks = 1000;
-  int looks = 0;
-  return std::any_of(look.entries.begin(), look.entries.end(), [&](const std::string& entry) {
-    return isPicture(entry) && ++looks <= kMostLooks && isDeepGrey((fs::path(look.path) / entry).string());
-  });
-}
-
 bool isText(const std::string& path) {
   const std::string extension = extensionOf(path);
   return extension == ".txt" || extension == ".csv" || extension == ".json" || extension == ".md";
@@ -93,7 +84,7 @@ bool ImageFolder::recognizes(const LogLook& look) {
                      [&](const std::string& entry) {
                        return (isPicture(entry) && entry.find(".depth.") == std::string::npos) || isText(entry);
                      }) &&
-         !holdsDepths(look);
+         !holdsDeepGrey(look);
 }
 
 void ImageFolder::noteAtEnd(SourceReport& report) const {

@@ -91,8 +91,8 @@ CameraFile cameraFor(const std::string& folder, const std::string& option, const
     refuse(folder,
            "does not show which camera took its images, and no file beside them states its intrinsics; put "
            "camera_info.yaml of ROS, Open3D's JSON, or intrinsics.K.txt with fx 0 cx, 0 fy cy, 0 0 1 there, or name "
-           "the camera with --intrinsics of omnimapper-import, or as [source_rgbd_folder] intrinsics in the INI "
-           "(freiburg1, ..., or a file with fx, fy, cx, cy)");
+           "the camera with --intrinsics of omnimapper-import, with --set source_rgbd_folder.intrinsics=..., or as "
+           "[source_rgbd_folder] intrinsics in the INI (freiburg1, ..., or a file with fx, fy, cx, cy)");
   }
   const auto known = knownIntrinsics().find(name);
   return known != knownIntrinsics().end() ? CameraFile{name, cameraOf(known->second), 0} : namedCameraFile(name);

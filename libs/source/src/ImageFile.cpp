@@ -1,6 +1,8 @@
 
 #include <omnimapper/source/ImageFile.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -96,6 +98,15 @@ bool isDeepGrey(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   const auto head = read(in, 26);  // after the size, a byte with the bits of a channel and one with the kind of pixels
   return sizeOfPng(head) && head.size() == 26 && head[24] == 16 && head[25] == 0;
+}
+
+bool holdsDeepGrey(const LogLook& look) {
+  constexpr int kMostLooks = 1000;
+  int looks = 0;
+  return std::any_of(look.entries.begin(), look.entries.end(), [&](const std::string& entry) {
+    const auto file = std::filesystem::path(look.path) / entry;
+    return file.extension() == ".png" && ++looks <= kMostLooks && isDeepGrey(file.string());
+  });
 }
 
 std::optional<std::string> whyTooLarge(const std::string& path) {

@@ -1,5 +1,6 @@
 
 #include <omnimapper/base/FeatureLibraries.h>
+#include <omnimapper/source/ImageFile.h>
 #include <omnimapper/source/SourceFactory.h>
 #include <omnimapper/source/describeInput.h>
 
@@ -73,6 +74,9 @@ std::string describeFolder(const std::string& path) {
   std::sort(inner.begin(), inner.end());
   for (const auto& folder : inner)
     if (const auto known = knownFolder(folder); !known.empty()) return "is a folder; in it, " + folder + " " + known;
+  if (holdsDeepGrey(LogLook::at(path)))
+    return "is a folder of depth images and other files; put its depth images into a folder depth/ and their pictures, "
+           "with the same names, into color/ beside it.";
   return "is a folder, in which there is nothing that can be read; name a log of a format that is known (" +
          formatsAsText() + ").";
 }

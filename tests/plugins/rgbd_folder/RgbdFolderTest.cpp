@@ -218,6 +218,7 @@ TEST_F(RgbdFolderTest, itsFormsAreRecognizedAndSaid) {
   for (const char* folder : {"alone", "bare"}) EXPECT_TRUE(isRecognized(folder)) << folder;
   writeColour("bare/2.png", 9);
   EXPECT_FALSE(isRecognized("bare")) << "photographs are among them";
+  EXPECT_NE(describeInput(folder_ / "bare").find("put its depth images into a folder depth/"), std::string::npos);
   writeText("parent/inner/depth.txt", "");
   EXPECT_FALSE(isRecognized("parent"));
   EXPECT_NE(describeInput(folder_ / "parent").find("in it, " + (folder_ / "parent/inner") + " is a folder of RGB-D"),

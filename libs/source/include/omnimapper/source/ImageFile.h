@@ -1,5 +1,7 @@
 #pragma once
 
+#include <omnimapper/source/LogLook.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -20,6 +22,9 @@ std::optional<ImageSize> imageSizeIn(const std::string& path);
 
 /// Whether a file is a PNG with one channel of 16 bits, as depth images are.
 bool isDeepGrey(const std::string& path);
+
+/// Whether such a file is in a folder, of whose PNGs the first thousand are looked at.
+bool holdsDeepGrey(const LogLook& look);
 
 /// Whether the end of a PNG or JPEG file is missing; a decoder would silently fill the rest with grey. It is missing in
 /// whole images of some cameras, too.
