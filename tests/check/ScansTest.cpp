@@ -60,6 +60,34 @@ TEST(Scans, OfZerosOfMaximumRangeAndWithoutBeamsAreCounted) {
   EXPECT_TRUE(checked.says("all at maximum range")) << checked.text();
 }
 
+TEST(Scans, OfOtherNumbersOfBeamsAreCountedWithTheirRange) {
+  auto log = halfALap();
+  int n = 0;
+  each<CObservation2DRangeScan>(log, [&](auto& scan) { scan.resizeScan(scan.getScanSize() + (n++ % 3 == 1 ? 4 : 0)); });
+  const Checked checked(log);
+  EXPECT_EQ(checked.facts.scans.at("laser").other_beams, static_cast<std::size_t>((n + 1) / 3));
+  EXPECT_TRUE(checked.says("have another number of beams than the first one, 181 to 185")) << checked.text();
+}
+
+TEST(Scans, WhoseBeamsRunClockwiseAreNotedAndMixedOnesWarnedOf) {
+  auto log = halfALap();
+  each<CObservation2DRangeScan>(log, [](auto& scan) {
+    const auto ranges = scan;
+    const std::size_t last = scan.getScanSize() - 1;
+    for (std::size_t i = 0; i <= last; ++i) {
+      scan.setScanRange(i, ranges.getScanRange(last - i));
+      scan.setScanRangeValidity(i, ranges.getScanRangeValidity(last - i));
+    }
+    scan.rightToLeft = false;
+  });
+  const Checked clockwise(log);
+  EXPECT_TRUE(clockwise.says("note: 'laser': its beams run clockwise")) << clockwise.text();
+  EXPECT_FALSE(clockwise.says("problem")) << clockwise.text();
+  int n = 0;
+  each<CObservation2DRangeScan>(log, [&](auto& scan) { scan.rightToLeft = n++ % 2 == 0; });
+  EXPECT_TRUE(Checked(log).says("do two lasers share the label?"));
+}
+
 TEST(Scans, AllBlindLeaveNothingToMap) {
   auto log = halfALap();
   each<CObservation2DRangeScan>(log, [](auto& scan) { setRanges(scan, 0, true); });

@@ -28,6 +28,15 @@ base::ExitCode codeOf(const source::SourceReport& report, const std::vector<Fitt
   return has_problem ? base::ExitCode::doubtful_input : base::ExitCode::ok;
 }
 
+// What the observations show, and what the source doubts.
+std::vector<Finding> findingsOf(const LogFacts& facts, const source::SourceReport& report) {
+  auto findings = judge(facts);
+  for (const auto& doubt : report.doubts) findings.push_back({Weight::warning, doubt});
+  std::stable_sort(findings.begin(), findings.end(),
+                   [](const Finding& a, const Finding& b) { return a.weight > b.weight; });
+  return findings;
+}
+
 }  // namespace
 
 CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& config, const std::string& output_folder,
@@ -39,7 +48,7 @@ CheckResult runCheck(const std::vector<std::string>& logs, const base::Config& c
   if (stop())
     throw base::Error(base::ExitCode::interrupted,
                       "interrupted before the log was read to its end; half a log is not judged");
-  const auto findings = judge(facts);
+  const auto findings = findingsOf(facts, log->report());
   const auto inis = fittingInis(facts);
   std::string ini;  // the INI that settings are proposed for
   std::vector<Setting> settings;

@@ -64,6 +64,9 @@ void ScanStatistics::add(const mrpt::obs::CObservation2DRangeScan& scan) {
   }
   facts_.max_range = std::max(facts_.max_range, static_cast<double>(scan.maxRange));
   if (beams != facts_.beams) ++facts_.other_beams;
+  facts_.fewest_beams = facts_.most_beams == 0 ? beams : std::min(facts_.fewest_beams, beams);
+  facts_.most_beams = std::max(facts_.most_beams, beams);
+  if (!scan.rightToLeft) ++facts_.clockwise;
 
   std::vector<float> ranges(beams);
   std::size_t valid = 0;

@@ -157,7 +157,9 @@ std::string checkText(const std::string& title, const source::SourceReport& repo
                      counted(static_cast<std::size_t>(report.observations()), "observation") + " in " +
                      fixed(base::secondsBetween(first, last), 1) + " s\n";
   if (!report.message.empty()) text += report.message + "\n";
-  text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + cameraLines(facts) + findingLines(findings);
+  text += sensorTable(facts) + scanLines(facts) + odometryLines(facts) + cameraLines(facts);
+  for (const auto& note : report.notes) text += "  " + note + "\n";
+  text += findingLines(findings);
   if (inis.empty()) return text;
   text += "\nINIs that fit this log, first the one that uses most of its sensors:\n" + iniLines(inis);
   if (settings.empty() && inis.front().file == ini && inis.front().needs_settings) return text;

@@ -168,7 +168,14 @@ class Judge {
           who + part(scans.repeated) + " are exactly equal to the one before: is the sensor stuck?");
     }
     if (scans.other_beams > 0)
-      add(Weight::note, who + part(scans.other_beams) + " have another number of beams than the first one");
+      add(Weight::note, who + part(scans.other_beams) + " have another number of beams than the first one, " +
+                            std::to_string(scans.fewest_beams) + " to " + std::to_string(scans.most_beams));
+    if (scans.clockwise == scans.scans && scans.clockwise > 0) {
+      add(Weight::note, who + "its beams run clockwise, as its scans declare, and are used so");
+    } else if (scans.clockwise > 0) {
+      add(Weight::warning, who + "the beams of " + part(scans.clockwise) +
+                               " run clockwise, those of the others counter-clockwise: do two lasers share the label?");
+    }
     if (saturates(scans)) {
       contradict(Weight::problem, who + percent(scans.longest_share) + " of the valid beams measure exactly " +
                                       fixed(scans.longest, 2) +

@@ -54,7 +54,8 @@ std::string frameIn(const Value& text) {
 
 Header headerOf(const Value& message) {
   const Value& header = message["header"];
-  return {frameIn(header["frame_id"]), boundedTime(header["stamp"].nanoseconds())};
+  return {frameIn(header["frame_id"]), boundedTime(header["stamp"].nanoseconds()),
+          header.has("seq") ? header["seq"].integer() : -1};
 }
 
 base::Stamp stampOf(std::int64_t nanoseconds) {

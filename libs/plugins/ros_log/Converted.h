@@ -18,10 +18,11 @@ struct Converted {
   geometry::Se3 frame_from_sensor;  ///< the sensor pose is base_from_frame * frame_from_sensor
 };
 
-/// The header of a message: its frame, and the time of the measurement [ns since 1970]; 0 if it has none.
+/// The header of a message.
 struct Header {
   std::string frame;
-  std::int64_t time = 0;
+  std::int64_t time = 0;     ///< of the measurement [ns since 1970]; 0 if it has none
+  std::int64_t number = -1;  ///< of the message, as programs of ROS 1 count them; -1 if there is none
 };
 Header headerOf(const Value& message);
 /// The frame that a text names, without the slash that tf of ROS 1 has before it. Throws BadBytes for a name of more

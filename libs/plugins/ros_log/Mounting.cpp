@@ -37,12 +37,13 @@ void Mounting::addTo(source::SourceReport& report) const {
 // One sensor at a wrong place only moves the base; several contradict each other.
 void Mounting::noteUnmounted(source::SourceReport& report) const {
   std::string names;
-  for (const auto& sensor : unmounted_) names += (names.empty() ? "" : ", ") + plan_.labelOf(sensor);
+  for (const auto& sensor : unmounted_)
+    names += (names.empty() ? "" : ", ") + plan_.labelOf(sensor) + " (frame '" + sensor.second + "')";
   if (names.empty()) return;
   auto& lines = unmounted_.size() > 1 ? report.doubts : report.notes;
   lines.push_back(
-      "the log does not say where on the robot these sensors are mounted, and they are taken to be at its "
-      "base, looking ahead: " +
+      "the log does not say where on the robot these sensors are mounted, as no transform in tf connects their frames "
+      "with the base; they are taken to be at the base, looking ahead: " +
       names + (unmounted_.size() < kMostNamed ? "" : ", and perhaps more") +
       "; their poses can be set for [mapper] sensors");
 }

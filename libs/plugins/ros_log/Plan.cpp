@@ -67,6 +67,7 @@ Plan::Plan(const std::string& path, const Survey& survey, const RosLogOptions& o
   chooseBase(path, survey);
   compareClocks(survey);
   noteSweeps(survey);
+  noteClouds(survey);
 }
 
 void Plan::readLabels(const std::string& path) {
@@ -196,6 +197,14 @@ void Plan::noteSweeps(const Survey& survey) {
     if (seen.sweep > 0)
       notes_.push_back(named(sensor) + " sweeps for " + base::fixed(seen.sweep, 4) +
                        " s; as sweep_s in [scan_odometry] this takes the motion out of its scans");
+}
+
+// Some clouds have for each point its ring and its time, as those of lasers that turn.
+void Plan::noteClouds(const Survey& survey) {
+  for (const auto& [sensor, seen] : survey.sensors)
+    if (!seen.unused_fields.empty())
+      notes_.push_back(named(sensor) + " has points with " + seen.unused_fields +
+                       ", which are not used: all points of a cloud count as measured at its stamp");
 }
 
 bool Plan::takes(const std::string& topic, Role role, std::string* reason) const {

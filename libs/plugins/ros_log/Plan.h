@@ -49,6 +49,7 @@ class Plan {
   void chooseBase(const std::string& path, const Survey& survey);
   void compareClocks(const Survey& survey);
   void noteSweeps(const Survey& survey);
+  void noteClouds(const Survey& survey);
 
   RosLogOptions options_;
   std::map<std::string, std::string> labels_;  // by topic

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "CameraObservations.h"
+#include "DriverRestarts.h"
 #include "LogFiles.h"
 #include "Mounting.h"
 #include "OdometryOfBase.h"
@@ -139,6 +140,7 @@ class RosLog::Stream {
     const CameraUse* use = camera_plan_.use(channel.topic);
     if (!use || !use->problem.empty())
       return table_.leftOut(channel, use ? use->problem : "later than the survey of the log");
+    restarts_.see({channel.topic, header.frame}, header, message.time);
     const std::int64_t time = plan_.timeOf({channel.topic, header.frame}, header.time, message.time);
     if (use->is_part_of_depth) {
       cameras_.keep(channel.topic, time, message);
@@ -157,7 +159,9 @@ class RosLog::Stream {
 
   void add(Converted measured, const std::string& frame, Role role, const Value& value, const Message& message) {
     const SensorKey sensor{channels_[message.channel].topic, frame};
-    const std::int64_t time = plan_.timeOf(sensor, headerOf(value).time, message.time);
+    const Header header = headerOf(value);
+    restarts_.see(sensor, header, message.time);
+    const std::int64_t time = plan_.timeOf(sensor, header.time, message.time);
     buffer_.add(
         {std::move(measured), sensor, message.channel, role, time, message.time, number_++, message.bytes.size()});
   }
@@ -235,6 +239,7 @@ class RosLog::Stream {
     report_.doubts = plan_.doubts();
     for (const auto& file : files_.missing)
       report_.doubts.push_back(file + " is missing, although metadata.yaml lists it");
+    for (const auto& doubt : restarts_.doubts(plan_)) report_.doubts.push_back(doubt);
     doubtTruth();
     mounting_.addTo(report_);
     const Damage damage = reader_.damage();
@@ -271,6 +276,7 @@ class RosLog::Stream {
   OdometryOfBase odometry_;
   Transforms transforms_;
   ReorderBuffer buffer_;
+  DriverRestarts restarts_;
   TopicTable table_;
   SourceReport report_;
   source::TruePoses truth_;

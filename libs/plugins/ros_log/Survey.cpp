@@ -33,6 +33,17 @@ void addCamera(const Value& info, const std::string& topic, const std::string& f
   }
 }
 
+std::string unusedFieldsOf(const Value& cloud) {
+  constexpr std::size_t kLongest = 200;  // [bytes]
+  const Value& fields = cloud["fields"];
+  std::string names;
+  for (std::size_t i = 0; i < fields.size() && names.size() < kLongest; ++i) {
+    const std::string_view name = fields[i]["name"].text();
+    if (name != "x" && name != "y" && name != "z") names.append(names.empty() ? "" : ", ").append(name, 0, kLongest);
+  }
+  return names;
+}
+
 void look(const Value& message, const Channel& channel, Role role, std::int64_t recorded, Survey& survey) {
   const Header header = headerOf(message);
   if (role == Role::camera_info) addCamera(message, channel.topic, header.frame, survey);
@@ -44,6 +55,7 @@ void look(const Value& message, const Channel& channel, Role role, std::int64_t 
   ++sensor.messages;
   addDelay(sensor, header.time, recorded);
   if (role == Role::laser) sensor.sweep = sweepOf(message);
+  if (role == Role::cloud) sensor.unused_fields = unusedFieldsOf(message);
   if (role == Role::image) sensor.content = imageContentOf(message.either("encoding", "format").text(), channel.topic);
 }
 

@@ -28,6 +28,7 @@ struct SeenSensor {
   std::uint64_t without_time = 0;                ///< headers whose time is 0
   double sweep = 0;                              ///< [s] of the last scan, as Converted's sweepOf()
   ImageContent content = ImageContent::picture;  ///< of images
+  std::string unused_fields;                     ///< of the points of clouds, with commas: all but x, y and z
 };
 
 /// The camera that a CameraInfo states.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <tuple>
 
 #include "LogWriters.h"
 #include "ros_log/Definition.h"
@@ -198,6 +199,36 @@ TEST_F(RosCamera, aCloudHasItsFinitePoints) {
   cloud.pointcloud->getPoint(0, x, y, z);
   EXPECT_EQ(z, 3);
   EXPECT_NEAR(cloud.sensorPose.z(), 2, 1e-9);
+}
+
+// Two rows with a gap between them, points of 24 bytes: x, y, z, ring and time.
+TEST_F(RosCamera, anOrganisedCloudIsReadRowByRowAndWhatIsNotUsedIsSaid) {
+  constexpr std::uint64_t kStep = 24, kRow = 56;
+  Serializer out(true);
+  out.header(stamp(1), "lidar").uint(2, 4).uint(2, 4).uint(5, 4);
+  const std::tuple<const char*, std::uint64_t, std::uint64_t> fields[] = {
+      {"x", 0, 7}, {"y", 4, 7}, {"z", 8, 7}, {"ring", 12, 4}, {"time", 16, 7}};
+  for (const auto& [name, offset, type] : fields) out.text(name).uint(offset, 4).uint(type, 1).uint(1, 4);
+  std::string data;
+  for (const float x : {1.F, 2.F, 3.F, 4.F}) {
+    data += Serializer(false).real32(x).real32(0).real32(-1).uint(5, 2).uint(0, 2).real32(0.01F).uint(0, 4).bytes();
+    if (data.size() == 2 * kStep) data += std::string(kRow - 2 * kStep, '\x7f');
+  }
+  data += std::string(kRow - 2 * kStep, '\x7f');
+  out.uint(0, 1).uint(kStep, 4).uint(kRow, 4).uint(data.size(), 4).raw(data).uint(0, 1);
+  add("/points", "sensor_msgs/PointCloud2", 1, out.bytes());
+  const auto all = read();
+  ASSERT_EQ(all.size(), 1u);
+  const auto& cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud&>(*all[0]);
+  ASSERT_EQ(cloud.pointcloud->size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    float x = 0, y = 0, z = 0;
+    cloud.pointcloud->getPoint(i, x, y, z);
+    EXPECT_EQ(x, static_cast<float>(i + 1));
+    EXPECT_EQ(z, -1);
+  }
+  EXPECT_NE(notes_.find("/points (frame lidar) has points with ring, time, which are not used"), std::string::npos)
+      << notes_;
 }
 
 }  // namespace

@@ -331,5 +331,28 @@ TEST_F(RosLogOf, oneRecordingInThreeFormatsIsTheSame) {
   }
 }
 
+// The bytes of a message of ROS 1 begin with the number in its header.
+TEST_F(RosLogOf, aDriverThatStartedAnewIsTold) {
+  const auto numbered = [&](double at, std::uint64_t header_number, const std::string& frame) {
+    ScanFields fields;
+    fields.frame = frame;
+    add(kScan, at, number(header_number, 4) + scanBytes(false, stamp(at), fields).substr(4));
+  };
+  for (int i = 0; i < 60; ++i) numbered(0.1 * i, static_cast<std::uint64_t>(i < 40 ? 100 + i : i - 40), "");
+  EXPECT_EQ(read().size(), 60u);
+  EXPECT_TRUE(says(report_.doubts,
+                   "'scan': the numbers in its headers begin again 1 time, first 4.0 s after its first "
+                   "message: its driver started anew"))
+      << ::testing::PrintToString(report_.doubts);
+  messages_.clear();
+  for (int i = 0; i < 60; ++i) numbered(0.1 * i, static_cast<std::uint64_t>(i % 2 == 0 ? 1000 + i : i), "");
+  read();
+  EXPECT_TRUE(says(report_.doubts, "several programs publish its topic"));
+  messages_.clear();
+  for (int i = 0; i < 60; ++i) numbered(0.1 * i, static_cast<std::uint64_t>(i % 10 == 9 ? i - 3 : i), "");
+  read();
+  EXPECT_FALSE(says(report_.doubts, "begin again")) << "messages that overtook each other";
+}
+
 }  // namespace
 }  // namespace omnimapper::ros::ros_log_test

@@ -74,13 +74,15 @@ struct ScanFacts {
   std::size_t repeated = 0;     ///< scans with valid beams and exactly the ranges of the scan before
   std::size_t beams = 0;        ///< number of beams of the first scan that has any
   std::size_t other_beams = 0;  ///< scans with beams, but another number of them than `beams`
-  double aperture = 0;          ///< [rad] as the scans declare it
-  double max_range = 0;         ///< [m] as the scans declare it
-  double valid_share = 0;       ///< share of the valid beams in all beams, [0, 1]
-  double median_range = 0;      ///< [m] median range of the valid beams
-  double single_share = 0;      ///< share of the beams at the declared maximum, marked as valid, amid shorter ones
-  double longest = 0;           ///< [m] largest range of a beam that counts as valid
-  double longest_share = 0;     ///< share of the valid beams whose range is exactly `longest`
+  std::size_t fewest_beams = 0, most_beams = 0;  ///< of the scans with beams
+  std::size_t clockwise = 0;                     ///< scans with beams that run clockwise, seen from the laser's z axis
+  double aperture = 0;                           ///< [rad] as the scans declare it
+  double max_range = 0;                          ///< [m] as the scans declare it
+  double valid_share = 0;                        ///< share of the valid beams in all beams, [0, 1]
+  double median_range = 0;                       ///< [m] median range of the valid beams
+  double single_share = 0;          ///< share of the beams at the declared maximum, marked as valid, amid shorter ones
+  double longest = 0;               ///< [m] largest range of a beam that counts as valid
+  double longest_share = 0;         ///< share of the valid beams whose range is exactly `longest`
   bool longest_stands_out = false;  ///< far more beams have exactly this range than have the ranges just below it
   bool sensor_pose_moves = false;
   std::optional<Measured> constant_ahead;  ///< [m] range ahead, if it stays the same while the robot drives on
