@@ -49,6 +49,9 @@ mapper::Batch GlobalRelocalization::operator()(const mapper::State& state) const
       decision.accepted = false;
       decision.reason = "other scans of the session contradict the map there, or come from one place only";
       decision.numbers.emplace_back("scans that contradict the map", static_cast<double>(fit.contradicting));
+      decision.numbers.emplace_back("scans that fit the map", static_cast<double>(fit.fits));
+      decision.numbers.emplace_back("distance along which they fit [m]", fit.fitting);
+      decision.numbers.emplace_back("share of their beams that contradict the map", fit.contradicting_beams);
       batch.log(std::move(decision));
       return batch;
     }
