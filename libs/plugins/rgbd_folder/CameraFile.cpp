@@ -166,6 +166,8 @@ void addLens(const std::string& path, const NamedNumbers& named, mrpt::img::TCam
     lens[i] = *value;
   }
   if (std::all_of(lens.begin(), lens.end(), [](double value) { return value == 0; })) return;
+  if (!std::all_of(lens.begin(), lens.end(), [](double value) { return std::isfinite(value); }))
+    refuse(path, "states a lens whose coefficients are not finite");
   const std::string model = named.word("distortion_model");
   if ((!model.empty() && model != "plumb_bob" && model != "rational_polynomial") || lens.size() > camera.dist.size())
     refuse(path, "states a lens '" + model + "' with " + std::to_string(lens.size()) +

@@ -2,6 +2,7 @@
 // check proposes.
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <omnimapper/draw/Image.h>
 #include <omnimapper/source/RawlogSource.h>
 
 #include <filesystem>
@@ -61,6 +62,19 @@ class Check : public ::testing::Test {
   ScratchFolder scratch_;
   Ended again_;
 };
+
+// What only the reader of a format knows.
+TEST_F(Check, SaysWhatTheReaderNotesAndDoubts) {
+  const std::string folder = scratch_ / "kitchen";
+  std::filesystem::create_directories(folder + "/depth");
+  constexpr std::uint16_t kTwentyMetres = 20'000;  // [mm]
+  const omnimapper::draw::Grey16Image image{8, 6, std::vector<std::uint16_t>(48, kTwentyMetres)};
+  for (const char* name : {"0", "1"}) writeFile(folder + "/depth/" + name + ".png", omnimapper::draw::encodePng(image));
+  writeFile(folder + "/intrinsics.K.txt", "8 0 3.5\n0 8 2.5\n0 0 1\n");
+  const auto ended = graphslam({"--check", folder});
+  EXPECT_NE(ended.out.find("/intrinsics.K.txt, fx 8.0 fy 8.0 cx 3.5 cy 2.5 pixels\n"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("\nwarning  half of the depths are above 20.00 m"), std::string::npos) << ended.out;
+}
 
 TEST_F(Check, AGoodLogEndsWithZeroAndLeavesNothing) {
   const auto before = filesIn(scratch_.path());
