@@ -3,12 +3,11 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Numbers.h>
 #include <omnimapper/derived/GridPicture.h>
+#include <omnimapper/derived/MapServer.h>
 #include <omnimapper/derived/OutputFile.h>
 #include <omnimapper/derived/ScanGrid.h>
 
 #include <algorithm>
-
-#include "MapServer.h"
 
 namespace omnimapper::plugins {
 
@@ -43,8 +42,8 @@ void GridOutput::finish(const mapper::View& view) {
                           base::brief(grid->resolution) +
                           " m. Does the trajectory jump? If not, raise [grid] max_megacells.");
   }
-  derived::writeBytes(path_ + ".pgm", encodePgm(*grid));
-  derived::writeBytes(path_ + ".yaml", encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));
+  derived::writeBytes(path_ + ".pgm", derived::encodePgm(*grid));
+  derived::writeBytes(path_ + ".yaml", derived::encodeMapServerYaml(*grid, "grid.pgm", options_.resolution));
   derived::writeBytes(path_ + ".png", draw::encodePng(derived::drawGrid(*grid).image));
 }
 

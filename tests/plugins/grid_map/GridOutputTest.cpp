@@ -9,7 +9,6 @@
 #include <filesystem>
 
 #include "grid_map/GridOutput.h"
-#include "grid_map/MapServer.h"
 #include "report/CloudPicture.h"
 
 namespace grid_output_test {
@@ -119,7 +118,7 @@ TEST(ScanGrid, aTooLargeExtentGetsCoarserCells) {
   const auto grid = derived::buildScanGrid(boxRun().map, options);
   ASSERT_TRUE(grid);
   EXPECT_DOUBLE_EQ(grid->resolution, 0.1);
-  const std::string yaml = plugins::encodeMapServerYaml(*grid, "grid.pgm", kResolution);
+  const std::string yaml = derived::encodeMapServerYaml(*grid, "grid.pgm", kResolution);
   EXPECT_NE(yaml.find("# Warning: cells of 0.05 m were requested"), std::string::npos) << yaml;
   EXPECT_NE(yaml.find("resolution: 0.1\n"), std::string::npos) << yaml;
 }

@@ -1,10 +1,9 @@
-#include "MapServer.h"
-
 #include <omnimapper/base/Numbers.h>
+#include <omnimapper/derived/MapServer.h>
 
-namespace omnimapper::plugins {
+namespace omnimapper::derived {
 
-std::string encodePgm(const derived::ScanGrid& grid) {
+std::string encodePgm(const ScanGrid& grid) {
   constexpr unsigned char kLevels[] = {205, 254, 0};  // in the order of Cell: unknown, free, occupied
   std::string out = "P5\n" + std::to_string(grid.columns) + " " + std::to_string(grid.rows) + "\n255\n";
   out.reserve(out.size() + grid.cells.size());
@@ -16,7 +15,7 @@ std::string encodePgm(const derived::ScanGrid& grid) {
   return out;
 }
 
-std::string encodeMapServerYaml(const derived::ScanGrid& grid, const std::string& image, double asked_resolution) {
+std::string encodeMapServerYaml(const ScanGrid& grid, const std::string& image, double asked_resolution) {
   std::string out;
   if (grid.resolution > asked_resolution) {
     out += "# Warning: cells of " + base::brief(asked_resolution) +
@@ -30,4 +29,4 @@ std::string encodeMapServerYaml(const derived::ScanGrid& grid, const std::string
   return out;
 }
 
-}  // namespace omnimapper::plugins
+}  // namespace omnimapper::derived
