@@ -1,6 +1,7 @@
 #include <omnimapper/derived/LandmarkShapes.h>
 #include <omnimapper/draw/Image.h>
 #include <omnimapper/draw/Markup.h>
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
 #include <algorithm>
@@ -102,8 +103,9 @@ Eigen::Vector3d referencePoint(const map::LandmarkShape& shape) {
 
 std::vector<ShapedLandmark> shapesOf(const mapper::State& state, Candidates candidates) {
   std::vector<ShapedLandmark> shapes;
+  const auto deleted = map::deletedLandmarks(state.map);
   for (const auto& [id, landmark] : state.map.landmarks) {
-    if (landmark.state == map::Landmark::State::merged) continue;
+    if (landmark.state == map::Landmark::State::merged || deleted.count(id) > 0) continue;
     ShapedLandmark shaped{&landmark, mapper::shapeOf(landmark, state), landmark.state == map::Landmark::State::retired};
     if (shaped.shape.is_candidate && candidates == Candidates::left_out) continue;
     keepFinite(shaped.shape);

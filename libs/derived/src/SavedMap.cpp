@@ -1,4 +1,5 @@
 #include <omnimapper/base/ChildProcess.h>
+#include <omnimapper/derived/Closures.h>
 #include <omnimapper/derived/PlacesOfMap.h>
 #include <omnimapper/derived/SavedMap.h>
 #include <omnimapper/graph/GraphArchive.h>
@@ -24,6 +25,11 @@ namespace omnimapper::derived {
 namespace {
 
 constexpr std::uint32_t kGraphVersion = 1;
+
+/// Whether the program that writes a map computes that layer from the other data.
+bool isComputedAgain(const std::string& layer) {
+  return layer == map::Places::kLayer || layer == map::ClosedLoops::kLayer;
+}
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw base::Error(base::ExitCode::unreadable_input, reason);
@@ -183,8 +189,7 @@ SavedMap parse(const map::MapFile& file, const mapper::Kinds& kinds) {
   const auto* sessions = file.find("sessions");
   saved.map.sessions = sessions ? map::sessionsFromSection(*sessions) : map::sessionsOfFrames(saved.map.key_frames);
   for (const auto& section : file.sections()) {
-    // "places" is computed again by the program that writes the map.
-    if (!map::isLayerName(section.name) || section.name == map::Places::kLayer) continue;
+    if (!map::isLayerName(section.name) || isComputedAgain(section.name)) continue;
     saved.map.layers.set(section.name, kinds.layers.read(section));
   }
   mapper::adoptPlaceOnEarth(saved.map.layers, saved.graph);
@@ -224,7 +229,7 @@ map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph) {
   file.set(map::landmarksToSection(map));
   file.set(map::sessionsToSection(map));
   for (const auto& [name, layer] : map.layers) {
-    if (name != map::Places::kLayer) file.set(map::layerToSection(name, *layer));
+    if (!isComputedAgain(name)) file.set(map::layerToSection(name, *layer));
   }
   return file;
 }
@@ -232,6 +237,8 @@ map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph) {
 map::MapFile mapFileToAsk(const mapper::State& state) {
   map::MapFile file = mapFileOf(state.map, state.graph);
   file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(placesOf(state))));
+  if (auto closed = closedLoopsOf(state); !closed.loops.empty())
+    file.set(map::layerToSection(map::ClosedLoops::kLayer, map::LayerOf<map::ClosedLoops>(std::move(closed))));
   return file;
 }
 

@@ -1,3 +1,4 @@
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
 #include <cmath>
@@ -53,8 +54,9 @@ map::LandmarkShape shapeOf(const map::Landmark& landmark, const State& state) {
 
 std::map<std::string, std::size_t> countLandmarks(const State& state) {
   std::map<std::string, std::size_t> counts;
+  const auto deleted = map::deletedLandmarks(state.map);
   for (const auto& [id, landmark] : state.map.landmarks) {
-    if (landmark.state != map::Landmark::State::active) continue;
+    if (landmark.state != map::Landmark::State::active || deleted.count(id) > 0) continue;
     const map::LandmarkShape shape = shapeOf(landmark, state);
     if (shape.is_candidate) continue;
     const std::string &label = shape.label, named = landmark.kind + " ";

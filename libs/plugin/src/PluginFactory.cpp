@@ -1,3 +1,4 @@
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/map/Level.h>
 #include <omnimapper/plugin/PlaceOnEarth.h>
 #include <omnimapper/plugin/PluginFactory.h>
@@ -14,6 +15,7 @@ map::LayerRegistry layersOfNoPlugin() {
   map::LayerRegistry registry;
   registry.add<map::Level>();
   registry.add<PlaceOnEarth>();
+  registry.add<map::Corrections>();
   return registry;
 }
 

@@ -4,6 +4,7 @@
 #include <omnimapper/derived/OutputFile.h>
 #include <omnimapper/derived/Ply.h>
 #include <omnimapper/draw/Image.h>
+#include <omnimapper/map/Corrections.h>
 
 #include <nlohmann/json.hpp>
 
@@ -105,9 +106,10 @@ ObjectsOutput::ObjectsOutput(const ObjectsOptions&, const mapper::PluginContext&
 void ObjectsOutput::finish(const mapper::View& view) {
   json objects = json::array();
   std::size_t merged = 0;
+  const auto deleted = map::deletedLandmarks(view.map);
   for (const auto& [id, landmark] : view.map.landmarks) {
     const auto* payload = dynamic_cast<const ObjectPayload*>(landmark.payload.get());
-    if (payload == nullptr) continue;
+    if (payload == nullptr || deleted.count(id) > 0) continue;
     merged += landmark.state == map::Landmark::State::merged;
     if (landmark.state == map::Landmark::State::merged) continue;
     // Candidates that were given up are of no use to anybody.

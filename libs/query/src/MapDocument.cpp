@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "CorrectionAnswers.h"
 #include "PlaceJson.h"
 #include "Target.h"
 
@@ -60,7 +61,7 @@ std::string mapDocument(const MapToAsk& map) {
   document["version"] = 1;
   const auto& pose = map.places.last_pose;
   document["last_pose"] = pose ? Json{{"x_m", pose->x}, {"y_m", pose->y}, {"yaw_rad", pose->yaw}} : Json(nullptr);
-  for (const char* list : {"places", "rooms", "doors", "unseen"}) document[list] = Json::array();
+  for (const char* list : {"places", "rooms", "doors", "unseen", "loops", "deleted"}) document[list] = Json::array();
   document["labels"] = Json::object();
   for (const auto& place : map.places.places) {
     document["labels"][place.label] = styleOf(place.label);
@@ -70,6 +71,8 @@ std::string mapDocument(const MapToAsk& map) {
     document["places"].push_back(std::move(json));
   }
   if (map.rooms) addRooms(*map.rooms, document);
+  for (const auto& loop : map.loops) document["loops"].push_back(loopJson(loop, map.corrections));
+  for (const auto& thing : map.corrections.deleted) document["deleted"].push_back(deletedJson(thing));
   return textOf(document);
 }
 

@@ -69,7 +69,8 @@ MapToAsk openMap(const std::string& path) {
   opened.file = mapFileAt(path);
   opened.folder = fs::path(opened.file).parent_path();
   if (opened.folder.empty()) opened.folder = ".";
-  const auto file = map::MapFile::readOnly(opened.file, {map::Places::kLayer, building::kRoomsLayer});
+  const auto file = map::MapFile::readOnly(
+      opened.file, {map::Places::kLayer, building::kRoomsLayer, map::ClosedLoops::kLayer, map::Corrections::kLayer});
   const auto* section = file.find(map::Places::kLayer);
   if (!section)
     refuseMap(opened.file, "has no section \"" + std::string(map::Places::kLayer) +
@@ -77,6 +78,10 @@ MapToAsk openMap(const std::string& path) {
                                "log again, or continue it with omnimapper-graphslam --continue.");
   try {
     opened.places = map::Places::fromSection(*section);
+    if (const auto* loops = file.find(map::ClosedLoops::kLayer))
+      opened.loops = map::ClosedLoops::fromSection(*loops).loops;
+    if (const auto* corrections = file.find(map::Corrections::kLayer))
+      opened.corrections = map::Corrections::fromSection(*corrections);
   } catch (const base::Error& error) {
     throw base::Error(error.code(), opened.file + ": " + error.what());
   }

@@ -2,6 +2,7 @@
 #include <omnimapper/query/Verbs.h>
 
 #include "Answers.h"
+#include "CorrectionAnswers.h"
 #include "RoomAnswers.h"
 #include "SurfaceAnswers.h"
 
@@ -87,6 +88,8 @@ const std::vector<Verb>& verbs() {
        -1,
        {{"radius", "radius of the robot [m]; default 0.25", 1, Range::not_negative}},
        answerBetween},
+      {"loops", "the loop closures that the map rests on", "", "", 0, 0, {}, answerLoops},
+      {"deleted", "the landmarks that people deleted (omnimapper-edit)", "", "", 0, 0, {}, answerDeleted},
       {"layers", "what the map holds beside key frames and landmarks", "", "", 0, 0, {}, answerLayers}};
   return all;
 }

@@ -1,9 +1,6 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/geometry/Conversions.h>
-#include <omnimapper/map/LabelledPlaces.h>
-#include <omnimapper/map/Layers.h>
-#include <omnimapper/map/MapFile.h>
 #include <omnimapper/query/Find.h>
 #include <omnimapper/query/MapToAsk.h>
 #include <omnimapper/query/editLabels.h>
@@ -12,9 +9,9 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <utility>
 
+#include "LabelledMapFile.h"
 #include "MapLock.h"
 
 namespace omnimapper::query {
@@ -30,31 +27,6 @@ using map::Labels;
 
 std::string quotedName(const std::string& text) {
   return "'" + base::printable(text.substr(0, 200)) + "'";
-}
-
-/// A map whose labels change.
-struct LabelledMapFile {
-  map::MapFile file;
-  map::Places places;
-  Labels labels;
-  std::vector<map::FramePose> frames;
-  std::map<base::LandmarkId, base::LandmarkId> current;
-};
-
-const map::MapSection& sectionOf(const map::MapFile& file, const std::string& name, const std::string& path) {
-  const auto* section = file.find(name);
-  if (section) return *section;
-  throw base::Error(base::ExitCode::unreadable_input, path + ": has no section \"" + name + "\", which labels need");
-}
-
-LabelledMapFile readLabels(const std::string& path) {
-  LabelledMapFile read;
-  read.file = map::MapFile::read(path);
-  read.places = map::Places::fromSection(sectionOf(read.file, map::Places::kLayer, path));
-  if (const auto* labels = read.file.find(Labels::kLayer)) read.labels = Labels::fromSection(*labels);
-  read.frames = map::framePosesFromSection(sectionOf(read.file, "frames", path));
-  if (const auto* landmarks = read.file.find("landmarks")) read.current = map::currentLandmarks(*landmarks);
-  return read;
 }
 
 /// A label for a point of the map, in the frame of the key frame nearest to it.
@@ -130,22 +102,6 @@ std::string apply(const LabelledMapFile& map, const LabelEdit& edit, map::LabelE
   refuseLabel("a change of labels is one of: name ID TEXT, name X Y TEXT, rename OLD NEW, delete TEXT, undo");
 }
 
-void placeLabels(const Labels& labels, LabelledMapFile& map) {
-  std::map<base::KeyFrameId, geometry::Se3> poses;
-  for (const auto& frame : map.frames) poses[frame.id] = geometry::fromMrpt(frame.map_from_base);
-  const map::LabelAnchors anchors{[&](base::LandmarkId id) {
-                                    const auto found = map.current.find(id);
-                                    return found == map.current.end() ? id : found->second;
-                                  },
-                                  [&](const Label& label) -> Eigen::Vector3d {
-                                    const auto frame = poses.find(label.frame);
-                                    if (frame == poses.end()) refuseLabel("a label refers to no key frame");
-                                    return frame->second * label.in_frame;
-                                  }};
-  map::removeLabels(map.places.places);
-  map::addLabels(labels, anchors, map.places.places);
-}
-
 }  // namespace
 
 std::string editLabels(const std::string& path, const LabelEdit& edit, map::LabelEdits& history) {
@@ -153,18 +109,13 @@ std::string editLabels(const std::string& path, const LabelEdit& edit, map::Labe
   if (isCheckpoint(file))
     throw base::Error(base::ExitCode::unreadable_input, "the run that makes this map has not ended");
   const MapLock lock(std::filesystem::path(file).parent_path().string());
-  LabelledMapFile map = readLabels(file);
+  LabelledMapFile map = LabelledMapFile::read(file);
   map::LabelEdits edits = history;
   if (edits.now().toBytes() != map.labels.toBytes()) edits = {};
   edits.begin(map.labels);
   const std::string text = apply(map, edit, edits);
-  placeLabels(edits.now(), map);
-  map.file.set(map::layerToSection(map::Places::kLayer, map::LayerOf<map::Places>(map.places)));
-  if (edits.now().labels.empty() && !edits.now().question)
-    map.file.remove(Labels::kLayer);
-  else
-    map.file.set(map::layerToSection(Labels::kLayer, map::LayerOf<Labels>(edits.now())));
-  map.file.write(file);
+  map.labels = edits.now();
+  map.write(file);
   history = std::move(edits);
   return text;
 }

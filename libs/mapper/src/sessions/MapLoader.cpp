@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "sessions/removeForbidden.h"
+
 namespace omnimapper::mapper {
 
 namespace {
@@ -43,7 +45,13 @@ void loadMapInto(const RunRequest& request, const EngineSettings& settings, cons
   refuseStartWithoutPose(session, config);
   const auto start = session.startOn(saved.map);
   try {
-    if (request.localize_map.empty()) return engine.sessions().continueFrom(std::move(saved), start);
+    if (request.localize_map.empty()) {
+      const auto forbidden = removeForbidden(saved, settings.solver.final());
+      engine.sessions().continueFrom(std::move(saved), start);
+      for (const auto& sentence : forbidden.removed) engine.note(sentence);
+      for (const auto& sentence : forbidden.kept) engine.warn(sentence);
+      return;
+    }
     engine.sessions().localizeIn(std::move(saved), start, session.window_key_frames);
   } catch (const base::Error&) {
     throw;

@@ -27,8 +27,8 @@ struct ShapedLandmark {
 /// Whether candidates, landmarks that were seen too rarely to be drawn, are included.
 enum class Candidates { left_out, kept };
 
-/// The landmarks of a map that outputs show, in the order of ids, without those that were merged into another one.
-/// Parts of shapes that are not finite, and surfaces without area, are left out.
+/// The landmarks of a map that outputs show, in the order of ids, without those that were merged into another one,
+/// or that people deleted. Parts of shapes that are not finite, and surfaces without area, are left out.
 std::vector<ShapedLandmark> shapesOf(const mapper::State& state, Candidates candidates = Candidates::left_out);
 
 /// "laser only", "kinect and laser", ...; empty if nothing is known.

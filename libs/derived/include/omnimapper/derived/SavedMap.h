@@ -25,11 +25,12 @@ struct SavedMap {
 /// or damaged, has a later version, or needs plugins that are not loaded.
 SavedMap readMap(const std::string& path, const mapper::Kinds& kinds);
 
-/// The file of a map: the sections graph, frames, landmarks and sessions, then one for each layer but "places". If the
-/// file is written, read and written again, it has the same bytes.
+/// The file of a map: the sections graph, frames, landmarks and sessions, then one for each layer but "places" and
+/// "loops". If the file is written, read and written again, it has the same bytes.
 map::MapFile mapFileOf(const map::Map& map, const graph::Graph& graph);
 
-/// The same with the layer "places", which queries need. May be called in any thread with a state of its own.
+/// The same with the layer "places", which queries need, and "loops" if loops were closed. May be called in any thread
+/// with a state of its own.
 map::MapFile mapFileToAsk(const mapper::State& state);
 
 }  // namespace omnimapper::derived

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <omnimapper/building/Storey.h>
+#include <omnimapper/map/ClosedLoops.h>
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Places.h>
 
@@ -10,14 +12,16 @@
 
 namespace omnimapper::query {
 
-/// The part of a map that is loaded to answer queries: only its places, its rooms and a list of its layers, however
-/// large the map is.
+/// The part of a map that is loaded to answer queries: only its places, its rooms, its loop closures, what people
+/// corrected, and a list of its layers, however large the map is.
 struct MapToAsk {
   std::string file;    ///< the map file
   std::string folder;  ///< the folder of the map file, which also has the occupancy grid
   map::Places places;
   std::vector<map::MapFile::Entry> layers;     ///< the layers that the file has
   std::optional<building::Storey> rooms = {};  ///< its layer of rooms; none if it has none that this program can read
+  std::vector<map::ClosedLoop> loops = {};     ///< the loop closures that the map rests on
+  map::Corrections corrections = {};           ///< what people corrected
   std::string id = {};                         ///< the same for maps with the same places and rooms
 };
 
