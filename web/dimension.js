@@ -1,12 +1,13 @@
 // Changes between the plan and the view in 3D, whose data are fetched when it is shown first.
 import { readPly } from './ply.js';
 import { Solid } from './solid.js';
+import { namesOf } from './solidNames.js';
 import { source } from './source.js';
 
-/** `button` changes the view; `plan` is what is seen first, and knows the map. */
+/** `names` is the canvas above `canvas`; `button` changes the view; `plan` is what is seen first, and knows the map. */
 export class Dimension {
-  constructor(canvas, button, plan) {
-    Object.assign(this, { canvas, button, plan, solid: null, files: null, shown: null });
+  constructor(canvas, names, button, plan) {
+    Object.assign(this, { canvas, names, button, plan, solid: null, files: null, shown: null });
   }
 
   get isSolid() {
@@ -26,7 +27,7 @@ export class Dimension {
   }
 
   set(isSolid) {
-    this.canvas.hidden = !isSolid;
+    this.canvas.hidden = this.names.hidden = !isSolid;
     this.button.textContent = isSolid ? 'Plan' : '3D';
     this.button.setAttribute('aria-pressed', String(isSolid));
   }
@@ -35,12 +36,12 @@ export class Dimension {
   async fill() {
     const { map, trajectory } = this.plan;
     if (this.shown === map) return this.choose(this.plan.chosen);
-    this.solid ??= new Solid(this.canvas);
+    this.solid ??= new Solid(this.canvas, this.names);
     if (this.files?.solid !== map.solid) {
       const [points, surfaces] = await Promise.all(['points', 'surfaces'].map((name) => source.ply(name, map.solid)));
       this.files = { solid: map.solid, points: points && readPly(points), surfaces: surfaces && readPly(surfaces) };
     }
-    this.solid.show(this.files.points, this.files.surfaces, trajectory);
+    this.solid.show(this.files.points, this.files.surfaces, trajectory, namesOf(map));
     if (this.shown === null) this.solid.showAll(this.plan.bounds());
     this.shown = map;
     this.choose(this.plan.chosen);

@@ -11,7 +11,8 @@ export const mapDocument = async () => data().map;
 export const trajectory = async () => data().trajectory;
 export const rights = async () => ({ may_change: false, may_drive: false });
 export const pictureAddress = (id) => `picture-${id.replace(':', '-')}.png`;
-export const [edit, label, ticket, goTo, stop] = Array(5).fill(refuse);
+export const about = async () => data().about;
+export const [edit, label, correct, ticket, goTo, stop] = Array(6).fill(refuse);
 
 export async function gridImage() {
   const image = new Image();

@@ -1,7 +1,8 @@
 // The list of what the plan shows.
+import { LOOPS } from './loops.js';
 
 const FIXED = [['grid', 'Free space and walls seen'], ['rooms', 'Rooms'], ['doors', 'Doors'],
-  ['trajectory', 'Where the robot drove'], ['robot', 'Robot']];
+  ['trajectory', 'Where the robot drove'], ['robot', 'Robot'], [LOOPS, 'Loop closures']];
 
 /** Fills a box with a tick for each layer of the map and each label of its things. */
 export function paintLayers(box, map, plan) {

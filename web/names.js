@@ -7,6 +7,7 @@ export const isName = (place) => place.kind === 'place' || place.kind === 'regio
 export const givenName = (place) => (isName(place) ? place.label : place.properties.name);
 
 export function nameOf(kind, item) {
+  if (kind === 'loop') return 'loop closure';
   if (kind !== 'place') return item.name ?? item.id;
   if (isName(item)) return `"${item.label}"`;
   const name = item.properties.name ?? item.caption;

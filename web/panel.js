@@ -1,4 +1,5 @@
 // What is known of the thing that was touched, the answer to a question, and what can be changed.
+import { deletionOf, forbiddingOf } from './corrections.js';
 import { button, element, field } from './elements.js';
 import { goThere } from './goals.js';
 import { labelsOf, spotLabels } from './labels.js';
@@ -6,11 +7,13 @@ import { row } from './list.js';
 import { isName, keyText, nameOf, valueText } from './names.js';
 import { source } from './source.js';
 
+const HINT = 'Touch a room or a thing to see what it is';
 const percent = (share) => `${Math.round(share * 100)} %`;
 const position = ([x, y]) => `${x.toFixed(2)}, ${y.toFixed(2)} m`;
 
 /**
- * The panel beside the plan. `actions`: choose(chosen), change(words) of rooms, label(words), showPath(points or null).
+ * The panel beside the plan. `actions`: choose(chosen), chooseAgain() what is chosen, change(words) of rooms,
+ * label(words), correct(words), showPath(points or null).
  */
 export class Panel {
   constructor(box, actions) {
@@ -35,13 +38,15 @@ export class Panel {
     this.isAnswer = false;
     const spot = point && this.mayChange && chosen?.kind !== 'place'
       ? spotLabels(point, this.map, (words) => this.label(words)) : [];
-    if (!chosen) return this.fill(element('p', 'Touch a room or a thing to see what it is.', 'note'), ...spot);
-    const parts = { room: () => this.room(chosen.item), door: () => this.door(chosen.item), place: () => this.place(chosen.item) };
-    this.fill(element('h2', nameOf(chosen.kind, chosen.item)), ...this.goal(chosen), ...parts[chosen.kind](), ...spot);
+    if (!chosen) return this.fill(element('p', HINT + (this.mayChange ? ', and to name or correct it.' : '.'), 'note'), ...spot);
+    const parts = { room: () => this.room(chosen.item), door: () => this.door(chosen.item),
+      place: () => this.place(chosen.item), loop: () => this.loop(chosen.item) };
+    const goal = chosen.kind === 'place' ? [] : this.goal(chosen); // of a thing, the name comes first
+    this.fill(element('h2', nameOf(chosen.kind, chosen.item)), ...goal, ...parts[chosen.kind](), ...spot);
   }
 
   goal({ kind, item }) {
-    if (!this.mayDrive || kind === 'door') return [];
+    if (!this.mayDrive || kind === 'door' || kind === 'loop') return [];
     const buttons = element('div', undefined, 'row');
     buttons.append(goThere(kind === 'place' && isName(item) ? item.label : item.id, nameOf(kind, item), {
       show: (...parts) => this.fill(...parts),
@@ -108,7 +113,7 @@ export class Panel {
     buttons.append(
       button('Split', () => this.begin({ verb: 'split', points: [] }, 'Touch one end of the new wall.')),
       button('Merge', () => this.begin({ verb: 'merge', room }, 'Touch the room that it is to be one with.')),
-      button('Delete', () => this.confirm(`Is ${room.name} no room?`, ['delete', room.id])));
+      button('Delete', () => this.confirm(`Is ${room.name} no room?`, () => this.change(['delete', room.id]))));
     return [element('h3', 'Change'), form, buttons];
   }
 
@@ -126,7 +131,7 @@ export class Panel {
     const properties = Object.entries(place.properties).filter(([key]) => key !== 'name').map(([key, value]) => [keyText(key), valueText(key, value)]);
     const seen = Object.entries(place.seen_by).map(([sensor, count]) => `${count} × ${sensor}`).join(', ');
     const facts = this.facts([
-      ['number', place.id], ['kind', place.kind],
+      ['number', place.id], ['kind', place.kind], ...(place.why ? [['why', place.why]] : []),
       ['where', position(place.position_m) + (place.sigma_m === null ? '' : ` ± ${place.sigma_m.toFixed(3)} m`)],
       ['height', `${place.extent.bottom_m.toFixed(2)} to ${place.extent.top_m.toFixed(2)} m`],
       ['state', place.state], ['seen', seen || `${place.measurements} times`],
@@ -144,7 +149,20 @@ export class Panel {
       list.append(row('room', room, this.actions.choose));
       parts.push(element('h3', 'In'), list);
     }
-    return [...this.labels(place), ...parts];
+    return [...this.labels(place), ...this.goal({ kind: 'place', item: place }), ...parts, ...this.deletion(place)];
+  }
+
+  deletion(place) {
+    return this.mayChange && !isName(place) ? deletionOf(place, nameOf('place', place), this) : [];
+  }
+
+  loop(loop) {
+    const facts = this.facts([['key frames', loop.key_frames.join(' and ')],
+      ['distance', `${Math.hypot(loop.from_m[0] - loop.to_m[0], loop.from_m[1] - loop.to_m[1]).toFixed(2)} m`],
+      ['found by', loop.closed_by], ['why', loop.why || 'not known'],
+      ['state', loop.is_forbidden ? 'forbidden' : 'the map rests on it']]);
+    return [element('p', 'The robot was here twice: what it measured then ties these two moments together.', 'note'), facts,
+      ...(this.mayChange ? forbiddingOf(loop, this) : [onlyLooks()])];
   }
 
   labels(place) {
@@ -199,14 +217,19 @@ export class Panel {
     return this.change(['merge', pending.room.id, chosen.item.id]);
   }
 
-  confirm(sentence, words) {
+  confirm(sentence, act) {
     const buttons = element('div', undefined, 'row');
-    buttons.append(button('Yes', () => this.change(words)), button('No', () => this.show(null, null)));
+    buttons.append(button('Yes', act), button('No', () => this.actions.chooseAgain()));
     this.fill(element('p', sentence), buttons);
   }
 
   change(words) {
     return this.carryOut(words, () => this.actions.change(words));
+  }
+
+  /** Corrects the map; `undo` are the words that take it back. */
+  async correct(words, undo) {
+    await this.carryOut(words, () => this.actions.correct(words), [button('Undo', () => this.correct(undo, words))]);
   }
 
   async label(words) {

@@ -1,6 +1,7 @@
 // The map from above, on a canvas.
 import { areaOf, distanceToPath, distanceToPlace, isInside } from './geometry.js';
 import { Gestures } from './gestures.js';
+import { LOOPS, loopAt, paintLoops } from './loops.js';
 import { givenName } from './names.js';
 
 const LEAST_SCALE = 2, MOST_SCALE = 2000; // pixels per metre
@@ -16,7 +17,7 @@ export class Plan {
     this.trajectory = [];
     this.path = null;
     this.chosen = null;
-    this.hidden = new Set();
+    this.hidden = new Set([LOOPS]);
     this.scale = 50;
     this.middle = [0, 0];
     new Gestures(this);
@@ -143,6 +144,8 @@ export class Plan {
 
   /** What is at a point: the thing within `reach` [m] that is meant most likely, a door, or the room. */
   itemAt(point, reach) {
+    const loop = this.hidden.has(LOOPS) ? null : loopAt(this, point, reach / 3);
+    if (loop) return loop;
     let best = null, least = Infinity;
     for (const place of this.map.places) {
       if (this.isHidden(place) || this.map.labels[place.label].covers_the_plan) continue;
@@ -192,6 +195,7 @@ export class Plan {
     for (const place of [...below, ...above]) if (!this.isHidden(place)) this.paintPlace(context, place);
     if (!this.hidden.has('doors')) for (const door of this.map.doors) this.paintDoor(context, door);
     if (!this.hidden.has('trajectory')) this.paintPath(context, this.trajectory, this.colour('robot'), 1.5, 0.7);
+    if (!this.hidden.has(LOOPS)) paintLoops(this, context);
     if (this.path) this.paintPath(context, this.path, this.colour('chosen'), 4, 1);
     if (this.map.last_pose && !this.hidden.has('robot')) this.paintRobot(context, this.map.last_pose);
     this.paintChosen(context);
@@ -283,7 +287,7 @@ export class Plan {
   paintChosen(context) {
     if (!this.chosen) return;
     const { kind, item } = this.chosen;
-    const walks = kind === 'room' ? [item.outline_m] : kind === 'door' ? [[item.from_m, item.to_m]]
+    const walks = kind === 'room' ? [item.outline_m] : kind === 'door' || kind === 'loop' ? [[item.from_m, item.to_m]]
       : [...item.extent.outlines, ...item.extent.lines];
     context.strokeStyle = this.colour('chosen');
     context.lineWidth = 3 / this.scale;

@@ -20,6 +20,8 @@ export const onlyLooks = 'This page may only look; the address that omnimapper-s
 
 /** What this page may do: may_change the map, may_drive the robot of a live run. */
 export const rights = async () => (await ask('api/me')).json();
+/** What the run says about itself: title, sessions, verdict, closures, sensors, as far as they are there. */
+export const about = async () => (await ask('api/about')).json();
 export const question = async (text) => (await ask('api/query?q=' + encodeURIComponent(text))).json();
 export const pictureAddress = (id) => 'api/picture?id=' + encodeURIComponent(id);
 
@@ -53,6 +55,9 @@ export const edit = (words) => change('api/edit', words);
 
 /** Changes names: name ID TEXT, name X Y TEXT, rename OLD NEW, delete TEXT, undo. What was done, in words. */
 export const label = (words) => change('api/label', words);
+
+/** Corrects the map; `words` as omnimapper-edit takes them. What was done, in words. */
+export const correct = (words) => change('api/correct', words);
 
 /** What lets one command to go somewhere through, within a minute. */
 export const ticket = async () => (await post('api/ticket', [])).ticket;

@@ -1,5 +1,6 @@
-// The map in 3D: points, surfaces, the way of the robot, and a box around what is chosen.
+// The map in 3D: points, surfaces, the way of the robot, names, and a box around what is chosen.
 import { Orbit } from './orbit.js';
+import { writeNames } from './solidNames.js';
 
 const VERTEX = `#version 300 es
 in vec3 position; in vec3 colour; uniform mat4 screen; uniform float size; out vec3 shown; out vec3 place;
@@ -13,8 +14,11 @@ void main() {
 }`;
 
 export class Solid {
-  constructor(canvas) {
+  /** `names` is a canvas above the view, for names. */
+  constructor(canvas, names) {
     this.canvas = canvas;
+    this.nameCanvas = names;
+    this.names = [];
     this.orbit = new Orbit();
     this.parts = [];
     this.pointers = new Map();
@@ -38,9 +42,10 @@ export class Solid {
     return program;
   }
 
-  /** `points` and `surfaces` as readPly() has them, or null; `walk` is a list of x, y. */
-  show(points, surfaces, walk) {
+  /** `points` and `surfaces` as readPly() has them, or null; `walk` is a list of x, y; `names` as namesOf() has them. */
+  show(points, surfaces, walk, names) {
     const { gl } = this;
+    this.names = names;
     for (const part of this.parts) part.buffers.forEach((buffer) => gl.deleteBuffer(buffer));
     this.parts = [];
     if (surfaces) this.add('surfaces', gl.TRIANGLES, surfaces);
@@ -101,9 +106,11 @@ export class Solid {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.useProgram(program);
-    gl.uniformMatrix4fv(gl.getUniformLocation(program, 'screen'), false, this.orbit.matrix(canvas.width / canvas.height));
+    const screen = this.orbit.matrix(canvas.width / canvas.height);
+    gl.uniformMatrix4fv(gl.getUniformLocation(program, 'screen'), false, screen);
     gl.uniform1f(gl.getUniformLocation(program, 'size'), 2 * ratio);
     for (const part of this.parts) this.paintPart(part);
+    writeNames(this.nameCanvas, this.names, screen);
   }
 
   paintPart({ mode, buffers: [positions, colours, indices], count }) {

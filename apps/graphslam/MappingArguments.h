@@ -13,7 +13,8 @@ struct Arguments {
   omnimapper::mapper::RunRequest run;
   std::string print_ini;
   std::vector<std::string> inis, settings, checked_logs;
-  bool is_check = false, list_plugins = false, ini_reference = false, gui = false, quiet = false, verbose = false;
+  bool is_check = false, list_plugins = false, ini_reference = false, gui = false, page = false, quiet = false,
+       verbose = false;
   bool record_only = false;
 };
 
@@ -70,7 +71,9 @@ inline void addOptions(CLI::App& app, Arguments& arguments) {
       ->excludes(replay);
   app.add_flag("--strict", arguments.run.strict, "end with exit code 17 if the map is suspicious");
   auto* gui = app.add_flag("--gui", arguments.gui, "show the map while it grows");
-  for (auto* other : {rawlogs, live, replay, go_on, localize, gui}) record->excludes(other);
+  auto* page = app.add_flag("--page", arguments.page,
+                            "show the map in browsers while it grows, and then until Ctrl-C; [page] has the settings");
+  for (auto* other : {rawlogs, live, replay, go_on, localize, gui, page}) record->excludes(other);
   app.add_flag("--list-plugins", arguments.list_plugins,
                "list the plugin classes, with -i also those of its libraries, and exit");
   app.add_option("--print-ini", arguments.print_ini, "print the documented INI section of a plugin class and exit");

@@ -1,13 +1,11 @@
 #include <omnimapper/base/Names.h>
 #include <omnimapper/base/Progress.h>
 #include <omnimapper/live/Journal.h>
-#include <omnimapper/mapper/EngineOptions.h>
 #include <omnimapper/mapper/Features.h>
 #include <omnimapper/mapper/MappingRun.h>
 #include <omnimapper/mapper/PluginRegistry.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
@@ -23,9 +21,9 @@ using namespace omnimapper;
 // Adds an output that the command line requests, whether the INI has it or not.
 void addOutput(const std::string& section, const std::string& name, base::Config& config, mapper::RunRequest& run) {
   std::string there;
-  if (!config.section(section).find("class", there)) config.set(section + ".class=" + name);
-  const auto& listed = config.section("mapper").read<mapper::EngineOptions>().output_plugins;
-  if (std::find(listed.begin(), listed.end(), section) == listed.end()) run.more_outputs.push_back(section);
+  if (!config.section(section).find("class", there) || !config.isTrusted(section, "class"))
+    config.set(section + ".class=" + name);
+  run.more_outputs.push_back(section);
 }
 
 // Finds the journal in a folder, and without -i the INI of its live run. Old recordings have none.
@@ -65,13 +63,17 @@ int run(Arguments& arguments) {
                     {"-r LOG", !is_of_logs || !arguments.run.logs.empty()},
                     {"-o FOLDER", !arguments.run.output_folder.empty()}});
   if (arguments.gui) addOutput("live_window", "LiveWindow", config, arguments.run);
+  if (arguments.page) addOutput("page", "LivePage", config, arguments.run);
   if (!arguments.run.localize_map.empty()) addOutput("localization", "LocalizationOutput", config, arguments.run);
   bool is_printed = false;
   arguments.run.before_window_closes = [&](const mapper::RunResult& result) {
     program::nothingIsLeftToDo();
     progress.reset();
     printResult(result, arguments);
-    if (!arguments.quiet) std::cout << "The window shows the map; close it to end.\n" << std::flush;
+    if (!arguments.quiet)
+      std::cout << (arguments.gui ? "The window shows the map; close it to end.\n"
+                                  : "The page shows the map; Ctrl-C ends.\n")
+                << std::flush;
     is_printed = true;
   };
   const auto result = mapObservations(arguments, config, *progress, stop);

@@ -16,10 +16,9 @@ class ForbiddenLoopsTest : public ::testing::Test {
   ForbiddenLoopsTest() {
     for (int i = 0; i < 4; ++i) made_.addFrame({1.0 * i, 0, 0, 0, 0, 0});
     for (int i = 1; i < 4; ++i) steps_.push_back(made_.graph.addFactor(between(i - 1, i)));
-    loop_ = between(0, 3);
-    loop_.tags.hypothesis = true;
-    loop_.weight = 1;
-    factor_ = made_.graph.addFactor(loop_);
+    auto loop = between(0, 3);
+    loop.tags.hypothesis = true;
+    factor_ = made_.graph.addFactor(loop);
     graph::solve(made_.graph);
     for (std::size_t i = 0; i < 4; ++i) {
       auto& frame = made_.map.key_frames.edit(made_.map.key_frames[i].id);
@@ -45,7 +44,6 @@ class ForbiddenLoopsTest : public ::testing::Test {
 
   testing::HandMadeRun made_;
   std::vector<base::FactorId> steps_;
-  graph::FactorRecord loop_;
   base::FactorId factor_;
 };
 

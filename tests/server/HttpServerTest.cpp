@@ -2,6 +2,7 @@
 #include <omnimapper/testing/Fixtures.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -25,6 +26,7 @@ class Running {
             std::move(is_urgent)),
         thread_([this] { server_.run([this] { return stopped_.load(); }, [this] { sendWaiting(); }); }) {}
   ~Running() {
+    release();
     stopped_ = true;
     thread_.join();
   }
@@ -33,6 +35,12 @@ class Running {
   void sendEvent(const std::string& event) {
     const std::lock_guard lock(mutex_);
     waiting_ = event;
+  }
+  /// Lets answers that take long be made.
+  void release() {
+    const std::lock_guard lock(mutex_);
+    is_released_ = true;
+    released_.notify_all();
   }
   /// The whole answer to these bytes, after which the connection must be closed.
   std::string talk(const std::string& bytes) {
@@ -47,8 +55,15 @@ class Running {
     HttpResponse response{200, "text/plain", request.method + " " + request.path + " " + request.body};
     response.is_event_stream = request.path == "/events";
     if (response.is_event_stream) response.body = "data: first\n\n";
+    if (request.path == "/slow") response.later = [this] { return slowAnswer(); };
     if (request.path == "/file") response.file = request.values.at("name");
     return response;
+  }
+  /// Waits until release().
+  HttpResponse slowAnswer() {
+    std::unique_lock lock(mutex_);
+    released_.wait(lock, [this] { return is_released_; });
+    return {200, "text/plain", "at last"};
   }
   void sendWaiting() {
     const std::lock_guard lock(mutex_);
@@ -59,6 +74,8 @@ class Running {
   std::atomic<bool> stopped_ = false;
   std::atomic<int> answered_ = 0;
   std::mutex mutex_;
+  std::condition_variable released_;
+  bool is_released_ = false;  // guarded by mutex_, as is waiting_
   std::string waiting_;
   HttpServer server_;
   std::thread thread_;
@@ -69,6 +86,23 @@ std::string statusOf(const std::string& answer) {
 }
 
 constexpr char kClose[] = "Host: a\r\nConnection: close\r\n\r\n";
+
+TEST(HttpServer, AnAnswerThatTakesLongDelaysNoOther) {
+  HttpLimits limits;
+  limits.waiting_answers = 2;
+  Running server(limits);
+  Client first(server.port()), second(server.port());
+  first.send("GET /slow HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_EQ(statusOf(server.talk(std::string("GET /quick HTTP/1.1\r\n") + kClose)), "HTTP/1.1 200");
+  second.send(std::string("GET /slow HTTP/1.1\r\n") + kClose);
+  EXPECT_EQ(statusOf(server.talk(std::string("GET /quick HTTP/1.1\r\n") + kClose)), "HTTP/1.1 200");
+  EXPECT_EQ(statusOf(server.talk(std::string("GET /slow HTTP/1.1\r\n") + kClose)), "HTTP/1.1 503") << "two wait";
+  server.release();
+  EXPECT_NE(first.readTo("at last").find("at last"), std::string::npos);
+  EXPECT_NE(second.readAll().find("at last"), std::string::npos);
+  first.send("GET /quick HTTP/1.1\r\nHost: a\r\n\r\n");
+  EXPECT_NE(first.readTo("GET /quick").find("GET /quick"), std::string::npos) << "the connection is kept";
+}
 
 TEST(HttpServer, ARequestIsAnsweredAndTheConnectionIsKept) {
   Running server;

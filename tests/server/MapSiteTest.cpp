@@ -43,6 +43,11 @@ class MapSiteTest : public query::MapWithFrames {
     request.host = "map:8080";
     return request;
   }
+  /// The answer to a question, which another thread may make.
+  static HttpResponse answered(MapSite& site, const std::string& target) {
+    const auto response = site.answer(get(target));
+    return response.later ? response.later() : response;
+  }
   static HttpRequest edit(const json& words) { return change("/api/edit", words); }
   static HttpRequest change(const std::string& address, const json& words) {
     HttpRequest request = get(address);
@@ -106,7 +111,7 @@ TEST_F(MapSiteTest, NoPathFromOutsideBecomesAFileName) {
 
 TEST_F(MapSiteTest, QuestionsAreAnsweredAsOnTheCommandLine) {
   auto served = site();
-  const auto asked = [&](const std::string& question) { return served.answer(get("/api/query?q=" + question)); };
+  const auto asked = [&](const std::string& question) { return answered(served, "/api/query?q=" + question); };
   const auto found = json::parse(asked("118").body);
   EXPECT_TRUE(found["is_found"]);
   EXPECT_EQ(found["answer"]["matches"][0]["id"], "0:0") << found.dump(1);
@@ -138,12 +143,89 @@ TEST_F(MapSiteTest, AThingIsNamedAndAllPagesAreTold) {
   EXPECT_EQ(json::parse(label({"name", "0:2", "Anna's bed"}).body)["done"], "it is called 'Anna's bed' now");
   EXPECT_EQ(json::parse(served.update(warning))["revision"], 2);
   EXPECT_EQ(json::parse(served.answer(get("/api/map")).body)["places"][2]["properties"]["name"], "Anna's bed");
-  EXPECT_TRUE(json::parse(served.answer(get("/api/query?q=path+kitchen+to+Anna's+bed")).body)["is_found"]);
+  EXPECT_TRUE(json::parse(answered(served, "/api/query?q=path+kitchen+to+Anna's+bed").body)["is_found"]);
   EXPECT_EQ(label({"undo"}).status, 200);
   EXPECT_EQ(label({"undo"}).status, 400);
   HttpRequest of_a_stranger = change("/api/label", {"name", "0:2", "mine"});
   of_a_stranger.cookie.clear();
   EXPECT_EQ(served.answer(of_a_stranger).status, 401);
+}
+
+TEST_F(MapSiteTest, AThingIsDeletedAndRestored) {
+  auto served = site();
+  const auto correct = [&](const json& words) { return served.answer(change("/api/correct", words)); };
+  const auto map = [&] { return json::parse(served.answer(get("/api/map")).body); };
+  EXPECT_EQ(json::parse(correct({"delete", "0:2"}).body)["done"], "bed 0:2 is deleted");
+  EXPECT_EQ(map()["places"].size(), 5U);
+  EXPECT_EQ(map()["deleted"][0]["id"], "0:2");
+  EXPECT_EQ(map()["deleted"][0]["who"], "page");
+  EXPECT_EQ(correct({"restore", "0:2"}).status, 200);
+  EXPECT_EQ(map()["places"].size(), 6U);
+  EXPECT_EQ(correct({"restore", "0:2"}).status, 400);
+  HttpRequest of_a_stranger = change("/api/correct", {"delete", "0:2"});
+  of_a_stranger.cookie.clear();
+  EXPECT_EQ(served.answer(of_a_stranger).status, 401);
+}
+
+TEST_F(MapSiteTest, AMapThatGrowsIsServedInPlaceOfTheOldOneAndIsNotChanged) {
+  const std::string growing = folder_ / "growing";
+  const auto serve = [&] {
+    return MapSite(ServedMap(folder_ / "run", growing), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+                   [] { return base::stampFromUnix(1700000000); });
+  };
+  auto served = serve();
+  std::string warning;
+  const auto map = [&] { return json::parse(served.answer(get("/api/map")).body); };
+  EXPECT_TRUE(map()["is_growing"]);
+  EXPECT_TRUE(map()["places"].empty()) << "there is no map yet";
+  EXPECT_FALSE(json::parse(answered(served, "/api/query?q=kitchen").body)["is_found"]);
+  std::filesystem::create_directories(growing);
+  std::filesystem::copy_file(map_.file, growing + "/checkpoint.omnimap");
+  EXPECT_EQ(json::parse(served.update(warning))["revision"], 2);
+  EXPECT_EQ(map()["places"].size(), 6U);
+  for (const char* address : {"/api/edit", "/api/label", "/api/correct"}) {
+    const auto refused = served.answer(change(address, {"delete", "0:2"}));
+    EXPECT_EQ(refused.status, 400) << address;
+    EXPECT_NE(refused.body.find("has not ended"), std::string::npos) << refused.body;
+  }
+  std::filesystem::create_directories(folder_ / "run");
+  std::filesystem::copy_file(map_.file, folder_ / "run/map.omnimap");
+  std::filesystem::remove_all(growing);
+  EXPECT_NE(served.update(warning), "");
+  EXPECT_FALSE(map()["is_growing"]);
+  EXPECT_EQ(served.answer(change("/api/correct", {"delete", "0:2"})).status, 200);
+}
+
+TEST_F(MapSiteTest, WhatTheRunSaysAboutItselfHasNoNamesOfFiles) {
+  EXPECT_EQ(json::parse(site().answer(get("/api/about")).body), json::object());
+  query::putFile(folder_ / "summary.json",
+                 R"({"title": "home", "verdict": {"sentence": "good"}, "warnings": ["/srv/x.ini: odd"],
+                     "live": {"sensors": [{"name": "laser"}], "recording": {"files": ["/data"]}}})");
+  const auto about = json::parse(site().answer(get("/api/about")).body);
+  EXPECT_EQ(about, (json{{"title", "home"}, {"verdict", {{"sentence", "good"}}}, {"sensors", {{{"name", "laser"}}}}}));
+  query::putFile(folder_ / "summary.json", "no JSON");
+  EXPECT_EQ(json::parse(site().answer(get("/api/about")).body), json::object());
+}
+
+TEST_F(MapSiteTest, AfterTheClockWasSetBackTheRunIsNotGivenWhatItWouldReject) {
+  double now = 1700000000;
+  const std::string file = folder_ / "commands.csv";
+  MapSite served(
+      ServedMap(folder_.path()), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+      [&] { return base::stampFromUnix(now); }, RunCommands(file));
+  const auto go = [&] {
+    const auto ticket = json::parse(served.answer(change("/api/ticket", json::array())).body)["ticket"];
+    return served.answer(change("/api/go", {"kitchen", ticket}));
+  };
+  EXPECT_EQ(go().status, 200);
+  now -= 4;
+  EXPECT_EQ(go().status, 200) << "the driver takes it";
+  now -= 3600;
+  const auto refused = go();
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_NE(refused.body.find("the clock of this machine was set back"), std::string::npos) << refused.body;
+  EXPECT_EQ(served.answer(change("/api/stop", json::array())).status, 200) << "a stop is always given";
+  EXPECT_EQ(base::CsvTable(file).size(), 3U);
 }
 
 TEST_F(MapSiteTest, ALiveRunIsToldWhereToGoOnceAndToStopAtOnce) {

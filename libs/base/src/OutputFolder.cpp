@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char kHidden[] = ".omnimapper", kStaged[] = "staged", kLock[] = "lock";
+const char kHidden[] = ".omnimapper", kStaged[] = "staged", kGrowing[] = "growing", kLock[] = "lock";
 // Disk space that is reserved for the record of the commit and for the names of the moved files.
 const char kReserve[] = "reserve";
 constexpr off_t kReservedBytes = 64 * 1024;
@@ -168,12 +168,16 @@ int takeLock(const fs::path& hidden) {
 }  // namespace
 
 OutputFolder::OutputFolder(const std::string& folder)
-    : folder_(folder), hidden_(folder + "/" + kHidden), staging_(hidden_ + "/" + kStaged) {}
+    : folder_(folder),
+      hidden_(folder + "/" + kHidden),
+      staging_(hidden_ + "/" + kStaged),
+      growing_(hidden_ + "/" + kGrowing) {}
 
 OutputFolder::~OutputFolder() {
   if (lock_ < 0) return;
   std::error_code ignored;
   const fs::path hidden(hidden_);
+  fs::remove_all(growing_, ignored);
   if (!fs::exists(hidden / kCommit, ignored)) {
     fs::remove_all(staging_, ignored);
     fs::remove(hidden / kReserve, ignored);
@@ -210,6 +214,7 @@ void OutputFolder::lock() {
   try {
     finishCommit(folder_);
     fs::remove_all(staging_);
+    fs::remove_all(growing_);
   } catch (const fs::filesystem_error& error) {
     fail(folder_, std::string("the unfinished outputs of a killed run cannot be completed (") + error.what() + ")");
   }

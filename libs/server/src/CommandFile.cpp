@@ -14,6 +14,9 @@ namespace omnimapper::server {
 
 namespace {
 
+/// A command later than the clock by more than this is not given [s]; the driver CCommandFile rejects it if it is 10 s.
+constexpr double kMostAhead = 5;
+
 /// The stamp with which a row begins; that of no time if it begins with none.
 base::Stamp stampOfRow(const std::string& row) {
   const auto comma = row.find(',');
@@ -94,6 +97,13 @@ void CommandFile::append(obs::CObservationCommand command) {
     throw base::Error(base::ExitCode::unwritable_output,
                       path_ + ": is no table of commands that this program began, for its first line is another one; " +
                           "name a new file");
+  const double ahead = base::secondsBetween(command.timestamp, file.lastStamp());
+  if (ahead > kMostAhead && command.kind != obs::CommandKind::stop)
+    throw base::Error(
+        base::ExitCode::unwritable_output,
+        "the clock of this machine was set back since the last command, so the run would reject this one; "
+        "try again in " +
+            std::to_string(static_cast<long>(ahead)) + " s");
   command.timestamp = std::max(command.timestamp, file.lastStamp() + base::Duration(1));
   std::string bytes = file.isCutOff() ? "\n" : "";
   if (file.isEmpty()) bytes = std::string(obs::kCommandColumns) + "\n";

@@ -101,9 +101,19 @@ void HttpConnection::answerRequest(error_code error) {
   HttpRequest request = requestOf(message);
   if (!readTarget(std::string(message.target()), request)) return refuse(400, "The address of the request is damaged.");
   const HttpResponse response = host_.answer(request);
+  const bool keep_alive = message.keep_alive();
+  if (!response.later) return answerWith(response, is_head, keep_alive);
+  const bool is_taken =
+      host_.answerLater(response.later, [self = shared_from_this(), is_head, keep_alive](const HttpResponse& made) {
+        if (self->isOpen()) self->answerWith(made, is_head, keep_alive);
+      });
+  if (!is_taken) refuse(503, "Too many questions wait for an answer; ask again in a moment.");
+}
+
+void HttpConnection::answerWith(const HttpResponse& response, bool is_head, bool keep_alive) {
   if (response.is_event_stream && !is_head) return beginStream(response);
-  if (response.file.empty()) return write(response, is_head, message.keep_alive());
-  writeFile(response, is_head, message.keep_alive());
+  if (response.file.empty()) return write(response, is_head, keep_alive);
+  writeFile(response, is_head, keep_alive);
 }
 
 void HttpConnection::refuse(int status, const std::string& sentence) {

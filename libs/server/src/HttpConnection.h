@@ -10,6 +10,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ class HttpHost {
   virtual const HttpLimits& limits() const = 0;
   /// The handler's answer, or a refusal if there are too many requests.
   virtual HttpResponse answer(const HttpRequest& request) = 0;
+  /// Has another thread make an answer that takes long, and `done` called with it by this thread; false if too many
+  /// wait.
+  virtual bool answerLater(std::function<HttpResponse()> make, std::function<void(const HttpResponse&)> done) = 0;
   /// Takes a connection among the event streams; false if there are too many.
   virtual bool addStream(const std::shared_ptr<HttpConnection>& connection) = 0;
 };
@@ -51,6 +55,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void readRequest();
   void readRest();
   void answerRequest(boost::beast::error_code error);
+  void answerWith(const HttpResponse& response, bool is_head, bool keep_alive);
   void answerDamaged(boost::beast::error_code error);
   void write(const HttpResponse& response, bool is_head, bool keep_alive);
   void writeFile(const HttpResponse& response, bool is_head, bool keep_alive);

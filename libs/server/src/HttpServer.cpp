@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <chrono>
 #include <utility>
 #include <vector>
@@ -69,6 +71,19 @@ class HttpServer::Connections : public HttpHost {
     return handler_(request);
   }
 
+  bool answerLater(std::function<HttpResponse()> make, std::function<void(const HttpResponse&)> done) override {
+    if (waiting_answers_ >= limits_.waiting_answers) return false;
+    ++waiting_answers_;
+    // The thread of run() alone calls and destroys `done`, which keeps a connection.
+    asio::post(worker_, [this, make = std::move(make), done = std::move(done)]() mutable {
+      asio::post(context_, [this, done = std::move(done), made = make()] {
+        --waiting_answers_;
+        done(made);
+      });
+    });
+    return true;
+  }
+
   bool addStream(const std::shared_ptr<HttpConnection>& connection) override {
     forgetClosed();
     if (static_cast<int>(streams_.size()) >= limits_.event_streams) return false;
@@ -86,6 +101,8 @@ class HttpServer::Connections : public HttpHost {
     accept();
     waitForTick(stop, tick);
     context_.run();
+    worker_.stop();  // what waits is dropped
+    worker_.join();
     // What is still open is closed, so that no connection refers to this server any more.
     for (const auto& connection : open_)
       if (const auto alive = connection.lock()) alive->close();
@@ -135,6 +152,8 @@ class HttpServer::Connections : public HttpHost {
   tcp::acceptor acceptor_;
   asio::steady_timer timer_;
   RequestRate rate_;
+  asio::thread_pool worker_{1};
+  int waiting_answers_ = 0;
   std::vector<std::weak_ptr<HttpConnection>> open_;
   std::vector<std::shared_ptr<HttpConnection>> streams_;
   int silent_ticks_ = 0;

@@ -1,6 +1,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/base/Names.h>
 #include <omnimapper/query/Verbs.h>
+#include <omnimapper/query/correctMap.h>
 #include <omnimapper/query/editLabels.h>
 #include <omnimapper/query/editRooms.h>
 #include <omnimapper/server/MapSite.h>
@@ -58,6 +59,37 @@ std::vector<std::string> changeWords(const std::string& body) {
   throw base::Error(base::ExitCode::command_line, "a change is a JSON object with a list of texts, \"words\"");
 }
 
+// Where the map is on this machine is nothing for a page, so names of files are those in the folder of the map.
+HttpResponse refusedBecause(const base::Error& error, const query::MapToAsk& map) {
+  std::string sentence = error.what();
+  const std::string folder = map.folder + "/";
+  for (auto at = sentence.find(folder); at != std::string::npos; at = sentence.find(folder, at))
+    sentence.erase(at, folder.size());
+  return refusal(error.code() == base::ExitCode::disk_full ? 507 : 400, base::printable(sentence));
+}
+
+HttpResponse defect(const std::exception& error) {
+  return refusal(500, std::string("a defect of the server: ") + error.what());
+}
+
+HttpResponse answerQuestion(const query::MapToAsk& map, const std::string& text) {
+  try {
+    query::Request asked;
+    asked.words = wordsOf(text);
+    const auto& verb = verbOf(asked.words);
+    query::expectWords(verb, asked);
+    const query::Answer answer = verb.answer(map, asked);
+    Json document = Json::parse(answer.json, nullptr, false);
+    document.erase("map");  // the path of a file on this machine is nothing for a page
+    return jsonAnswer(dumped(
+        {{"is_found", answer.code == base::ExitCode::ok}, {"text", answer.text}, {"answer", std::move(document)}}));
+  } catch (const base::Error& error) {
+    return refusedBecause(error, map);
+  } catch (const std::exception& error) {
+    return defect(error);
+  }
+}
+
 }  // namespace
 
 MapSite::MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock,
@@ -75,9 +107,9 @@ HttpResponse MapSite::answer(const HttpRequest& request) {
     const auto refused = access_.refused(request);
     response = refused ? *refused : answerAllowed(request);
   } catch (const base::Error& error) {
-    response = refusedBecause(error);
+    response = refusedBecause(error, map_.map());
   } catch (const std::exception& error) {
-    response = refusal(500, std::string("a defect of the server: ") + error.what());
+    response = defect(error);
   }
   Access::protect(response);
   return response;
@@ -87,20 +119,12 @@ bool MapSite::isStop(const HttpRequest& request) const {
   return commands_ && request.method == "POST" && request.path == kStop && !access_.refused(request);
 }
 
-// Where the map is on this machine is nothing for a page, so names of files are those in the folder of the map.
-HttpResponse MapSite::refusedBecause(const base::Error& error) const {
-  std::string sentence = error.what();
-  const std::string folder = map_.map().folder + "/";
-  for (auto at = sentence.find(folder); at != std::string::npos; at = sentence.find(folder, at))
-    sentence.erase(at, folder.size());
-  return refusal(error.code() == base::ExitCode::disk_full ? 507 : 400, base::printable(sentence));
-}
-
 HttpResponse MapSite::answerAllowed(const HttpRequest& request) {
   if (request.method == "POST") return change(request);
   if (const auto file = files_.find(request.path)) return *file;
   if (request.path == "/enter") return access_.enter(request);
   if (request.path == "/api/map") return jsonAnswer(map_.document());
+  if (request.path == "/api/about") return jsonAnswer(map_.about());
   if (request.path == "/api/trajectory") return jsonAnswer(map_.trajectory());
   if (request.path == "/api/query") return question(request);
   if (request.path == "/api/picture") return picture(request);
@@ -112,19 +136,18 @@ HttpResponse MapSite::answerAllowed(const HttpRequest& request) {
   return refusal(404, "There is nothing at this address.");
 }
 
+// A path in a large grid takes long, so another thread answers, which reads this map only.
 HttpResponse MapSite::question(const HttpRequest& request) const {
   const auto text = request.values.find("q");
   if (text == request.values.end() || text->second.empty())
     return refusal(400, "A question is missing: /api/query?q=kitchen");
-  query::Request asked;
-  asked.words = wordsOf(text->second);
-  const auto& verb = verbOf(asked.words);
-  query::expectWords(verb, asked);
-  const query::Answer answer = verb.answer(map_.map(), asked);
-  Json document = Json::parse(answer.json, nullptr, false);
-  document.erase("map");  // the path of a file on this machine is nothing for a page
-  return jsonAnswer(dumped(
-      {{"is_found", answer.code == base::ExitCode::ok}, {"text", answer.text}, {"answer", std::move(document)}}));
+  HttpResponse response;
+  response.later = [map = map_.sharedMap(), asked = text->second] {
+    HttpResponse answer = answerQuestion(*map, asked);
+    Access::protect(answer);
+    return answer;
+  };
+  return response;
 }
 
 HttpResponse MapSite::ply(const std::string& name) const {
@@ -147,11 +170,28 @@ HttpResponse MapSite::picture(const HttpRequest& request) const {
   return {200, "image/png", *bytes};
 }
 
+// What people change is in the files of a map, which a run that goes on would write over.
+void MapSite::expectWhole() const {
+  if (isGrowing(map_.map()))
+    throw base::Error(base::ExitCode::unreadable_input,
+                      "the run that makes this map has not ended; that can be changed when it has");
+}
+
+std::string MapSite::editRooms(const std::vector<std::string>& words) {
+  expectWhole();
+  return query::editRooms(map_.map().folder, words);
+}
+
 std::string MapSite::editLabels(const std::vector<std::string>& words) {
-  if (!query::isCheckpoint(map_.map().file) || !commands_)
-    return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
+  if (!commands_) expectWhole();
+  if (!isGrowing(map_.map())) return query::editLabels(map_.map().file, {words, "page", clock_()}, labels_);
   commands_->label(words, clock_());
   return "the run was told; the name is in the map with its next checkpoint";
+}
+
+std::string MapSite::correct(const std::vector<std::string>& words) {
+  expectWhole();
+  return query::correctMap(map_.map().file, {words, "page", clock_()});
 }
 
 std::string MapSite::goTo(const std::vector<std::string>& words) {
@@ -172,9 +212,11 @@ HttpResponse MapSite::ticket() {
 HttpResponse MapSite::change(const HttpRequest& request) {
   std::string done, warning;
   if (request.path == "/api/edit")
-    done = query::editRooms(map_.map().folder, changeWords(request.body));
+    done = editRooms(changeWords(request.body));
   else if (request.path == "/api/label")
     done = editLabels(changeWords(request.body));
+  else if (request.path == "/api/correct")
+    done = correct(changeWords(request.body));
   else if (commands_ && request.path == "/api/ticket")
     return ticket();
   else if (commands_ && request.path == "/api/go")

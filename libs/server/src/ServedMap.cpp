@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -22,6 +23,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+constexpr char kGrowingMap[] = "/checkpoint.omnimap";
 
 /// What changes when a file is replaced.
 std::string stampOf(const std::string& file) {
@@ -103,14 +106,45 @@ Json trajectoryOf(const std::string& folder) {
   return list;
 }
 
+/// Why surfaces are called what they are called, by the ids of their landmarks: from surfaces.json of the run.
+std::map<std::string, std::string> reasonsOf(const std::string& folder) {
+  std::map<std::string, std::string> reasons;
+  const auto file = smallFile(folder, "surfaces.json");
+  const Json read = file ? Json::parse(base::readInput(*file, "surfaces"), nullptr, false) : Json();
+  if (!read.is_object() || !read.contains("surfaces") || !read["surfaces"].is_array()) return reasons;
+  for (const auto& surface : read["surfaces"])
+    if (surface.is_object() && surface.contains("name") && surface["name"].is_string() && surface.contains("reason") &&
+        surface["reason"].is_string())
+      reasons[surface["name"].get<std::string>()] = surface["reason"].get<std::string>();
+  return reasons;
+}
+
+// Whatever else a summary has, such as warnings with the names of files, is nothing for a page.
+Json aboutOf(const std::string& folder) {
+  Json about = Json::object();
+  const auto file = smallFile(folder, "summary.json");
+  if (!file) return about;
+  const Json summary = Json::parse(base::readInput(*file, "summary"), nullptr, false);
+  if (!summary.is_object()) return about;
+  for (const char* key : {"title", "sessions", "verdict", "travel_m", "closures"})
+    if (summary.contains(key)) about[key] = summary[key];
+  if (summary.contains("live") && summary["live"].is_object() && summary["live"].contains("sensors"))
+    about["sensors"] = summary["live"]["sensors"];
+  return about;
+}
+
 }  // namespace
 
-ServedMap::ServedMap(std::string path) : path_(std::move(path)) {
+bool isGrowing(const query::MapToAsk& map) {
+  return map.file.empty() || query::isCheckpoint(map.file);
+}
+
+ServedMap::ServedMap(std::string path, std::string growing) : path_(std::move(path)), growing_(std::move(growing)) {
   load();
 }
 
 bool ServedMap::update(std::string& warning) {
-  const std::string now = stampOfFiles(map_);
+  const std::string now = stampOfFiles(*map_);
   if (now == stamp_) return false;
   try {
     load();
@@ -123,22 +157,40 @@ bool ServedMap::update(std::string& warning) {
 }
 
 std::string ServedMap::stampOfFiles(const query::MapToAsk& map) const {
-  return stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string()) + solidOf(map.folder).dump();
+  return stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string()) + solidOf(map.folder).dump() +
+         (growing_.empty() ? "" : stampOf(growing_ + kGrowingMap) + stampOf(path_ + "/map.omnimap"));
+}
+
+query::MapToAsk ServedMap::open() const {
+  std::error_code none;
+  if (growing_.empty()) return query::openMap(path_);
+  if (fs::exists(growing_ + kGrowingMap, none)) return query::openMap(growing_);
+  if (fs::exists(path_ + "/map.omnimap", none)) return query::openMap(path_);
+  query::MapToAsk nothing;
+  nothing.folder = path_;
+  return nothing;
 }
 
 void ServedMap::load() {
-  auto map = query::openMap(path_);
+  auto map = open();
   const std::string stamp = stampOfFiles(map);
   const auto grid = gridOf(map.folder);
   Json document = Json::parse(query::mapDocument(map));
   document["revision"] = revision_ + 1;
   document["grid"] = grid ? placeOf(*grid) : Json(nullptr);
   document["solid"] = solidOf(map.folder);
-  for (auto& place : document["places"])
-    place["has_picture"] = pictureFile(map.folder, place["id"].get<std::string>()).has_value();
+  document["is_growing"] = isGrowing(map);
+  const auto reasons = reasonsOf(map.folder);
+  for (auto& place : document["places"]) {
+    const auto id = place["id"].get<std::string>();
+    place["has_picture"] = pictureFile(map.folder, id).has_value();
+    const auto reason = reasons.find(id);
+    place["why"] = reason == reasons.end() ? Json(nullptr) : Json(reason->second);
+  }
   std::string trajectory = trajectoryOf(map.folder).dump() + "\n";
   std::string png = grid ? pngOf(*grid) : std::string();
-  map_ = std::move(map);
+  about_ = aboutOf(map.folder).dump() + "\n";
+  map_ = std::make_shared<const query::MapToAsk>(std::move(map));
   document_ = document.dump() + "\n";
   grid_png_ = std::move(png);
   trajectory_ = std::move(trajectory);
@@ -147,16 +199,16 @@ void ServedMap::load() {
 }
 
 std::optional<std::string> ServedMap::fileOfRun(const std::string& name) const {
-  const auto file = smallFile(map_.folder, name);
+  const auto file = smallFile(map_->folder, name);
   return file ? std::optional(base::committedPath(*file)) : std::nullopt;
 }
 
 std::optional<std::string> ServedMap::pictureOf(const std::string& id) const {
-  const auto& places = map_.places.places;
+  const auto& places = map_->places.places;
   const auto place =
       std::find_if(places.begin(), places.end(), [&](const auto& each) { return toString(each.id) == id; });
   if (place == places.end()) return std::nullopt;
-  const auto file = pictureFile(map_.folder, toString(place->id));
+  const auto file = pictureFile(map_->folder, toString(place->id));
   return file ? std::optional(base::readInput(*file, "picture")) : std::nullopt;
 }
 

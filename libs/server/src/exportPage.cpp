@@ -71,7 +71,8 @@ std::string documentOf(const ServedMap& map) {
 std::string dataOf(const ServedMap& map) {
   const std::string grid = map.gridPng().empty() ? "" : "data:image/png;base64," + draw::encodeBase64(map.gridPng());
   return "globalThis.omnimapperMap = {\n\"map\": " + documentOf(map) +
-         ",\n\"trajectory\": " + trimmedEnd(map.trajectory()) + ",\n\"grid\": \"" + grid + "\"\n};\n";
+         ",\n\"trajectory\": " + trimmedEnd(map.trajectory()) + ",\n\"about\": " + trimmedEnd(map.about()) +
+         ",\n\"grid\": \"" + grid + "\"\n};\n";
 }
 
 }  // namespace

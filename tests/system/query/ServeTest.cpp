@@ -1,11 +1,14 @@
 // omnimapper-serve: what it says, what it refuses, and how it ends.
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/map/Labels.h>
 #include <omnimapper/map/Layers.h>
 #include <omnimapper/map/MapFile.h>
 #include <omnimapper/map/Places.h>
 #include <signal.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../../server/Client.h"
 #include "../Runs.h"
@@ -76,12 +79,23 @@ class RunningServer {
   /// Sends a change of labels; `read` takes the answer.
   template <class Read>
   void label(const json& words, Read read) {
+    post("/api/label", words, read);
+  }
+  template <class Read>
+  void post(const std::string& address, const json& words, Read read) {
     const std::string host = "127.0.0.1:" + std::to_string(port_), body = json{{"words", words}}.dump();
     omnimapper::server::Client client(port_);
-    client.send("POST /api/label HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
+    client.send("POST " + address + " HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
                 "\r\nContent-Type: application/json\r\nCookie: omnimapper_token=" + token_ +
                 "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
     read(client);
+  }
+  /// Whether it confirms a change.
+  bool confirms(const std::string& address, const json& words) {
+    bool is_confirmed = false;
+    post(address, words,
+         [&](auto& client) { is_confirmed = client.readTo("\"done\"").find("\"done\"") != std::string::npos; });
+    return is_confirmed;
   }
   void kill() {
     program_.send(SIGKILL);
@@ -113,6 +127,27 @@ TEST_F(Serve, KeepsEachNameThatItConfirmedWhenItIsKilled) {
   EXPECT_EQ(confirmed.size(), 30U);
 }
 
+TEST_F(Serve, KeepsEachCorrectionAndUndoThatItConfirmedWhenItIsKilled) {
+  for (int round = 0; round < 4; ++round) {
+    const bool is_undone = round % 2 == 1, is_deleted = round < 2;
+    const std::string name = "name " + std::to_string(round);
+    RunningServer server(command({folder_.path(), "--port", "0"}));
+    EXPECT_TRUE(server.confirms("/api/label", {"name", "1", "2", name}));
+    if (is_undone) {
+      EXPECT_TRUE(server.confirms("/api/label", {"undo"}));
+    } else {
+      EXPECT_TRUE(server.confirms("/api/correct", {is_deleted ? "delete" : "restore", "0:0"}));
+    }
+    server.label({"name", "1", "2", "unconfirmed"}, [&](auto&) { server.kill(); });
+    const auto file = map::MapFile::read(folder_ / "map.omnimap");
+    std::size_t count = 0;
+    if (const auto* labels = file.find(map::Labels::kLayer))
+      for (const auto& label : map::Labels::fromSection(*labels).labels) count += label.text == name;
+    EXPECT_EQ(count, is_undone ? 0U : 1U) << name;
+    EXPECT_EQ(file.find(map::Corrections::kLayer) != nullptr, is_deleted) << round;
+  }
+}
+
 TEST_F(Serve, ChangesNothingOnAFullDiskAndSaysSo) {
   const std::string before = readFile(folder_ / "map.omnimap");
   ProgramOptions full;
@@ -124,6 +159,28 @@ TEST_F(Serve, ChangesNothingOnAFullDiskAndSaysSo) {
     EXPECT_EQ(answer.find(folder_.path()), std::string::npos) << answer;
   });
   EXPECT_EQ(readFile(folder_ / "map.omnimap"), before);
+}
+
+TEST_F(Serve, ARunShowsItsMapAndThePageStaysUntilCtrlC) {
+  const std::string out = folder_ / "run";
+  omnimapper::testing::Program program(mappingCommand(
+      {omnimapper::testing::sourceFile("rawlogs/home_30s/home_30s.rawlog")}, out, {"--page", "--set", "page.port=0"}));
+  for (int i = 0; i < 1200 && program.printedSoFar().find("Ctrl-C ends.") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const std::string said = program.saidSoFar(), start = "http://127.0.0.1:";
+  const auto at = said.find(start);
+  ASSERT_NE(at, std::string::npos) << said;
+  const auto port = static_cast<std::uint16_t>(std::stoi(said.substr(at + start.size())));
+  std::string map;
+  for (int i = 0; i < 100 && map.find("\"is_growing\":false") == std::string::npos; ++i) {
+    omnimapper::server::Client client(port);
+    client.send("GET /api/map HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\nConnection: close\r\n\r\n");
+    map = client.readAll();
+  }
+  EXPECT_NE(map.find("\"is_growing\":false"), std::string::npos) << map.substr(0, 2000);
+  program.send(SIGINT);
+  EXPECT_TRUE(endedWith(ExitCode::ok, program.wait()));
+  EXPECT_FALSE(fs::exists(out + "/.omnimapper/growing"));
 }
 
 TEST_F(Serve, RefusesWhatOthersCouldReachAndWhatIsNoMap) {

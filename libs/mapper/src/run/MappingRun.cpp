@@ -157,15 +157,16 @@ void Run::open() {
 void Run::makeEngine() {
   const auto& options = settings_.engine;
   SensorPoses sensor_poses(options.sensors, config_);
-  auto outputs = options.output_plugins;
-  outputs.insert(outputs.end(), request_.more_outputs.begin(), request_.more_outputs.end());
-
+  const auto outputs = outputSections(config_, request_.more_outputs);
   context_.motion = options.motion;
   context_.map_is_held = localizes();
   context_.output_folder = outputs_.staging();
   context_.title = feed_->title();
   context_.config_text = config_.text();
-  auto plugins = makePlugins({options.pose_plugins, perception_.extractors, measurementSections(config_), outputs},
+  context_.run_folder = outputs_.folder();
+  context_.growing_folder = outputs_.growing();
+  context_.say = [this](const std::string& sentence) { progress_.reportEvent(sentence); };
+  auto plugins = makePlugins({options.pose_plugins, perception_.extractors, measurementSections(config_), outputs.made},
                              config_, context_);
   config_.refuseUnreadSections();
   measuring_.insert(options.measurement_plugins.begin(), options.measurement_plugins.end());
@@ -173,6 +174,7 @@ void Run::makeEngine() {
     if (!plugin->isFallback()) measuring_.insert(section);
   engine_.emplace(settings_, context_.title, std::move(sensor_poses), std::move(plugins), request_.threads,
                   feed_->schedule());
+  for (const auto& sentence : outputs.left_out) engine_->warn(sentence);
 }
 
 // Settings of other sections than those of plugins hold until the run ends.
@@ -377,6 +379,7 @@ RunResult Run::report() {
   progress_.report(1.0, "writing the outputs");
   publish(engine_->writeOutputs(), outcome);
   feed_->published(outcome.output_folder);
+  for (const auto& [section, plugin] : engine_->plugins().output) plugin->published(outcome.output_folder);
   outcome.wall_seconds = watch_.seconds();
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);

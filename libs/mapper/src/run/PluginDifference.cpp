@@ -14,12 +14,9 @@ namespace {
 using Names = std::vector<std::string>;
 
 PluginSections sectionsOf(const base::Config& config, const Names& more_outputs) {
-  const auto engine = config.section("mapper").read<EngineOptions>();
-  PluginSections sections{engine.pose_plugins, config.section("perception").read<PerceptionOptions>().extractors,
-                          measurementSections(config), engine.output_plugins};
-  for (const auto& more : more_outputs)
-    if (std::count(sections.output.begin(), sections.output.end(), more) == 0) sections.output.push_back(more);
-  return sections;
+  return {config.section("mapper").read<EngineOptions>().pose_plugins,
+          config.section("perception").read<PerceptionOptions>().extractors, measurementSections(config),
+          outputSections(config, more_outputs).made};
 }
 
 // "trigger" of "[trigger] distance_m (0.2, was 0.5)".

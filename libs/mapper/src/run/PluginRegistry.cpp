@@ -164,6 +164,42 @@ std::shared_ptr<const PluginFactory> factoryOfSection(PluginKind kind, const std
   return findFactory(kind, class_name, place + " class");
 }
 
+namespace {
+
+// Where an INI that may come from anywhere sets something of the output; empty if it does not.
+std::string untrustedPlaceOf(const std::string& section, const PluginFactory& factory, bool is_listed,
+                             const base::Config& config) {
+  if (is_listed && !config.isTrusted("mapper", "output_plugins")) return config.placeOf("mapper", "output_plugins");
+  std::vector<std::string> keys{"class"};
+  for (const auto& option : factory.options()) keys.push_back(option.key);
+  for (const auto& key : keys)
+    if (!config.isTrusted(section, key)) return config.placeOf(section, key);
+  return "";
+}
+
+}  // namespace
+
+OutputSections outputSections(const base::Config& config, const std::vector<std::string>& more_outputs) {
+  auto asked = config.section("mapper").read<EngineOptions>().output_plugins;
+  const std::set<std::string> more(more_outputs.begin(), more_outputs.end());
+  for (const auto& section : more_outputs)
+    if (std::count(asked.begin(), asked.end(), section) == 0) asked.push_back(section);
+  OutputSections sections;
+  for (const auto& section : asked) {
+    const auto factory = factoryOfSection(PluginKind::output, section, config);
+    const std::string place =
+        factory->needsTrust() ? untrustedPlaceOf(section, *factory, more.count(section) == 0, config) : "";
+    if (place.empty()) {
+      sections.made.push_back(section);
+    } else {
+      config.section(section);  // it is known
+      sections.left_out.push_back(place + ": [" + section + "] is left out: " + factory->name() +
+                                  " lets others in, so only the first INI or the command line may name and set it");
+    }
+  }
+  return sections;
+}
+
 PluginSet makePlugins(const PluginSections& sections, const base::Config& config, PluginContext context) {
   PluginSet set;
   makeAll<PosePluginFactory>(sections.pose, PluginKind::pose, config, context, set.pose);

@@ -67,6 +67,31 @@ async function nameATable(visitor, other) {
   await visitor.seesText('#panel .done', 'is undone');
 }
 
+async function deleteASeat(visitor, other) {
+  step('a seat is deleted by touch, and brought back by undo and from the list of what was deleted');
+  const seats = async () => (await other.text('#list')).match(/^seat/gm)?.length ?? 0;
+  const before = await seats();
+  const remove = async () => {
+    await visitor.asks('find seat');
+    await visitor.presses('#panel', 'seat');
+    await visitor.presses('#panel', 'Delete it from the map');
+    await visitor.presses('#panel', 'Yes');
+    await visitor.seesText('#panel .done', 'is deleted');
+  };
+  await remove();
+  await other.sees((root, most) => (root.querySelector('#list').innerText.match(/^seat/gm)?.length ?? 0) < most, before);
+  await visitor.presses('#panel', 'Undo');
+  await visitor.seesText('#panel .done', 'is in the map again');
+  await remove();
+  await visitor.page.$eval('aside > details', (each) => { each.open = true; });
+  await keep(visitor, 'about');
+  await visitor.presses('#about', 'Bring it back');
+  await visitor.seesText('#panel .done', 'is in the map again');
+  await visitor.seesText('#about', 'Is the map right?');
+  await visitor.page.$eval('aside > details', (each) => { each.open = false; });
+  assert.equal(await seats(), before);
+}
+
 async function nameASpot(visitor) {
   step('a spot of the floor is named');
   await visitor.presses('#list', 'room 3');
@@ -115,6 +140,8 @@ async function showInThreeDimensions(visitor) {
     });
   }));
   assert.ok(colours > 20, `points and surfaces have ${colours} colours`);
+  const written = Number(await visitor.page.$eval('#names', (each) => each.dataset.written));
+  assert.ok(written > 0, 'names are written in 3D');
   await keep(visitor, 'solid');
   await visitor.presses('#zoom', 'Plan');
   await visitor.sees((root) => root.querySelector('#solid').hidden);
@@ -171,6 +198,7 @@ async function surviveTheServer(visitors, server) {
   for (const visitor of visitors) await visitor.seesText('#state', 'not reached');
   const next = await startServer(program, map, server.port);
   for (const visitor of visitors) await visitor.seesText('#state', 'landmarks');
+  for (const visitor of visitors) await visitor.sees((root) => !root.querySelector('#lost').hidden);
   assert.equal(await visitors[0].text('#list'), revisions, 'what was confirmed is still there');
   return next;
 }
@@ -199,6 +227,7 @@ try {
   await searchAndChoose(desk);
   await renameARoom(tablet, desk);
   await nameATable(tablet, desk);
+  await deleteASeat(tablet, desk);
   await nameASpot(desk);
   await goAndStop(desk);
   await showAPath(desk);

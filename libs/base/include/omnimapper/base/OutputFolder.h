@@ -32,6 +32,9 @@ class OutputFolder {
   /// under the same name.
   const std::string& staging() const { return staging_; }
   const std::string& folder() const { return folder_; }
+  /// A folder for what is shown of a map while it grows. It is none of the run's files: it does not exist after open(),
+  /// and the destructor removes it.
+  const std::string& growing() const { return growing_; }
   /// Lets commit() keep a file of the previous run, given by its path in the folder, unless a new file has the same
   /// path.
   void keep(const std::string& name) { kept_.insert(name); }
@@ -58,7 +61,7 @@ class OutputFolder {
  private:
   void lock();
 
-  std::string folder_, hidden_, staging_;
+  std::string folder_, hidden_, staging_, growing_;
   std::set<std::string> kept_;
   int lock_ = -1;
   bool is_new_ = false;

@@ -24,6 +24,15 @@ std::shared_ptr<const PluginFactory> findFactory(PluginKind kind, const std::str
 /// class.
 std::vector<std::string> measurementSections(const base::Config& config);
 
+/// The sections of the outputs of a run.
+struct OutputSections {
+  std::vector<std::string> made;
+  std::vector<std::string>
+      left_out;  ///< a sentence on each that the INI names, but may not (PluginFactory::needsTrust)
+};
+/// The outputs of [mapper] output_plugins and those that the command line adds. Throws as makePlugins().
+OutputSections outputSections(const base::Config& config, const std::vector<std::string>& more_outputs);
+
 /// The factory of the class that the section `name` names; a default plugin needs no section. Throws as makePlugins().
 std::shared_ptr<const PluginFactory> factoryOfSection(PluginKind kind, const std::string& name,
                                                       const base::Config& config);

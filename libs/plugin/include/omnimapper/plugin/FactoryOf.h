@@ -24,6 +24,12 @@ constexpr bool kReadsSections = false;
 template <class Struct>
 constexpr bool kReadsSections<Struct, std::void_t<decltype(std::declval<Struct>().sectionsRead())>> = true;
 
+/// Whether a plugin class has a constant kNeedsTrust, which is true.
+template <class Made, class = void>
+constexpr bool kIsForTrustedInis = false;
+template <class Made>
+constexpr bool kIsForTrustedInis<Made, std::void_t<decltype(Made::kNeedsTrust)>> = Made::kNeedsTrust;
+
 /// The factory of a plugin class, by which an INI can name it. The constructor of `Made` takes one or more structs of
 /// options, and after them, if it must know the run, the context: `Made(const Structs&..., const PluginContext&)`. Its
 /// section of the INI has the keys of all these structs, in that order. `Made` has two constants: kName is the name
@@ -42,6 +48,7 @@ class FactoryOf : public AbstractFactoryOf<Made> {
   std::string name() const override { return Made::kName; }
   std::string summary() const override { return Made::kSummary; }
   const std::vector<base::OptionSpec>& options() const override { return SharedSection<Structs...>::options(); }
+  bool needsTrust() const override { return kIsForTrustedInis<Made>; }
   void registerKinds([[maybe_unused]] Kinds& kinds) const override {
     if constexpr (std::is_base_of_v<MeasurementPlugin, Made>) Made::registerKinds(kinds);
   }

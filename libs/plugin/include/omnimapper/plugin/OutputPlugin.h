@@ -2,6 +2,8 @@
 
 #include <omnimapper/plugin/View.h>
 
+#include <string>
+
 namespace omnimapper::mapper {
 
 /// Which images of a log the key frames keep: none, depth images, or all.
@@ -27,6 +29,9 @@ class OutputPlugin {
   virtual void frameAdded(const View& /*view*/) {}
   /// Called once, at the end of the run. Throws base::Error if an output cannot be written.
   virtual void finish(const View& view) = 0;
+  /// Called after finish(), when the files of the run are at their places in `folder`: that of the run, or one inside
+  /// it if the run is incomplete.
+  virtual void published(const std::string& /*folder*/) {}
   /// Whether a user may still be viewing the output: the run ends only once this is false for every output.
   virtual bool isLookedAt() const { return false; }
 };

@@ -11,6 +11,7 @@
 #include <omnimapper/plugin/OutputPlugin.h>
 #include <omnimapper/plugin/PosePlugin.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,13 +25,17 @@ using perception::Extractor;
 struct PluginContext {
   std::string section;  ///< its section of the INI; owner of its factors and decisions
   Motion motion = Motion::planar;
-  bool map_is_held = false;   ///< the run localizes in a map that it does not change
-  std::string output_folder;  ///< an existing folder; empty in a run without outputs
-  std::string title;          ///< of the run, for reports: the log's name
-  std::string config_text;    ///< the INI of the run
+  bool map_is_held = false;    ///< the run localizes in a map that it does not change
+  std::string output_folder;   ///< an existing folder; empty in a run without outputs
+  std::string title;           ///< of the run, for reports: the log's name
+  std::string config_text;     ///< the INI of the run
+  std::string run_folder;      ///< where the files of output_folder are in the end; need not exist yet
+  std::string growing_folder;  ///< for what is shown of a map while it grows; need not exist, and is removed in the end
+  std::function<void(const std::string&)>
+      say;  ///< tells the user a sentence now; may be empty. For the engine's thread
 };
 
-/// The readers of the layers that need no plugin: the level and the place on earth.
+/// The readers of the layers that need no plugin: the level, the place on earth, and what people corrected.
 map::LayerRegistry layersOfNoPlugin();
 
 /// The kinds of factors, payloads and layers that a map file may contain.
@@ -53,6 +58,9 @@ class PluginFactory : public mrpt::rtti::CObject {
   /// One sentence for --list-plugins.
   virtual std::string summary() const = 0;
   virtual const std::vector<base::OptionSpec>& options() const = 0;
+  /// Whether it lets others in, so that only the first INI or the command line may name it and set its options. In
+  /// other INIs, which may come from anywhere, it is left out.
+  virtual bool needsTrust() const { return false; }
   /// Registers the variables, factors, payloads and layers that the class's plugins put into a map, so that a map file
   /// can be read.
   virtual void registerKinds(Kinds& /*kinds*/) const {}

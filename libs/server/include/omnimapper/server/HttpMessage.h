@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -24,6 +25,8 @@ struct HttpResponse {
   std::vector<std::pair<std::string, std::string>> fields = {};  ///< further header fields
   bool is_event_stream = false;  ///< the connection stays open for HttpServer::send(); `body` is its first event
   std::string file = {};         ///< a file that is sent in place of `body`, piece by piece; empty: `body` is sent
+  /// If it is set, the answer takes long: this makes it, and may be called in another thread. It must not throw.
+  std::function<HttpResponse()> later = {};
 };
 
 /// An answer that refuses a request, with a sentence for people.

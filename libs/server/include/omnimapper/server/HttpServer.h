@@ -21,13 +21,15 @@ struct HttpLimits {
   int answer_s = 30;                                             ///< to take an answer
   double requests_per_s = 200;                                   ///< of all clients, on average; status 429
   double requests_at_once = 400;                                 ///< more than the average for a moment
+  int waiting_answers = 16;                                      ///< that take long (HttpResponse::later); status 503
 };
 
 /// Whether that is a numeric address which only this machine reaches, such as 127.0.0.1 or ::1.
 bool isLoopback(const std::string& address);
 
-/// Serves HTTP/1.1 on a port of this machine, by one thread: the one that calls run(). A request that is too large, too
-/// slow, damaged or has a compressed body never reaches the handler.
+/// Serves HTTP/1.1 on a port of this machine, by one thread: the one that calls run(). Answers that take long are made
+/// by another one, one after the other, so that they delay no other answer. A request that is too large, too slow,
+/// damaged or has a compressed body never reaches the handler.
 class HttpServer {
  public:
   using Handler = std::function<HttpResponse(const HttpRequest&)>;

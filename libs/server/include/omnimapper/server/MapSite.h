@@ -24,7 +24,7 @@ class MapSite {
   MapSite(ServedMap map, StaticFiles files, Access access, std::function<base::Stamp()> clock,
           std::optional<RunCommands> commands = {});
 
-  /// Answers any request; never throws.
+  /// Answers any request; never throws. The answer to a question is HttpResponse::later.
   HttpResponse answer(const HttpRequest& request);
 
   /// Whether the request stops the robot of a live run, and may do so.
@@ -40,13 +40,15 @@ class MapSite {
   HttpResponse ply(const std::string& name) const;
   HttpResponse me(const HttpRequest& request) const;
   HttpResponse picture(const HttpRequest& request) const;
-  /// Rooms or labels.
+  /// Rooms, labels, corrections, or commands for a live run.
   HttpResponse change(const HttpRequest& request);
+  void expectWhole() const;
+  std::string editRooms(const std::vector<std::string>& words);
   std::string editLabels(const std::vector<std::string>& words);
+  std::string correct(const std::vector<std::string>& words);
   std::string goTo(const std::vector<std::string>& words);
   std::string stop();
   HttpResponse ticket();
-  HttpResponse refusedBecause(const base::Error& error) const;
   HttpResponse events() const;
   std::string revisionEvent() const;
 
