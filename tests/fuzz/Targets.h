@@ -26,11 +26,20 @@ void clouds(const std::uint8_t* data, std::size_t size);
 void observations(const std::uint8_t* data, std::size_t size);
 /// Bytes from a network or serial port: lines of odometry, and messages of a Hokuyo.
 void sensorBytes(const std::uint8_t* data, std::size_t size);
+#ifdef OMNIMAPPER_READS_ROS
+/// Messages of ROS of all types that are read, also with a definition of their own.
+void rosMessages(const std::uint8_t* data, std::size_t size);
+#endif
 
 /// All targets, by the names of their programs and of their folders in corpus/.
 inline std::map<std::string, Target> targets() {
-  return {{"depth_images", depthImages},  {"range_scans", rangeScans},  {"laser_scans", laserScans}, {"clouds", clouds},
-          {"observations", observations}, {"sensor_bytes", sensorBytes}};
+  std::map<std::string, Target> all{{"depth_images", depthImages},  {"range_scans", rangeScans},
+                                    {"laser_scans", laserScans},    {"clouds", clouds},
+                                    {"observations", observations}, {"sensor_bytes", sensorBytes}};
+#ifdef OMNIMAPPER_READS_ROS
+  all["ros_messages"] = rosMessages;
+#endif
+  return all;
 }
 
 inline void require(bool holds, const char* what) {

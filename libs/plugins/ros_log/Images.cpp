@@ -1,5 +1,7 @@
 #include "Images.h"
 
+#include <omnimapper/source/ImageFile.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -62,6 +64,7 @@ cv::Mat pixelsOf(const Value& message, const PixelFormat& format) {
 
 cv::Mat uncompressed(std::string_view data, int how) {
   if (data.empty()) throw BadBytes("is an image without data");
+  if (const auto why = source::whyTooLargeImage(data)) throw BadBytes(*why);
   const cv::Mat bytes(1, static_cast<int>(data.size()), CV_8UC1, const_cast<char*>(data.data()));
   cv::Mat image;
   try {

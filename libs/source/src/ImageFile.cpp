@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace omnimapper::source {
 
@@ -85,13 +86,24 @@ Jpeg readJpeg(std::istream& in) {
   }
 }
 
+std::optional<ImageSize> sizeOfImage(std::istream& in) {
+  const auto head = read(in, 24);
+  const auto size = isJpeg(head) ? readJpeg(in).size : sizeOfPng(head).value_or(ImageSize());
+  return size.width == 0 || size.height == 0 ? std::nullopt : std::optional(size);
+}
+
+std::optional<std::string> whyTooLargeSize(const std::optional<ImageSize>& size) {
+  constexpr std::uint64_t kMostPixels = 1 << 26;  // 8192 x 8192
+  if (!size || size->height <= kMostPixels / size->width) return std::nullopt;
+  return "has " + std::to_string(size->width) + " x " + std::to_string(size->height) +
+         " pixels, more than any camera has";
+}
+
 }  // namespace
 
 std::optional<ImageSize> imageSizeIn(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  const auto head = read(in, 24);
-  const auto size = isJpeg(head) ? readJpeg(in).size : sizeOfPng(head).value_or(ImageSize());
-  return size.width == 0 || size.height == 0 ? std::nullopt : std::optional(size);
+  return sizeOfImage(in);
 }
 
 bool isDeepGrey(const std::string& path) {
@@ -110,11 +122,13 @@ bool holdsDeepGrey(const LogLook& look) {
 }
 
 std::optional<std::string> whyTooLarge(const std::string& path) {
-  constexpr std::uint64_t kMostPixels = 1 << 26;  // 8192 x 8192
-  const auto size = imageSizeIn(path);
-  if (!size || size->height <= kMostPixels / size->width) return std::nullopt;
-  return "has " + std::to_string(size->width) + " x " + std::to_string(size->height) +
-         " pixels, more than any camera has";
+  return whyTooLargeSize(imageSizeIn(path));
+}
+
+std::optional<std::string> whyTooLargeImage(std::string_view bytes) {
+  constexpr std::size_t kHead = std::size_t{1} << 18;  // [bytes] a JPEG has its preview before its size
+  std::istringstream in{std::string(bytes.substr(0, kHead))};
+  return whyTooLargeSize(sizeOfImage(in));
 }
 
 bool isCutOff(const std::string& path) {

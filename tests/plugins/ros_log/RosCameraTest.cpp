@@ -156,6 +156,21 @@ TEST_F(RosCamera, compressedImagesAreRead) {
   EXPECT_NE(notes_.find("cannot be decoded"), std::string::npos) << notes_;
 }
 
+// A decoder would allocate 7 GB for these 29 bytes.
+TEST_F(RosCamera, anImageThatStatesMorePixelsThanAnyCameraHasIsNotDecoded) {
+  const auto big_endian = [](std::uint64_t value) {
+    const std::string little = number(value, 4);
+    return std::string(little.rbegin(), little.rend());
+  };
+  const std::string header = "IHDR" + big_endian(60000) + big_endian(60000) + std::string("\x10\0\0\0\0", 5);
+  const auto checksum = ::crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size()));
+  info("/depth/camera_info", "optical", 500);
+  compressed("/depth/image/compressed", "optical", 1, "16UC1; png compressed ",
+             "\x89PNG\r\n\x1a\n" + big_endian(13) + header + big_endian(checksum));
+  EXPECT_TRUE(read().empty());
+  EXPECT_NE(notes_.find("60000 x 60000 pixels, more than any camera has"), std::string::npos) << notes_;
+}
+
 TEST_F(RosCamera, depthsAreAlsoReadOfAPlainPng) {
   const cv::Mat values = (cv::Mat_<std::uint16_t>(2, 3) << 1000, 2000, 0, 1, 2, 3);
   info("/depth/camera_info", "optical", 500);

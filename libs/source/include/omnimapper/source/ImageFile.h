@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace omnimapper::source {
 
@@ -12,6 +13,8 @@ namespace omnimapper::source {
 /// kilobytes can state so, and a decoder allocates that memory first. None if the file may be decoded, and for files of
 /// other kinds.
 std::optional<std::string> whyTooLarge(const std::string& path);
+/// The same for an image in memory.
+std::optional<std::string> whyTooLargeImage(std::string_view bytes);
 
 /// Width and height of an image [px].
 struct ImageSize {
