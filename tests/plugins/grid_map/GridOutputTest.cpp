@@ -2,6 +2,7 @@
 #include <mrpt/img/CImage.h>
 #include <omnimapper/derived/GridPicture.h>
 #include <omnimapper/derived/ScaleBar.h>
+#include <omnimapper/derived/MapServer.h>
 #include <omnimapper/derived/ScanGrid.h>
 #include <omnimapper/testing/BoxWorld.h>
 #include <omnimapper/testing/Fixtures.h>
