@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <omnimapper/derived/GridPicture.h>
-#include <omnimapper/derived/ScaleBar.h>
 #include <omnimapper/derived/MapServer.h>
+#include <omnimapper/derived/ScaleBar.h>
 #include <omnimapper/derived/ScanGrid.h>
 #include <omnimapper/testing/BoxWorld.h>
 #include <omnimapper/testing/Fixtures.h>
