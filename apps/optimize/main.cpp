@@ -17,7 +17,8 @@ using namespace omnimapper;
 using graph::Loss;
 using graph::OptimizeRequest;
 
-const std::map<std::string, OptimizeRequest::Start> kStarts{{"file", OptimizeRequest::Start::file},
+const std::map<std::string, OptimizeRequest::Start> kStarts{{"best", OptimizeRequest::Start::best},
+                                                            {"file", OptimizeRequest::Start::file},
                                                             {"odometry", OptimizeRequest::Start::odometry},
                                                             {"rotations", OptimizeRequest::Start::rotations}};
 const std::map<std::string, Loss::Kind> kLosses{{"none", Loss::Kind::none},
@@ -61,8 +62,9 @@ int main(int argc, char** argv) {
                "has the time of each step");
   app.add_option(
          "--start", request.start,
-         "where the poses start: file (as they are), odometry (chained along the edges) or rotations (solved for "
-         "first, for bad starts); --incremental starts each from the one before it")
+         "where the poses start: file (as they are), odometry (chained along the edges), rotations (solved for first, "
+         "for bad starts) or the better one of file and rotations, best; --incremental starts each from the one before "
+         "it")
       ->transform(CLI::CheckedTransformer(kStarts))
       ->type_name("");
   app.add_option("--loss", loss, "robust loss of edges that close loops: none, huber, cauchy or tukey")

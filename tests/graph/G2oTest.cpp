@@ -118,12 +118,31 @@ TEST(G2o, ErrorsNameFileAndLine) {
   EXPECT_NE(messageOf("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n").find("quaternion"), std::string::npos);
   EXPECT_NE(messageOf("VERTEX_XY 1 0 0\nEDGE_SE2 0 1 0 0 0 1 0 0 1 0 1\n").find("point2"), std::string::npos);
   EXPECT_NE(messageOf("EDGE_SE2 0 0 0 0 0 1 0 0 1 0 1\n").find("itself"), std::string::npos);
-  EXPECT_NE(messageOf("EDGE_SE2 0 1 0 0 0 1 0 0 -1 0 1\n").find("positive definite"), std::string::npos);
+  EXPECT_NE(messageOf("EDGE_SE2 0 1 0 0 0 -1 0 0 -1 0 -1\n").find("positive definite"), std::string::npos);
+  EXPECT_NE(messageOf("EDGE_SE2 0 1 0 0 0 0 0 0 0 0 0\n").find("positive definite"), std::string::npos);
   EXPECT_NE(messageOf("FIX 3\n").find("vertex 3"), std::string::npos);
   EXPECT_NE(messageOf("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\nEDGE_SE3_TRACKXYZ 0 1 0 0 0 0 1 0 0 1 0 1\n")
                 .find("PARAMS_SE3OFFSET"),
             std::string::npos);
   EXPECT_THROW(readG2o("/no/such/file.g2o"), base::Error);
+}
+
+TEST(G2o, AnIndefiniteInformationIsTheNearestPositiveOne) {
+  // Eigenvalues 3 and -1 along (1, 1) and (1, -1): the nearest is 3/2 (1, 1) (1, 1)^T, and a billionth of 3 beside.
+  const G2oContent content = read(
+      "VERTEX_SE2 0 0 0 0\n"
+      "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"
+      "EDGE_SE2 0 1 1 0 0 1 2 0 1 0 1\n"
+      "EDGE_SE2 0 1 1 0 0 1 1 0 1 0 1\n");
+  EXPECT_EQ(content.repaired, 2u) << "the last is singular";
+  EXPECT_EQ(content.first_repaired, 3);
+  std::vector<Eigen::MatrixXd> informations;
+  for (const auto& [id, record] : content.graph.factors()) informations.push_back(record.noise.information());
+  ASSERT_EQ(informations.size(), 3u);
+  EXPECT_LT((informations[0] - Eigen::Matrix3d::Identity()).norm(), 1e-12) << "what is right stays";
+  Eigen::Matrix3d expected = Eigen::Matrix3d::Identity();
+  expected.topLeftCorner<2, 2>().setConstant(1.5);
+  EXPECT_LT((informations[1] - expected).norm(), 1e-8);
 }
 
 TEST(G2o, WrittenAndReadAgainIsTheSameGraph) {

@@ -55,6 +55,19 @@ TEST_F(OptimizeRunTest, BothMethodsEndAtTheMinimum) {
   EXPECT_EQ(linesOf(read("steps.csv")), 150) << "a title, and a step for each pose but the first, which is fixed";
 }
 
+TEST_F(OptimizeRunTest, ABadStartIsLeftForOneThatIsBetter) {
+  const Graph good = readG2o(request_.input).graph;
+  Graph spoiled = good;
+  Noise noise(8);
+  for (const auto& [id, record] : good.variables())
+    if (!record.fixed) spoiled.setValue(id, record.value + noise.normals(Eigen::Vector3d(4, 4, 2)));
+  writeG2o(spoiled, request_.input);
+  const OptimizeResult best = runOptimize(request_);
+  EXPECT_TRUE(best.converged);
+  EXPECT_NE(best.text.find("rotations were solved for first"), std::string::npos) << best.text;
+  EXPECT_NEAR(g2oChi2(readG2o(request_.output + "/optimized.g2o").graph), minimum_, 1e-6 * minimum_);
+}
+
 TEST_F(OptimizeRunTest, SigmasAreThoseOfTheMarginals) {
   request_.has_sigmas = true;
   runOptimize(request_);
@@ -93,13 +106,19 @@ TEST_F(OptimizeRunTest, ALossLimitsFalseClosures) {
 TEST_F(OptimizeRunTest, WhatCannotBeSolvedIsRefused) {
   std::ofstream(request_.input) << "VERTEX_SE2 0 0 0 0\n";
   EXPECT_THROW(runOptimize(request_), base::Error) << "a graph without edges";
-  std::ofstream(request_.input) << "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 -1\n";
+  std::ofstream(request_.input) << "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 -1 0 0 -1 0 -1\n";
   try {
     runOptimize(request_);
-    FAIL() << "an information matrix with a negative eigenvalue was taken";
+    FAIL() << "an information matrix without a positive eigenvalue was taken";
   } catch (const base::Error& error) {
     EXPECT_NE(std::string(error.what()).find("town.g2o:2"), std::string::npos) << error.what();
   }
+}
+
+TEST_F(OptimizeRunTest, ARepairedInformationIsCounted) {
+  std::ofstream(request_.input) << "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 1 2 0 1 0 1\n";
+  const std::string text = runOptimize(request_).text;
+  EXPECT_NE(text.find("not positive definite: 1, the first on line 2"), std::string::npos) << text;
 }
 
 TEST_F(OptimizeRunTest, NumbersNeedNotFollowTheEdges) {

@@ -2,8 +2,11 @@
 #include <omnimapper/base/InputFile.h>
 #include <omnimapper/geometry/Conversions.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <istream>
+#include <optional>
 #include <set>
 
 #include "G2oTokens.h"
@@ -19,6 +22,24 @@ namespace omnimapper::graph {
 namespace {
 
 using Kind = std::shared_ptr<const Variable>;
+
+/// The nearest matrix, by the sum of squared differences, whose smallest eigenvalue is a billionth of its largest. None
+/// if the largest is not positive: then the matrix says nothing.
+std::optional<Eigen::MatrixXd> nearestPositiveDefinite(const Eigen::MatrixXd& symmetric) {
+  constexpr double kLeast = 1e-9;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(symmetric);
+  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const double largest = values[values.size() - 1];
+  if (!(largest > 0)) return std::nullopt;
+  const Eigen::MatrixXd& vectors = eigen.eigenvectors();
+  const Eigen::MatrixXd repaired = vectors * values.cwiseMax(kLeast * largest).asDiagonal() * vectors.transpose();
+  return Eigen::MatrixXd(0.5 * (repaired + repaired.transpose()));
+}
+
+bool isPositiveDefinite(const Eigen::MatrixXd& symmetric) {
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(symmetric);
+  return cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().minCoeff() > 0;
+}
 
 class G2oReader {
  public:
@@ -51,6 +72,8 @@ class G2oReader {
       content.graph.addFactor(std::move(edge.record));
     }
     content.left_out = left_out_;
+    content.repaired = repaired_;
+    content.first_repaired = first_repaired_;
     fillValues(content);
     if (fixed_.empty() && !has_prior_) fixFirstPose(content);
     return content;
@@ -215,8 +238,12 @@ class G2oReader {
 
   void addEdge(const std::vector<std::int64_t>& numbers, std::shared_ptr<const Factor> factor,
                const Eigen::MatrixXd& information, const G2oTokens& line) {
+    std::optional<Eigen::MatrixXd> repaired;
+    if (information.allFinite() && !isPositiveDefinite(information)) repaired = nearestPositiveDefinite(information);
+    if (repaired && repaired_++ == 0) first_repaired_ = line.lineNumber();
     try {
-      edges_.push_back({numbers, {{}, std::move(factor), SquareRootInformation::fromInformation(information)}});
+      edges_.push_back(
+          {numbers, {{}, std::move(factor), SquareRootInformation::fromInformation(repaired.value_or(information))}});
     } catch (const base::Error& error) {
       line.fail(error.what());
     }
@@ -248,7 +275,8 @@ class G2oReader {
   std::map<std::int64_t, geometry::Se3> offsets_;
   std::map<std::int64_t, G2oTokens> fixed_;  // with the lines that fix them
   std::set<std::int64_t> hyperplanes_, sensors_of_planes_;
-  std::size_t left_out_ = 0;
+  std::size_t left_out_ = 0, repaired_ = 0;
+  int first_repaired_ = 0;
   bool has_prior_ = false;
 };
 

@@ -33,6 +33,7 @@ class G2oTokens {
       for (int column = row; column < size; ++column) matrix(row, column) = matrix(column, row) = number();
     return matrix;
   }
+  int lineNumber() const { return number_; }
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

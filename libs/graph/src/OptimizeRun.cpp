@@ -85,7 +85,20 @@ class OptimizeRun {
     return !is_stopped_;
   }
 
+  /// Rotations first, where its cost is lower than that of the file's poses.
+  void chooseStart() {
+    Graph rotations = content_.graph;
+    try {
+      initializeRotationsFirst(rotations);
+    } catch (const base::Error&) {
+      return;  // the edges do not determine the rotations
+    }
+    is_bad_start_ = !(content_.graph.cost() <= rotations.cost());
+    if (is_bad_start_) content_.graph = std::move(rotations);
+  }
+
   void solveBatch() {
+    if (request_.start == OptimizeRequest::Start::best) chooseStart();
     if (request_.start == OptimizeRequest::Start::odometry) initializeByChaining(content_.graph);
     if (request_.start == OptimizeRequest::Start::rotations) initializeRotationsFirst(content_.graph);
     SolveOptions options;
@@ -95,6 +108,7 @@ class OptimizeRun {
     converged_ = summary.converged;
     how_ = base::counted(static_cast<std::uint64_t>(summary.iterations), "iteration") + ", ended because " +
            summary.reason;
+    if (is_bad_start_) how_ += "; rotations were solved for first, because the file's poses are a worse start";
   }
 
   void solveIncrementally() {
@@ -106,7 +120,7 @@ class OptimizeRun {
       const auto added = growth.grow(solver);
       if (added.empty()) continue;
       const auto start = std::chrono::steady_clock::now();
-      const IncrementalSummary summary = solver.update(growth.graph(), {added, {}, {}});
+      const IncrementalSummary summary = solver.update(growth.graph(), {added, {}, {}, {}});
       steps_.push_back({added.size(), summary, secondsSince(start)});
       slowest = std::max(slowest, steps_.back().seconds);
     }
@@ -149,6 +163,10 @@ class OptimizeRun {
   std::string text() const {
     std::string text = request_.input + ": " + std::to_string(content_.graph.variables().size()) + " vertices, " +
                        base::counted(content_.graph.factors().size(), "edge");
+    if (content_.repaired > 0)
+      text += "; information matrices that are not positive definite: " + std::to_string(content_.repaired) +
+              ", the first on line " + std::to_string(content_.first_repaired) +
+              "; each is taken as the nearest that is";
     if (content_.left_out > 0) text += "; " + base::counted(content_.left_out, "row") + " of lines or planes left out";
     text += "\nchi2 " + brief(chi2_before_, 6) + " -> " + brief(g2oChi2(content_.graph), 6) + " in " +
             brief(seconds_, 3) + " s: " + how_ + "\n";
@@ -159,7 +177,7 @@ class OptimizeRun {
   const OptimizeRequest& request_;
   G2oContent content_;
   double chi2_before_ = 0, seconds_ = 0;
-  bool converged_ = false, is_stopped_ = false;
+  bool converged_ = false, is_stopped_ = false, is_bad_start_ = false;
   std::string how_;
   std::vector<Step> steps_;
 };

@@ -14,15 +14,18 @@ struct G2oContent {
   Graph graph;
   std::map<std::int64_t, base::VariableId> ids;
   std::size_t left_out = 0;  ///< number of rows of the file that describe lines or planes, which are not read
+  std::size_t repaired = 0;  ///< number of edges whose information matrix was not positive definite
+  int first_repaired = 0;    ///< the line of the first of them
 };
 
 /// Reads VERTEX_SE2, VERTEX_SE3:QUAT, VERTEX_XY, VERTEX_TRACKXYZ, EDGE_SE2, EDGE_SE3:QUAT, EDGE_SE2_XY,
 /// EDGE_SE3_TRACKXYZ, EDGE_PRIOR_SE2, EDGE_SE3_PRIOR, PARAMS_SE3OFFSET and FIX. Information matrices are converted to
-/// our tangents (geometry/Conversions.h). A vertex that is named by edges only is added, with a value from
-/// initializeByChaining(). If nothing is fixed and there is no prior, the pose with the lowest vertex number is fixed.
-/// VERTEX_LINE2D, VERTEX_PLANE, EDGE_SE2_LINE2D and EDGE_SE3_PLANE_CALIB are left out and counted. Throws
-/// Error(unreadable_input) if the file is missing, and Error(damaged_input) with file and line for anything else that
-/// is wrong.
+/// our tangents (geometry/Conversions.h). One that is not positive definite is replaced by the nearest matrix whose
+/// smallest eigenvalue is a billionth of its largest, and counted; other programs write such ones, and read them. A
+/// vertex that is named by edges only is added, with a value from initializeByChaining(). If nothing is fixed and there
+/// is no prior, the pose with the lowest vertex number is fixed. VERTEX_LINE2D, VERTEX_PLANE, EDGE_SE2_LINE2D and
+/// EDGE_SE3_PLANE_CALIB are left out and counted. Throws Error(unreadable_input) if the file is missing, and
+/// Error(damaged_input) with file and line for anything else that is wrong.
 G2oContent readG2o(const std::string& path);
 /// Reads the same from a stream; `name` is used in error messages.
 G2oContent readG2o(std::istream& in, const std::string& name);

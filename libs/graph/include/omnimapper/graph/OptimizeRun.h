@@ -9,12 +9,13 @@ namespace omnimapper::graph {
 
 struct OptimizeRequest {
   enum class Method { batch, incremental };
-  enum class Start { file, odometry, rotations };
+  enum class Start { best, file, odometry, rotations };
   std::string input;   ///< a .g2o file
   std::string output;  ///< folder, created if missing
   Method method = Method::batch;
-  /// Where the batch solver starts; the incremental one starts each pose from the one before it.
-  Start start = Start::file;
+  /// Where the batch solver starts: `best` is the file's poses, or `rotations` if their cost is lower. The incremental
+  /// one starts each pose from the one before it.
+  Start start = Start::best;
   /// For edges between poses that do not follow each other in the order of the file's numbers.
   Loss closure_loss = {};
   /// Whether poses.csv has standard deviations.
