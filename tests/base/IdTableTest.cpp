@@ -56,6 +56,35 @@ TEST(IdTable, ACopySharesWhatNeitherChanged) {
   EXPECT_EQ(table.find({0, 140}), copy.find({0, 140})) << "the very same object";
 }
 
+TEST(IdTable, OnlyChunksThatDifferAreVisited) {
+  Table table;
+  for (int i = 0; i < 200; ++i) table.add(0, std::to_string(i));
+  table.add(1, "of session 1");
+  const Table copy = table;
+  const auto differences = [](const Table& now, const Table& then) {
+    std::vector<std::string> found;
+    std::size_t visited = 0;
+    now.visitUnshared(then, [&](LandmarkId id, const std::string* mine, const std::string* other) {
+      ++visited;
+      if (mine && other && *mine == *other) return;
+      found.push_back(toString(id) + ": " + (other ? *other : "none") + " -> " + (mine ? *mine : "none"));
+    });
+    return std::make_pair(found, visited);
+  };
+  EXPECT_EQ(differences(table, copy).second, 0U);
+  *table.edit({0, 10}) = "changed";
+  table.erase({0, 199});
+  table.erase({1, 0});
+  table.add(3, "new");
+  const auto there = differences(table, copy);
+  const std::vector<std::string> expected{
+      toString(LandmarkId{0, 10}) + ": 10 -> changed", toString(LandmarkId{0, 199}) + ": 199 -> none",
+      toString(LandmarkId{1, 0}) + ": of session 1 -> none", toString(LandmarkId{3, 0}) + ": none -> new"};
+  EXPECT_EQ(there.first, expected);
+  EXPECT_EQ(there.second, 64U + 8U + 1U + 1U) << "the chunks of 64 to 191 are shared";
+  EXPECT_EQ(differences(copy, table).first.size(), 4U) << "the other way round";
+}
+
 TEST(IdTable, WhatIsNotThereIsNull) {
   Table table;
   EXPECT_EQ(table.find({0, 0}), nullptr);

@@ -45,7 +45,7 @@ Run runOnce(const Graph& whole, const graph::IncrementalOptions& options, bool c
     const auto added = growth.grow(solver);
     if (added.empty()) continue;
     const double start = processorSeconds();
-    run.eliminated += solver.update(growth.graph(), {added, {}, {}}).eliminated;
+    run.eliminated += solver.update(growth.graph(), {added, {}, {}, {}}).eliminated;
     run.seconds.push_back(processorSeconds() - start);
     if (!compares || i % spacing != 0) continue;
     Graph batch = growth.graph();

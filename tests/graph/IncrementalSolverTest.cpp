@@ -48,7 +48,7 @@ void expectGrowthEndsAtBatchMinimum(World<Pose> world) {
   Noise noise(7);
   disturb(world, noise, 0.02);
   IncrementalSolver solver;
-  for (const auto& [last, factors] : byLastVariable(world.graph)) solver.update(world.graph, {factors, {}, {}});
+  for (const auto& [last, factors] : byLastVariable(world.graph)) solver.update(world.graph, {factors, {}, {}, {}});
   Graph before = world.graph, now = world.graph;
   solver.store(now);
   const double minimum = solve(before).final_cost;
@@ -71,7 +71,7 @@ TEST(IncrementalSolver, LooksAtAllThatMovedSinceItLookedLast) {
   disturb(world, noise, 0.1);
   IncrementalSolver each({0.01, 1, 0}), seldom({0.01, 7, 0});
   for (const auto& [last, factors] : byLastVariable(world.graph))
-    for (IncrementalSolver* solver : {&each, &seldom}) solver->update(world.graph, {factors, {}, {}});
+    for (IncrementalSolver* solver : {&each, &seldom}) solver->update(world.graph, {factors, {}, {}, {}});
   for (int i = 0; i < 14; ++i) seldom.update(world.graph, {});
   Graph minimum = world.graph, found = world.graph;
   seldom.store(found);
@@ -84,7 +84,7 @@ TEST(IncrementalSolver, TouchesOnlyWhatAChangeAffects) {
   IncrementalSolver solver;
   std::size_t few = 0;
   for (const auto& [last, factors] : byLastVariable(world.graph))
-    few += solver.update(world.graph, {factors, {}, {}}).eliminated <= 60 ? 1u : 0u;
+    few += solver.update(world.graph, {factors, {}, {}, {}}).eliminated <= 60 ? 1u : 0u;
   EXPECT_GT(few, 300u);
 }
 
@@ -182,8 +182,20 @@ TEST(IncrementalSolver, CovariancesAreThoseOfTheWholeSystem) {
   const Marginals marginals(edits.world.graph);
   std::vector<VariableId> ids{edits.world.ids[119], edits.world.ids[3], edits.world.ids[60], edits.world.ids[60]};
   ids.push_back(edits.world.graph.factor(edits.extra.back()).variables[1]);
-  const Eigen::MatrixXd expected = marginals.jointCovariance(ids), found = edits.solver.jointCovariance(ids);
+  const Eigen::MatrixXd expected = marginals.jointCovariance(ids),
+                        found = edits.solver.marginals(edits.world.graph).jointCovariance(ids);
   EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm());
+  const Marginals by_tree = edits.solver.marginals(edits.world.graph);
+  const auto cross = by_tree.crossCovariances(ids[0], ids), whole = marginals.crossCovariances(ids[0], ids);
+  for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_LT((cross[i] - whole[i]).norm(), 1e-6 * expected.norm());
+  EXPECT_TRUE(by_tree.contains(edits.world.ids[0])) << "it is fixed";
+  EXPECT_EQ(by_tree.covariance(edits.world.ids[0]).norm(), 0);
+  // The tree goes on; what was taken from it stays.
+  const Eigen::MatrixXd of_one = by_tree.covariance(ids[2]);
+  for (int i = 0; i < 6; ++i) edits.addEdge();
+  edits.apply();
+  EXPECT_EQ(by_tree.covariance(ids[2]), of_one);
+  EXPECT_LT((by_tree.jointCovariance(ids) - expected).norm(), 1e-6 * expected.norm());
 }
 
 TEST(IncrementalSolver, TheSameUpdatesGiveTheSameBits) {
@@ -215,7 +227,7 @@ TEST(IncrementalSolver, WhatIsNotHeldIsNamedAndCanBeTakenBack) {
                                                    std::make_shared<BetweenSe2>(Se2{1.1, 0, 0.1}),
                                                    SquareRootInformation::fromSigmas(Eigen::Vector3d(0.1, 0.1, 0.1))});
   try {
-    solver.update(world.graph, {{floating}, {}, {}});
+    solver.update(world.graph, {{floating}, {}, {}, {}});
     FAIL() << "two poses that nothing holds were solved";
   } catch (const base::Error& error) {
     const std::string message = error.what();
@@ -224,7 +236,7 @@ TEST(IncrementalSolver, WhatIsNotHeldIsNamedAndCanBeTakenBack) {
   }
   EXPECT_FALSE(solver.contains(world.ids[5]));
   world.graph.removeFactor(floating);
-  solver.update(world.graph, {{}, {floating}, {}});
+  solver.update(world.graph, {{}, {floating}, {}, {}});
   EXPECT_TRUE(solver.contains(world.ids[5]));
   EXPECT_FALSE(solver.contains(a));
   EXPECT_TRUE(solver.converge());
@@ -238,12 +250,12 @@ TEST(IncrementalSolver, WrongChangesAreRefusedBeforeAnythingChanges) {
   for (const auto& [id, record] : world.graph.factors()) all.added.push_back(id);
   solver.update(world.graph, all);
   const Eigen::VectorXd before = solver.value(world.ids[7]);
-  EXPECT_THROW(solver.update(world.graph, {{all.added[3]}, {}, {}}), base::Error);
-  EXPECT_THROW(solver.update(world.graph, {{FactorId{0, 4000}}, {all.added[2]}, {}}), base::Error);
-  EXPECT_THROW(solver.update(world.graph, {{}, {all.added[2]}, {FactorId{0, 4000}}}), base::Error);
+  EXPECT_THROW(solver.update(world.graph, {{all.added[3]}, {}, {}, {}}), base::Error);
+  EXPECT_THROW(solver.update(world.graph, {{FactorId{0, 4000}}, {all.added[2]}, {}, {}}), base::Error);
+  EXPECT_THROW(solver.update(world.graph, {{}, {all.added[2]}, {FactorId{0, 4000}}, {}}), base::Error);
   EXPECT_EQ(solver.value(world.ids[7]), before);
   EXPECT_THROW(solver.value(world.ids[0]), base::Error) << "the first pose is fixed";
-  EXPECT_THROW(solver.jointCovariance({VariableId{3, 3}}), base::Error);
+  EXPECT_THROW(solver.marginals(world.graph).jointCovariance({VariableId{3, 3}}), base::Error);
 }
 
 TEST(IncrementalSolver, AFixedVariableIsFreedWhereItsFactorsAreChanged) {
@@ -278,7 +290,7 @@ TEST(IncrementalSolver, ManyFactorsMayBindOneVariable) {
   solver.update(graph, changes);
   EXPECT_TRUE(solver.converge());
   expectBatchMinimum(solver, graph);
-  EXPECT_NEAR(solver.jointCovariance({hub}).trace(), 3 * 0.01 / 10'000, 1e-8);
+  EXPECT_NEAR(solver.marginals(graph).jointCovariance({hub}).trace(), 3 * 0.01 / 10'000, 1e-8);
 }
 
 }  // namespace

@@ -32,8 +32,13 @@ bool contains(const std::vector<FactorId>& some, FactorId id) {
 class Test {
  public:
   Test(Graph& graph, const std::vector<FactorId>& fresh, const ConsistencyOptions& options,
-       const SolveOptions& solve_options)
-      : graph_(graph), fresh_(fresh), options_(options), solve_options_(solve_options), gate_(options) {
+       const SolveOptions& solve_options, Minimizer& minimizer)
+      : graph_(graph),
+        fresh_(fresh),
+        options_(options),
+        solve_options_(solve_options),
+        minimizer_(minimizer),
+        gate_(options) {
     for (const FactorId id : fresh_)
       if (!graph_.factor(id).tags.hypothesis)
         throw base::Error(base::ExitCode::internal,
@@ -45,7 +50,7 @@ class Test {
   std::vector<HypothesisVerdict> run() {
     if (options_.method == Method::none) {
       for (const FactorId id : fresh_) decide(id, true, misfit(id), "accepted without a test");
-      solveEased(graph_, fresh_, solve_options_);
+      solveEased(graph_, fresh_, solve_options_, minimizer_);
       return verdicts();
     }
     later_ = inOrderOfTime();
@@ -85,7 +90,7 @@ class Test {
     const std::vector<FactorId> acting_before = acting();
     const std::vector<FactorId> contradicting = take(some);
     solveWithoutLosses(acting_before);
-    solveEased(graph_, newOf(acting_before), solve_options_);
+    solveEased(graph_, newOf(acting_before), solve_options_, minimizer_);
     if (!contradicting.empty()) reviseBy(contradicting);
     confirmByOthers(some);
     takeBackWhatNoLongerFits();
@@ -163,7 +168,7 @@ class Test {
     }
     if (far.empty()) return;
     for (const auto& [id, loss] : far) graph_.setLoss(id, Loss::none());
-    solve(graph_, solve_options_);
+    minimizer_.minimize(graph_, solve_options_);
     for (const auto& [id, loss] : far) graph_.setLoss(id, loss);
   }
 
@@ -212,7 +217,7 @@ class Test {
                                          : "agrees with " + others + " that replace hypotheses that acted before");
     for (const FactorId id : revised->taken_back)
       decide(id, false, misfit(id), "taken back: contradicts others that agree with one another", first);
-    solve(graph_, solve_options_);
+    minimizer_.minimize(graph_, solve_options_);
   }
 
   /// Tries each waiting hypothesis about points: it is accepted if others fit once it acts. Hypotheses about poses form
@@ -247,7 +252,7 @@ class Test {
       if (!worst) return;
       decide(*worst, false, misfit(*worst),
              acted_.at(*worst) ? "taken back: no longer fits the map" : "contradicts the map");
-      solve(graph_, solve_options_);
+      minimizer_.minimize(graph_, solve_options_);
     }
   }
 
@@ -260,7 +265,7 @@ class Test {
       decide(id, true, chi2, "fits the map as it is now");
       changed = true;
     }
-    if (changed) solve(graph_, solve_options_);
+    if (changed) minimizer_.minimize(graph_, solve_options_);
   }
 
   std::vector<HypothesisVerdict> verdicts() const {
@@ -276,6 +281,7 @@ class Test {
   std::vector<FactorId> later_;  // fresh ones that are not judged yet
   const ConsistencyOptions& options_;
   const SolveOptions& solve_options_;
+  Minimizer& minimizer_;
   Gate gate_;
   std::map<FactorId, bool> acted_;  // whether each hypothesis acted before
   std::map<FactorId, HypothesisVerdict> verdicts_;
@@ -284,8 +290,15 @@ class Test {
 }  // namespace
 
 std::vector<HypothesisVerdict> testConsistency(Graph& graph, const std::vector<FactorId>& fresh,
+                                               const ConsistencyOptions& options, const SolveOptions& solve_options,
+                                               Minimizer& minimizer) {
+  return Test(graph, fresh, options, solve_options, minimizer).run();
+}
+
+std::vector<HypothesisVerdict> testConsistency(Graph& graph, const std::vector<FactorId>& fresh,
                                                const ConsistencyOptions& options, const SolveOptions& solve_options) {
-  return Test(graph, fresh, options, solve_options).run();
+  BatchMinimizer batch;
+  return testConsistency(graph, fresh, options, solve_options, batch);
 }
 
 }  // namespace omnimapper::graph

@@ -6,7 +6,8 @@
 
 namespace omnimapper::graph {
 
-void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const SolveOptions& options) {
+void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const SolveOptions& options,
+                Minimizer& minimizer) {
   constexpr double kFar = 1e4;     // smallest chi-square of a factor whose weight starts small
   constexpr double kGentle = 100;  // chi-square of the worst factor at its first weight
   constexpr double kGrowth = 100;  // growth of the weight from solve to solve
@@ -23,10 +24,10 @@ void solveEased(Graph& graph, const std::vector<base::FactorId>& fresh, const So
   }
   for (double weight = std::max(kGentle / worst, kLeast); !far.empty() && weight < 1; weight *= kGrowth) {
     for (const auto id : far) graph.setWeight(id, weight);
-    solve(graph, options);
+    minimizer.minimize(graph, options);
   }
   for (const auto id : far) graph.setWeight(id, 1);
-  solve(graph, options);
+  minimizer.minimize(graph, options);
 }
 
 }  // namespace omnimapper::graph

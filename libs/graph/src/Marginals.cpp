@@ -2,92 +2,53 @@
 
 #include <omnimapper/base/Error.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <unordered_map>
-#include <utility>
 
-#include "GaugeCheck.h"
-#include "NormalEquations.h"
-#include "SparseCholesky.h"
+#include "MarginalSource.h"
 
 namespace omnimapper::graph {
 
-struct Marginals::State {
-  struct Span {
-    int offset;  // in the information matrix, -1 for a fixed one
-    int size;
-  };
-  std::unordered_map<base::VariableId, Span> spans;     // of those that are not fixed
-  std::vector<std::pair<base::VariableId, int>> fixed;  // with their sizes, in the order of ids
-  int rows = 0;                                         // of the information matrix
-  std::unique_ptr<SparseCholesky> cholesky;
+/// The source, and a cache of blocks, because the same blocks are requested again at the next key frame.
+class Marginals::State {
+ public:
+  State(const Graph& graph, std::unique_ptr<MarginalSource> source) : graph_(graph), source_(std::move(source)) {}
 
-  std::optional<Span> find(base::VariableId id) const {
-    const auto found = spans.find(id);
-    if (found != spans.end()) return found->second;
-    const auto held = std::lower_bound(fixed.begin(), fixed.end(), id,
-                                       [](const auto& one, base::VariableId wanted) { return one.first < wanted; });
-    if (held == fixed.end() || held->first != id) return std::nullopt;
-    return Span{-1, held->second};
+  struct Place {
+    bool is_fixed;
+    MarginalSource::Place in_source;
+  };
+  std::optional<Place> find(base::VariableId id) const {
+    if (const auto place = source_->find(id)) return Place{false, *place};
+    if (!graph_.contains(id) || !graph_.variable(id).fixed) return std::nullopt;
+    return Place{true, {-1, graph_.variable(id).kind->tangentSize()}};
   }
-  Span span(base::VariableId id) const {
-    if (const auto found = find(id)) return *found;
+  Place at(base::VariableId id) const {
+    if (const auto place = find(id)) return *place;
     throw base::Error(
         base::ExitCode::internal,
         "marginals: variable " + toString(id) + " is bound by no factor of positive weight, or is not in the graph");
   }
-};
-
-namespace {
-
-// The number of entries that both vectors have. Both follow paths to the root of the elimination tree, which are the
-// same from the row where they meet, so the common entries are at the end of both.
-std::size_t common(const SparseVector& a, const SparseVector& b) {
-  std::size_t alike = 0, different = std::min(a.rows.size(), b.rows.size()) + 1;
-  while (alike + 1 < different) {
-    const std::size_t tried = (alike + different) / 2;
-    (a.rows[a.rows.size() - tried] == b.rows[b.rows.size() - tried] ? alike : different) = tried;
-  }
-  return alike;
-}
-
-double dot(const SparseVector& a, const SparseVector& b) {
-  const auto shared = static_cast<Eigen::Index>(common(a, b));
-  const auto tail = [&](const SparseVector& vector) {
-    return Eigen::Map<const Eigen::VectorXd>(vector.values.data() + vector.values.size() - shared, shared);
-  };
-  return tail(a).dot(tail(b));
-}
-
-}  // namespace
-
-/// A cache of covariance blocks and of the half-solved columns from which they are computed, because the same blocks
-/// are requested again at the next key frame.
-class Marginals::Blocks {
- public:
-  /// The block of two variables, of which `later` does not come before `earlier` in the matrix. Valid until
+  /// The block of two variables that are in the source, of which `later` has no smaller number. Valid until
   /// forgetIfMany().
-  const Eigen::MatrixXd& of(const SparseCholesky& cholesky, State::Span later, State::Span earlier) {
+  const Eigen::MatrixXd& block(MarginalSource::Place later, MarginalSource::Place earlier) {
     Eigen::MatrixXd& block =
-        blocks_[(static_cast<std::uint64_t>(later.offset) << 32) | static_cast<std::uint64_t>(earlier.offset)];
+        blocks_[(static_cast<std::uint64_t>(later.number) << 32) | static_cast<std::uint64_t>(earlier.number)];
     if (block.size() > 0) return block;
-    const auto &left = halves(cholesky, later), &right = halves(cholesky, earlier);
-    block.resize(later.size, earlier.size);
-    for (int i = 0; i < later.size; ++i)
-      for (int j = 0; j < earlier.size; ++j)
-        block(i, j) = dot(left[static_cast<std::size_t>(i)], right[static_cast<std::size_t>(j)]);
+    block = source_->block(later, earlier);
     kept_ += kBlock + static_cast<std::size_t>(block.size());
     return block;
+  }
+  std::vector<Eigen::MatrixXd> column(MarginalSource::Place place, const std::vector<MarginalSource::Place>& others) {
+    return source_->column(place, others);
   }
   /// Keeps memory within bounds.
   void forgetIfMany() {
     constexpr std::size_t kMost = 4'000'000;  // numbers
-    if (kept_ < kMost) return;
+    if (kept_ + source_->kept() < kMost) return;
     blocks_.clear();
-    halves_.clear();
+    source_->forget();
     kept_ = 0;
   }
 
@@ -96,41 +57,15 @@ class Marginals::Blocks {
  private:
   static constexpr std::size_t kBlock = 12;  // memory of a block beside its numbers, in numbers
 
-  const std::vector<SparseVector>& halves(const SparseCholesky& cholesky, State::Span span) {
-    auto& columns = halves_[span.offset];
-    for (int i = static_cast<int>(columns.size()); i < span.size; ++i) {
-      columns.push_back(cholesky.halfSolve(span.offset + i));
-      kept_ += 2 * columns.back().rows.size();
-    }
-    return columns;
-  }
-
-  std::unordered_map<std::uint64_t, Eigen::MatrixXd> blocks_;  // by the two offsets
-  std::unordered_map<int, std::vector<SparseVector>> halves_;
+  const Graph graph_;
+  std::unique_ptr<MarginalSource> source_;
+  std::unordered_map<std::uint64_t, Eigen::MatrixXd> blocks_;  // by the two numbers
   std::size_t kept_ = 0;
 };
 
-Marginals::Marginals(const Graph& graph) : state_(std::make_unique<State>()), blocks_(std::make_unique<Blocks>()) {
-  checkGauge(graph);
-  NormalEquations equations(graph);
-  equations.linearize(equations.values(graph));
-  for (const auto& [id, record] : graph.variables()) {
-    const int size = record.kind->tangentSize();
-    if (record.fixed) {
-      state_->fixed.emplace_back(id, size);
-    } else if (equations.contains(id)) {
-      state_->spans[id] = {equations.offset(id), size};
-    }
-  }
-  state_->rows = equations.information().size;
-  if (state_->rows == 0) return;
-  state_->cholesky = std::make_unique<SparseCholesky>(equations.information(), equations.groups());
-  if (!state_->cholesky->factorize(equations.information(), SparseCholesky::Storage::columns))
-    throw base::Error(base::ExitCode::internal,
-                      "marginals: the information matrix is singular: some direction of a variable is undetermined; "
-                      "add a prior or another factor there");
-}
-
+Marginals::Marginals(const Graph& graph) : Marginals(graph, decomposed(graph)) {}
+Marginals::Marginals(const Graph& graph, std::unique_ptr<MarginalSource> source)
+    : state_(std::make_unique<State>(graph, std::move(source))) {}
 Marginals::~Marginals() = default;
 Marginals::Marginals(Marginals&&) noexcept = default;
 Marginals& Marginals::operator=(Marginals&&) noexcept = default;
@@ -144,21 +79,21 @@ Eigen::MatrixXd Marginals::covariance(base::VariableId id) const {
 }
 
 Eigen::MatrixXd Marginals::jointCovariance(const std::vector<base::VariableId>& ids) const {
-  std::vector<State::Span> spans;
+  std::vector<State::Place> places;
   std::vector<int> offsets = {0};
   for (const base::VariableId id : ids) {
-    spans.push_back(state_->span(id));
-    offsets.push_back(offsets.back() + spans.back().size);
+    places.push_back(state_->at(id));
+    offsets.push_back(offsets.back() + places.back().in_source.size);
   }
   Eigen::MatrixXd joint = Eigen::MatrixXd::Zero(offsets.back(), offsets.back());
-  const std::lock_guard lock(blocks_->mutex);
-  blocks_->forgetIfMany();
+  const std::lock_guard lock(state_->mutex);
+  state_->forgetIfMany();
   for (std::size_t i = 0; i < ids.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
-      if (spans[i].offset < 0 || spans[j].offset < 0) continue;
-      const bool in_order = spans[i].offset >= spans[j].offset;
+      if (places[i].is_fixed || places[j].is_fixed) continue;
+      const bool in_order = places[i].in_source.number >= places[j].in_source.number;
       const std::size_t later = in_order ? i : j, earlier = in_order ? j : i;
-      const Eigen::MatrixXd& part = blocks_->of(*state_->cholesky, spans[later], spans[earlier]);
+      const Eigen::MatrixXd& part = state_->block(places[later].in_source, places[earlier].in_source);
       joint.block(offsets[later], offsets[earlier], part.rows(), part.cols()) = part;
       joint.block(offsets[earlier], offsets[later], part.cols(), part.rows()) = part.transpose();
     }
@@ -167,22 +102,21 @@ Eigen::MatrixXd Marginals::jointCovariance(const std::vector<base::VariableId>& 
 
 std::vector<Eigen::MatrixXd> Marginals::crossCovariances(base::VariableId id,
                                                          const std::vector<base::VariableId>& others) const {
-  // The columns of `id` are solved as a whole, which is cheaper than a path through the factor for each of the others.
-  const State::Span span = state_->span(id);
-  Eigen::MatrixXd columns;
-  if (span.offset >= 0) {
-    columns.setZero(state_->rows, span.size);
-    for (int i = 0; i < span.size; ++i) columns(span.offset + i, i) = 1;
-    columns = state_->cholesky->solve(columns);
-  }
+  const State::Place place = state_->at(id);
   std::vector<Eigen::MatrixXd> blocks;
+  std::vector<MarginalSource::Place> in_source;
+  std::vector<std::size_t> indices;
   for (const base::VariableId other : others) {
-    const State::Span other_span = state_->span(other);
-    if (other_span.offset < 0 || span.offset < 0)
-      blocks.emplace_back(Eigen::MatrixXd::Zero(other_span.size, span.size));
-    else
-      blocks.emplace_back(columns.middleRows(other_span.offset, other_span.size));
+    const State::Place at = state_->at(other);
+    blocks.emplace_back(Eigen::MatrixXd::Zero(at.in_source.size, place.in_source.size));
+    if (at.is_fixed || place.is_fixed) continue;
+    in_source.push_back(at.in_source);
+    indices.push_back(blocks.size() - 1);
   }
+  if (in_source.empty()) return blocks;
+  const std::lock_guard lock(state_->mutex);
+  auto found = state_->column(place.in_source, in_source);
+  for (std::size_t i = 0; i < indices.size(); ++i) blocks[indices[i]] = std::move(found[i]);
   return blocks;
 }
 

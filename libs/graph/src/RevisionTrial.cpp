@@ -50,7 +50,8 @@ bool RevisionTrial::fitsBeside(const std::vector<FactorId>& group) {
 bool RevisionTrial::isConfirmed(FactorId id, const std::vector<FactorId>& pool) {
   const double before = 2 * graph_.cost();
   graph_.setWeight(id, 1);
-  solveEased(graph_, {id}, solve_options_);
+  BatchMinimizer batch;
+  solveEased(graph_, {id}, solve_options_, batch);
   outcome_.accepted = {id};
   if (misfit(id) > bound(id) || !admit(pool)) return false;
   // Noise raises chi-square by 1 for each row, and the likelihood ratio that is required of a hypothesis allows each of
@@ -97,7 +98,8 @@ bool RevisionTrial::admit(const std::vector<FactorId>& pool) {
       outcome_.accepted.push_back(candidates[i]);
       some.push_back(candidates[i]);
     }
-  if (!some.empty()) solveEased(graph_, some, solve_options_);
+  BatchMinimizer batch;
+  if (!some.empty()) solveEased(graph_, some, solve_options_, batch);
   return !some.empty();
 }
 

@@ -33,9 +33,11 @@ std::optional<Matrix6d> ofStep(const graph::Graph& graph, const map::KeyFrame& f
 
 struct Uncertainty::Solved {
   explicit Solved(const graph::Graph& g) : graph(g) {}
+  Solved(const graph::Graph& g, graph::Marginals marginals) : graph(g), made(std::move(marginals)) {}
 
   const std::optional<graph::Marginals>& marginals() const {
     std::call_once(once, [this] {
+      if (made) return;
       try {
         made.emplace(graph);
       } catch (const base::Error&) {
@@ -51,6 +53,9 @@ struct Uncertainty::Solved {
 };
 
 Uncertainty::Uncertainty(const graph::Graph& graph) : solved_(std::make_shared<const Solved>(graph)) {}
+
+Uncertainty::Uncertainty(const graph::Graph& graph, graph::Marginals marginals)
+    : solved_(std::make_shared<const Solved>(graph, std::move(marginals))) {}
 
 std::optional<Matrix6d> Uncertainty::between(const map::Map& map, const graph::Graph& graph, base::KeyFrameId from,
                                              base::KeyFrameId to) const {

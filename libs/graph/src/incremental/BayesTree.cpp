@@ -13,11 +13,11 @@ void BayesTree::addBound(const std::vector<int>& unknowns, std::vector<int>& all
     if (terms_.unknown(unknown).clique < 0) continue;
     open.push_back(terms_.unknown(unknown).clique);
     while (!open.empty()) {
-      const Clique& clique = cliques_[open.back()];
+      const Node& node = nodes_[open.back()];
       open.pop_back();
-      all.push_back(clique.frontals.front());
-      for (const int child : clique.children) {
-        const auto& separator = cliques_[child].separator;
+      all.push_back(node.clique->frontals.front());
+      for (const int child : node.children) {
+        const auto& separator = clique(child).separator;
         if (std::find(separator.begin(), separator.end(), unknown) != separator.end()) open.push_back(child);
       }
     }
@@ -25,33 +25,30 @@ void BayesTree::addBound(const std::vector<int>& unknowns, std::vector<int>& all
 }
 
 std::vector<int> BayesTree::removeTop(const std::vector<int>& unknowns, std::vector<int>& orphans) {
-  std::vector<int> removed, affected;
+  std::vector<int> affected;
+  std::vector<Node> removed;
   for (const int unknown : unknowns) {
     int number = terms_.unknown(unknown).clique;
     if (number < 0) affected.push_back(unknown);
-    for (; number >= 0 && cliques_[number].is_used; number = cliques_[number].parent) {
-      cliques_[number].is_used = false;
-      removed.push_back(number);
+    while (number >= 0 && nodes_[number].clique) {
+      removed.push_back(std::move(nodes_[number]));
+      nodes_[number] = Node();
+      unused_.push_back(number);
+      number = removed.back().parent;
     }
   }
   std::sort(affected.begin(), affected.end());
   affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
-  for (const int number : removed) {
-    const Clique& clique = cliques_[number];
-    for (const int child : clique.children)
-      if (cliques_[child].is_used) orphans.push_back(child);
-    for (const int unknown : clique.frontals) {
+  for (const Node& node : removed) {
+    for (const int child : node.children)
+      if (nodes_[child].clique) orphans.push_back(child);
+    for (const int unknown : node.clique->frontals) {
       terms_.unknown(unknown).clique = -1;
       affected.push_back(unknown);
     }
   }
-  const auto is_removed = [&](int number) { return !cliques_[number].is_used; };
-  roots_.erase(std::remove_if(roots_.begin(), roots_.end(), is_removed), roots_.end());
-  for (const int number : removed) {
-    cliques_[number] = Clique();
-    cliques_[number].is_used = false;
-    unused_.push_back(number);
-  }
+  roots_.erase(std::remove_if(roots_.begin(), roots_.end(), [&](int number) { return !nodes_[number].clique; }),
+               roots_.end());
   const auto is_unbound = [&](int number) {
     const Unknown& unknown = terms_.unknown(number);
     return unknown.size == 0 || unknown.terms.empty();
@@ -83,47 +80,49 @@ BayesTree::Top BayesTree::gather(std::vector<int> affected, std::vector<int> orp
       top.terms.push_back(term);
       addSet(bound);
     }
-  for (const int orphan : top.orphans) addSet(cliques_[orphan].separator);
+  for (const int orphan : top.orphans) addSet(clique(orphan).separator);
   return top;
 }
 
-/// Makes the cliques of these supernodes, with the orphans below them; returns for each the terms that it eliminates.
-std::vector<std::vector<int>> BayesTree::build(const Top& top, const std::vector<Supernode>& supernodes,
-                                               const std::vector<int>& clique_of) {
+/// Makes the cliques of these supernodes, with the orphans below them.
+std::vector<BayesTree::Front> BayesTree::build(const Top& top, const std::vector<Supernode>& supernodes,
+                                               const std::vector<int>& number_of) {
   std::vector<int> order(top.affected.size()), supernode_of(top.affected.size());
+  std::vector<Front> fronts;
   int next = 0;
   for (std::size_t i = 0; i < supernodes.size(); ++i) {
-    Clique& clique = cliques_[clique_of[i]];
+    fronts.push_back({std::make_shared<Clique>(), {}});
+    Clique& clique = *fronts.back().clique;
     for (const int node : supernodes[i].frontals) {
       supernode_of[node] = static_cast<int>(i);
       order[node] = next++;
       clique.frontals.push_back(top.affected[node]);
-      terms_.unknown(top.affected[node]).clique = clique_of[i];
+      terms_.unknown(top.affected[node]).clique = number_of[i];
     }
     for (const int node : supernodes[i].separator) clique.separator.push_back(top.affected[node]);
     setOffsets(clique);
+    nodes_[number_of[i]].clique = fronts.back().clique;
     if (supernodes[i].parent < 0) {
-      roots_.push_back(clique_of[i]);
+      roots_.push_back(number_of[i]);
     } else {
-      clique.parent = clique_of[supernodes[i].parent];
-      cliques_[clique.parent].children.push_back(clique_of[i]);
+      nodes_[number_of[i]].parent = number_of[supernodes[i].parent];
+      nodes_[number_of[supernodes[i].parent]].children.push_back(number_of[i]);
     }
   }
   // Each set belongs to the supernode that eliminates the first of its nodes.
-  std::vector<std::vector<int>> terms_of(supernodes.size());
   for (std::size_t i = 0; i < top.sets.size(); ++i) {
     const auto& set = top.sets[i];
     const int owner =
         supernode_of[*std::min_element(set.begin(), set.end(), [&](int a, int b) { return order[a] < order[b]; })];
     if (i < top.terms.size()) {
-      terms_of[owner].push_back(top.terms[i]);
+      fronts[owner].terms.push_back(top.terms[i]);
     } else {
       const int orphan = top.orphans[i - top.terms.size()];
-      cliques_[orphan].parent = clique_of[owner];
-      cliques_[clique_of[owner]].children.push_back(orphan);
+      nodes_[orphan].parent = number_of[owner];
+      nodes_[number_of[owner]].children.push_back(orphan);
     }
   }
-  return terms_of;
+  return fronts;
 }
 
 std::size_t BayesTree::replaceTop(const std::vector<int>& unknowns, const std::vector<int>& last) {
@@ -136,21 +135,20 @@ std::size_t BayesTree::replaceTop(const std::vector<int>& unknowns, const std::v
     if (place_[unknown] >= 0) is_last[place_[unknown]] = true;
   for (const int unknown : top.affected) place_[unknown] = -1;
   const auto supernodes = orderElimination(static_cast<int>(top.affected.size()), top.sets, is_last);
-  std::vector<int> clique_of;
-  for (std::size_t i = 0; i < supernodes.size(); ++i) clique_of.push_back(newClique());
-  const auto terms_of = build(top, supernodes, clique_of);
-  for (std::size_t i = 0; i < supernodes.size(); ++i) eliminate(clique_of[i], terms_of[i]);
+  std::vector<int> number_of;
+  for (std::size_t i = 0; i < supernodes.size(); ++i) number_of.push_back(newNode());
+  const auto fronts = build(top, supernodes, number_of);
+  for (std::size_t i = 0; i < fronts.size(); ++i) eliminate(*fronts[i].clique, number_of[i], fronts[i].terms);
   return top.affected.size();
 }
 
-int BayesTree::newClique() {
+int BayesTree::newNode() {
   if (unused_.empty()) {
-    cliques_.emplace_back();
-    return static_cast<int>(cliques_.size()) - 1;
+    nodes_.emplace_back();
+    return static_cast<int>(nodes_.size()) - 1;
   }
   const int number = unused_.back();
   unused_.pop_back();
-  cliques_[number] = Clique();
   return number;
 }
 
@@ -189,7 +187,7 @@ void BayesTree::scatter(const std::vector<int>& unknowns, const Eigen::MatrixXd&
   }
 }
 
-void BayesTree::assemble(const Clique& clique, const std::vector<int>& terms, Eigen::MatrixXd& front) {
+void BayesTree::assemble(const Clique& clique, int number, const std::vector<int>& terms, Eigen::MatrixXd& front) {
   front.setZero(clique.offsets.back() + 1, clique.offsets.back() + 1);
   for (std::size_t i = 0; i < clique.frontals.size(); ++i) place_[clique.frontals[i]] = clique.offsets[i];
   for (std::size_t i = 0; i < clique.separator.size(); ++i)
@@ -198,7 +196,8 @@ void BayesTree::assemble(const Clique& clique, const std::vector<int>& terms, Ei
     const LinearTerm& linear = terms_.linearized(term);
     scatter(linear.unknowns, linear.information, front);
   }
-  for (const int child : clique.children) scatter(cliques_[child].separator, cliques_[child].remainder, front);
+  for (const int child : nodes_[number].children)
+    scatter(this->clique(child).separator, this->clique(child).remainder, front);
   for (const int unknown : clique.frontals) place_[unknown] = -1;
   for (const int unknown : clique.separator) place_[unknown] = -1;
 }
@@ -219,10 +218,9 @@ bool BayesTree::isDetermined(int number, const Eigen::VectorXd& pivots) const {
   return pivots.allFinite() && (pivots.array() > 0).all() && (pivots.array().square() > kRounding * said.array()).all();
 }
 
-void BayesTree::eliminate(int number, const std::vector<int>& terms) {
-  Clique& clique = cliques_[number];
+void BayesTree::eliminate(Clique& clique, int number, const std::vector<int>& terms) {
   Eigen::MatrixXd front;
-  assemble(clique, terms, front);
+  assemble(clique, number, terms, front);
   const int own = clique.frontal_size;
   const auto rest = front.rows() - own;
   auto diagonal = front.topLeftCorner(own, own);
@@ -245,9 +243,16 @@ void BayesTree::eliminate(int number, const std::vector<int>& terms) {
 
 void BayesTree::clear() {
   for (int i = 0; i < terms_.size(); ++i) terms_.unknown(i).clique = -1;
-  cliques_.clear();
+  nodes_.clear();
   unused_.clear();
   roots_.clear();
+}
+
+EliminatedTree BayesTree::eliminated() const {
+  EliminatedTree tree;
+  tree.nodes.assign(nodes_.begin(), nodes_.end());
+  for (int i = 0; i < terms_.size(); ++i) tree.clique_of.push_back(terms_.unknown(i).clique);
+  return tree;
 }
 
 std::vector<int> BayesTree::unknowns() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "EliminationOrder.h"
@@ -17,10 +18,27 @@ struct Clique {
   Eigen::MatrixXd factor;
   /// What elimination leaves for the separator and the gradient; lower triangle.
   Eigen::MatrixXd remainder;
+};
+
+/// A clique that is eliminated, and its place in the tree. Trees that were copied share the cliques.
+struct CliqueNode {
+  std::shared_ptr<const Clique> clique;  ///< null: the number is not used
   int parent = -1;
-  std::vector<int> children;
-  bool is_new = true;  ///< it was not substituted back yet
-  bool is_used = true;
+};
+
+/// A tree as it was at one time, for covariances.
+struct EliminatedTree {
+  std::vector<CliqueNode> nodes;
+  std::vector<int> clique_of;  ///< for each unknown; -1: it is not in the tree
+
+  /// Columns of L^-1 for the rows of an unknown: for each clique from its own to the root the rows of the frontals.
+  struct HalfSolved {
+    std::vector<int> cliques;
+    std::vector<Eigen::MatrixXd> rows;
+  };
+  HalfSolved halfSolve(int unknown) const;
+  /// Number of rows of an unknown that is in the tree.
+  int sizeOf(int unknown) const;
 };
 
 /// The Cholesky factor of the linearized terms as a tree of cliques, of which the top can be replaced.
@@ -42,15 +60,13 @@ class BayesTree {
   void clear();
   /// All unknowns in the tree.
   std::vector<int> unknowns() const;
-
-  /// Columns of L^-1 for the rows of an unknown: for each clique from its own to the root the rows of the frontals.
-  struct HalfSolved {
-    std::vector<int> cliques;
-    std::vector<Eigen::MatrixXd> rows;
-  };
-  HalfSolved halfSolve(int unknown) const;
+  EliminatedTree eliminated() const;
 
  private:
+  struct Node : CliqueNode {
+    std::vector<int> children;
+    bool is_new = true;  // it was not substituted back yet
+  };
   /// What is eliminated anew.
   struct Top {
     std::vector<int> affected;           // unknowns
@@ -58,18 +74,23 @@ class BayesTree {
     std::vector<std::vector<int>> sets;  // what each term, and then each orphan, binds, as places in `affected`
   };
   Top gather(std::vector<int> affected, std::vector<int> orphans);
-  std::vector<std::vector<int>> build(const Top& top, const std::vector<Supernode>& supernodes,
-                                      const std::vector<int>& clique_of);
+  /// A clique before it is eliminated, and the terms that it eliminates.
+  struct Front {
+    std::shared_ptr<Clique> clique;
+    std::vector<int> terms;
+  };
+  std::vector<Front> build(const Top& top, const std::vector<Supernode>& supernodes, const std::vector<int>& number_of);
   std::vector<int> removeTop(const std::vector<int>& unknowns, std::vector<int>& orphans);
-  void eliminate(int clique, const std::vector<int>& terms);
-  void assemble(const Clique& clique, const std::vector<int>& terms, Eigen::MatrixXd& front);
+  void eliminate(Clique& clique, int number, const std::vector<int>& terms);
+  void assemble(const Clique& clique, int number, const std::vector<int>& terms, Eigen::MatrixXd& front);
   void scatter(const std::vector<int>& unknowns, const Eigen::MatrixXd& block, Eigen::MatrixXd& front);
   bool isDetermined(int unknown, const Eigen::VectorXd& pivots) const;
-  int newClique();
+  int newNode();
   void setOffsets(Clique& clique) const;
+  const Clique& clique(int number) const { return *nodes_[number].clique; }
 
   LinearTerms& terms_;
-  std::vector<Clique> cliques_;
+  std::vector<Node> nodes_;
   std::vector<int> unused_;
   std::vector<int> roots_;
   std::vector<int> place_;    // of an unknown among those that are eliminated anew, or of its first row in a front

@@ -6,6 +6,7 @@
 
 #include "../SingleThreadedBlas.h"
 #include "BayesTree.h"
+#include "TreeMarginals.h"
 
 namespace omnimapper::graph {
 
@@ -20,12 +21,27 @@ struct IncrementalSolver::State {
         far.push_back(number);
     return far;
   }
-  /// Linearizes these anew, eliminates them and `touched`, and computes the estimate.
-  IncrementalSummary step(std::vector<int> touched, const std::vector<int>& far, double substitute_beyond) {
+  /// The unknowns whose deltas were computed since an update looked how far they are.
+  const std::vector<int>& toLookAt() {
+    std::sort(unlooked.begin(), unlooked.end());
+    unlooked.erase(std::unique(unlooked.begin(), unlooked.end()), unlooked.end());
+    return unlooked;
+  }
+  /// Terms of these unknowns whose robust loss gives them another weight at the estimate.
+  std::vector<int> wronglyWeighed(const std::vector<int>& among, double beyond) const {
+    std::vector<int> found;
+    for (const int number : among)
+      for (const int term : terms.unknown(number).terms)
+        if (terms.isWeighedWrongly(term, beyond)) found.push_back(term);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+  /// Eliminates `touched`, and those whose terms bind `relinearized`, and computes the estimate.
+  IncrementalSummary step(std::vector<int> touched, const std::vector<int>& relinearized, double substitute_beyond) {
     IncrementalSummary summary;
     const std::vector<int> last = touched;
-    tree.addBound(far, touched);
-    for (const int number : far) terms.relinearize(number);
+    tree.addBound(relinearized, touched);
     try {
       summary.eliminated = tree.replaceTop(is_cleared ? terms.bound() : touched, last);
       is_cleared = false;
@@ -34,11 +50,12 @@ struct IncrementalSolver::State {
       is_cleared = true;
       throw;
     }
-    summary.relinearized = far.size();
+    summary.relinearized = relinearized.size();
     const auto computed = tree.substitute(substitute_beyond);
     for (const int number : computed)
       summary.largest_step = std::max(summary.largest_step, terms.unknown(number).delta.lpNorm<Eigen::Infinity>());
     unlooked.insert(unlooked.end(), computed.begin(), computed.end());
+    unstored.insert(unstored.end(), computed.begin(), computed.end());
     return summary;
   }
   int numberInTree(base::VariableId id) const {
@@ -54,6 +71,7 @@ struct IncrementalSolver::State {
   LinearTerms terms;
   BayesTree tree{terms};
   std::vector<int> unlooked;  // unknowns whose deltas were computed since an update looked how far they are
+  std::vector<int> unstored;  // unknowns whose deltas were computed since they were stored
   bool is_cleared = false;    // an update failed: the next one eliminates all unknowns
   int updates = 0;
 };
@@ -94,27 +112,54 @@ IncrementalSummary IncrementalSolver::update(const Graph& graph, const GraphChan
       const int number = state.terms.add(graph, id);
       if (number >= 0) touch(state.terms.term(number).unknowns);
     }
-  std::vector<int> far;
-  if (++state.updates % std::max(state.options.relinearize_every, 1) == 0) {
-    auto& unlooked = state.unlooked;
-    std::sort(unlooked.begin(), unlooked.end());
-    unlooked.erase(std::unique(unlooked.begin(), unlooked.end()), unlooked.end());
-    far = state.moved(unlooked, state.options.relinearize_beyond);
-    unlooked.clear();
+  std::vector<int> relinearized;
+  for (const auto id : changes.moved) {
+    const int number = state.terms.numberOf(id);
+    if (number < 0 || state.terms.unknown(number).size == 0) continue;
+    state.terms.place(number, graph.value(id));
+    if (state.terms.unknown(number).clique >= 0) relinearized.push_back(number);
   }
-  return state.step(std::move(touched), far, state.options.substitute_beyond);
+  if (++state.updates % std::max(state.options.relinearize_every, 1) == 0) {
+    const auto looked_at = state.toLookAt();
+    for (const int term : state.wronglyWeighed(looked_at, state.options.reweigh_beyond)) {
+      touch(state.terms.term(term).unknowns);
+      state.terms.weighAnew(term);
+    }
+    for (const int number : state.moved(looked_at, state.options.relinearize_beyond)) {
+      state.terms.relinearize(number);
+      relinearized.push_back(number);
+    }
+    state.unlooked.clear();
+  }
+  return state.step(std::move(touched), relinearized, state.options.substitute_beyond);
+}
+
+bool IncrementalSolver::isSettled() const {
+  if (state_->is_cleared) return false;
+  const auto& among = state_->toLookAt();
+  return state_->moved(among, state_->options.relinearize_beyond).empty() &&
+         state_->wronglyWeighed(among, state_->options.reweigh_beyond).empty();
 }
 
 bool IncrementalSolver::converge(double tolerance, int max_steps) {
   const SingleThreadedBlas one_thread;
   State& state = *state_;
   if (state.is_cleared) return false;
-  for (int i = 0; i < max_steps; ++i) {
-    const auto far = state.moved(state.tree.unknowns(), tolerance);
-    if (far.empty()) return true;
-    state.step({}, far, 0);
+  for (int i = 0;; ++i) {
+    const auto all = state.tree.unknowns();
+    const auto far = state.moved(all, tolerance);
+    const auto wrong = state.wronglyWeighed(all, tolerance);
+    if (far.empty() && wrong.empty()) return true;
+    if (i == max_steps) return false;
+    std::vector<int> touched;
+    for (const int term : wrong) {
+      const auto& bound = state.terms.term(term).unknowns;
+      touched.insert(touched.end(), bound.begin(), bound.end());
+      state.terms.weighAnew(term);
+    }
+    for (const int number : far) state.terms.relinearize(number);
+    state.step(std::move(touched), far, 0);
   }
-  return state.moved(state.tree.unknowns(), tolerance).empty();
 }
 
 bool IncrementalSolver::contains(base::VariableId id) const {
@@ -131,29 +176,24 @@ void IncrementalSolver::store(Graph& graph) const {
     graph.setValue(state_->terms.unknown(number).id, state_->terms.estimate(number));
 }
 
-Eigen::MatrixXd IncrementalSolver::jointCovariance(const std::vector<base::VariableId>& ids) const {
-  const SingleThreadedBlas one_thread;
-  std::vector<BayesTree::HalfSolved> halves;
-  std::vector<int> offsets{0};
-  for (const auto id : ids) {
-    const int number = state_->numberInTree(id);
-    halves.push_back(state_->tree.halfSolve(number));
-    offsets.push_back(offsets.back() + state_->terms.unknown(number).size);
+void IncrementalSolver::storeComputed(Graph& graph) {
+  auto& unstored = state_->unstored;
+  std::sort(unstored.begin(), unstored.end());
+  unstored.erase(std::unique(unstored.begin(), unstored.end()), unstored.end());
+  for (const int number : unstored) {
+    const Unknown& unknown = state_->terms.unknown(number);
+    if (unknown.clique < 0) continue;
+    const Eigen::VectorXd value = state_->terms.estimate(number);
+    if (value != graph.value(unknown.id)) graph.setValue(unknown.id, value);
   }
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(offsets.back(), offsets.back());
-  for (std::size_t i = 0; i < halves.size(); ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      auto block = covariance.block(offsets[i], offsets[j], offsets[i + 1] - offsets[i], offsets[j + 1] - offsets[j]);
-      // Both paths end at the root: what they share is at their ends.
-      auto a = halves[i].cliques.size(), b = halves[j].cliques.size();
-      while (a > 0 && b > 0 && halves[i].cliques[a - 1] == halves[j].cliques[b - 1]) {
-        --a;
-        --b;
-        block.noalias() += halves[i].rows[a].transpose() * halves[j].rows[b];
-      }
-      if (j < i) covariance.block(offsets[j], offsets[i], block.cols(), block.rows()) = block.transpose();
-    }
-  return covariance;
+  unstored.clear();
+}
+
+Marginals IncrementalSolver::marginals(const Graph& graph) const {
+  if (state_->is_cleared)
+    throw base::Error(base::ExitCode::internal,
+                      "incremental solver: the last update failed, so there are no covariances");
+  return Marginals(graph, std::make_unique<TreeMarginals>(state_->tree.eliminated(), state_->terms.numbers()));
 }
 
 }  // namespace omnimapper::graph

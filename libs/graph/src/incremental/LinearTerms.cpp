@@ -3,12 +3,13 @@
 #include <omnimapper/base/Error.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace omnimapper::graph {
 
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMatrix = LinearTerm::RowMatrix;
 
 /// information = weight (J r)^T (J r), where rows of (J r) are `rows` long.
 template <int rows, int columns>
@@ -113,9 +114,30 @@ const LinearTerm& LinearTerms::linearized(int number) {
   }
   term.factor->evaluate(values.data(), residual.data(), jacobians.data(), strides.data());
   jacobian.col(columns - 1) = residual;
-  const double loss = term.record->loss.evaluate(residual.squaredNorm()).first_derivative;
-  squareAny(term.record->weight * loss, jacobian, term.information);
+  term.loss = lossAt(term, jacobian);
+  squareAny(term.record->weight * term.loss, jacobian, term.information);
+  if (term.record->loss.kind() != Loss::Kind::none) term.rows = std::move(jacobian);
   return term;
+}
+
+double LinearTerms::lossAt(const LinearTerm& term, const RowMatrix& rows) const {
+  if (term.record->loss.kind() == Loss::Kind::none) return 1;
+  Eigen::VectorXd residual = rows.col(rows.cols() - 1);
+  Eigen::Index column = 0;
+  for (const int unknown : term.unknowns) {
+    const auto& delta = unknowns_[unknown].delta;
+    residual.noalias() += rows.middleCols(column, delta.size()) * delta;
+    column += delta.size();
+  }
+  return term.record->loss.evaluate(residual.squaredNorm()).first_derivative;
+}
+
+bool LinearTerms::isWeighedWrongly(int number, double beyond) const {
+  const LinearTerm& term = terms_[number];
+  if (term.rows.size() == 0 || term.information.size() == 0) return false;
+  // What has hardly any weight may have a little more or less of it.
+  constexpr double kHardlyAny = 1e-3;
+  return std::abs(lossAt(term, term.rows) - term.loss) > beyond * std::max(term.loss, kHardlyAny);
 }
 
 std::vector<int> LinearTerms::bound() const {
@@ -126,8 +148,12 @@ std::vector<int> LinearTerms::bound() const {
 }
 
 void LinearTerms::relinearize(int number) {
+  place(number, estimate(number));
+}
+
+void LinearTerms::place(int number, const Eigen::VectorXd& value) {
   Unknown& unknown = unknowns_[number];
-  unknown.linearized = estimate(number);
+  unknown.linearized = value;
   unknown.delta.setZero();
   for (const int term : unknown.terms) terms_[term].information.resize(0, 0);
 }

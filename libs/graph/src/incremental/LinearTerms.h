@@ -21,13 +21,17 @@ struct Unknown {
 };
 
 /// A factor of positive weight, linearized: 1/2 x^T information x with x = (deltas of its free unknowns, 1), so that
-/// the last column is the gradient.
+/// the last column is the gradient. A robust loss has the weight that it gives at the estimate (iteratively reweighted
+/// least squares).
 struct LinearTerm {
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   std::unique_ptr<FactorRecord> record;
   std::optional<BoundFactor> factor;  ///< of the record
   std::vector<int> slots;             ///< the unknown of each slot
   std::vector<int> unknowns;          ///< those of them that are free
   Eigen::MatrixXd information;        ///< empty until it is needed
+  RowMatrix rows;                     ///< with a robust loss: the whitened residual is rows x
+  double loss = 1;                    ///< the weight that the loss gives it
 };
 
 /// The variables and factors that an incremental solver knows, addressed by numbers that stay.
@@ -47,13 +51,20 @@ class LinearTerms {
   int size() const { return static_cast<int>(unknowns_.size()); }
   /// The number of a variable; -1 if it is not known.
   int numberOf(base::VariableId id) const;
+  const std::unordered_map<base::VariableId, int>& numbers() const { return number_of_; }
   /// The free unknowns that a term binds.
   std::vector<int> bound() const;
   /// Moves an unknown to its estimate, where its terms are to be linearized anew.
   void relinearize(int number);
+  /// Moves an unknown to a value, where its terms are to be linearized anew.
+  void place(int number, const Eigen::VectorXd& value);
   Eigen::VectorXd estimate(int number) const;
+  /// Whether the estimate changes the weight that a robust loss gives a linearized term by more than a part of it.
+  bool isWeighedWrongly(int term, double beyond) const;
+  void weighAnew(int term) { terms_[term].information.resize(0, 0); }
 
  private:
+  double lossAt(const LinearTerm& term, const LinearTerm::RowMatrix& rows) const;
   int unknownOf(const Graph& graph, base::VariableId id);
   std::vector<Unknown> unknowns_;
   std::vector<LinearTerm> terms_;

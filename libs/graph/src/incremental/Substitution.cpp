@@ -11,12 +11,13 @@ std::vector<int> BayesTree::substitute(double beyond) {
   std::vector<bool> changed(static_cast<std::size_t>(terms_.size()), false);
   Eigen::VectorXd right;
   while (!open.empty()) {
-    Clique& clique = cliques_[open.back()];
+    Node& node = nodes_[open.back()];
+    const Clique& clique = *node.clique;
     open.pop_back();
     const bool is_reached =
         std::any_of(clique.separator.begin(), clique.separator.end(), [&](int unknown) { return changed[unknown]; });
     // What is new hangs below nothing that is old.
-    if (!is_reached && !clique.is_new) continue;
+    if (!is_reached && !node.is_new) continue;
     const auto size = clique.factor.rows() - 1;
     right = -clique.factor.row(size).transpose();
     for (std::size_t i = 0; i < clique.separator.size(); ++i) {
@@ -35,31 +36,38 @@ std::vector<int> BayesTree::substitute(double beyond) {
       changed[clique.frontals[i]] = true;
       unknown.delta = delta;
     }
-    clique.is_new = false;
-    open.insert(open.end(), clique.children.begin(), clique.children.end());
+    node.is_new = false;
+    open.insert(open.end(), node.children.begin(), node.children.end());
   }
   return computed;
 }
 
-BayesTree::HalfSolved BayesTree::halfSolve(int number) const {
-  const Unknown& unknown = terms_.unknown(number);
+int EliminatedTree::sizeOf(int unknown) const {
+  const Clique& clique = *nodes[clique_of[unknown]].clique;
+  const auto at = std::find(clique.frontals.begin(), clique.frontals.end(), unknown) - clique.frontals.begin();
+  return clique.offsets[at + 1] - clique.offsets[at];
+}
+
+EliminatedTree::HalfSolved EliminatedTree::halfSolve(int number) const {
+  const int size = sizeOf(number);
   HalfSolved solved;
   // What is left for the unknowns above, by their numbers.
   std::unordered_map<int, Eigen::MatrixXd> right;
-  right[number] = Eigen::MatrixXd::Identity(unknown.size, unknown.size);
-  for (int at = unknown.clique; at >= 0; at = cliques_[at].parent) {
-    const Clique& clique = cliques_[at];
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(clique.frontal_size, unknown.size);
+  right[number] = Eigen::MatrixXd::Identity(size, size);
+  for (int at = clique_of[number]; at >= 0; at = nodes[at].parent) {
+    const Clique& clique = *nodes[at].clique;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(clique.frontal_size, size);
     for (std::size_t i = 0; i < clique.frontals.size(); ++i) {
       const auto found = right.find(clique.frontals[i]);
       if (found != right.end()) rows.middleRows(clique.offsets[i], found->second.rows()) = found->second;
     }
     clique.factor.topRows(clique.frontal_size).triangularView<Eigen::Lower>().solveInPlace(rows);
     for (std::size_t i = 0; i < clique.separator.size(); ++i) {
-      const int size = terms_.unknown(clique.separator[i]).size;
+      const int first = clique.offsets[clique.frontals.size() + i],
+                height = clique.offsets[clique.frontals.size() + i + 1] - first;
       Eigen::MatrixXd& left = right[clique.separator[i]];
-      if (left.size() == 0) left = Eigen::MatrixXd::Zero(size, unknown.size);
-      left.noalias() -= clique.factor.middleRows(clique.offsets[clique.frontals.size() + i], size) * rows;
+      if (left.size() == 0) left = Eigen::MatrixXd::Zero(height, size);
+      left.noalias() -= clique.factor.middleRows(first, height) * rows;
     }
     solved.cliques.push_back(at);
     solved.rows.push_back(std::move(rows));

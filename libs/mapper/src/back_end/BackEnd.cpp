@@ -165,7 +165,12 @@ void BackEnd::measure(base::KeyFrameId id, const std::vector<Perceived>& perceiv
 void BackEnd::commit(base::KeyFrameId id) {
   estimator_.refine(id);
   applier_.applyJobs(BatchApplier::Which::due);
-  if (estimator_.isDue()) solve(settings_.solver.running());
+  if (estimator_.isDue()) {
+    solve(&Estimator::solve);
+  } else {
+    const auto timer = state_.times.measure(Stage::solve);
+    estimator_.follow();
+  }
   applier_.collectFollowUps(id);
 }
 
@@ -173,10 +178,10 @@ void BackEnd::applyAllJobs() {
   applier_.applyJobs(BatchApplier::Which::all);
 }
 
-void BackEnd::solve(const graph::SolveOptions& options) {
+void BackEnd::solve(void (Estimator::*how)()) {
   {
     const auto timer = state_.times.measure(Stage::solve);
-    estimator_.solve(options);
+    (estimator_.*how)();
     if (!window_) {
       derived::markAligned(state_.map, state_.graph, absolute_);
     } else if (!window_->hasRetired()) {

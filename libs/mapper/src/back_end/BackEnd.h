@@ -52,7 +52,7 @@ class BackEnd {
   /// Waits for all remaining jobs and applies their batches in order.
   void applyAllJobs();
   /// Solves with the final options.
-  void solveFinally() { solve(settings_.solver.final()); }
+  void solveFinally() { solve(&Estimator::solveFinally); }
   /// Applies the edits that plugins make at the end of the log (MeasurementPlugin::atEnd()). Afterwards `shared` has
   /// the results that they share with outputs.
   void conclude(SharedResults& shared);
@@ -80,7 +80,7 @@ class BackEnd {
   Gathered gather(FrameBundle& bundle, base::KeyFrameId id);
   void measure(base::KeyFrameId id, const std::vector<Perceived>& perceived);
   void commit(base::KeyFrameId id);
-  void solve(const graph::SolveOptions& options);
+  void solve(void (Estimator::*how)());
   bool isConfirmed() const;
   void addEstimate(base::KeyFrameId id);
 

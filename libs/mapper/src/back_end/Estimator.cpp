@@ -42,16 +42,30 @@ bool Estimator::isDue() const {
   return since_solve >= std::max<double>(options.solve_after_closure, contradicted_ ? growth / 4 : growth);
 }
 
-void Estimator::solve(graph::SolveOptions options) {
+// By the tree, where it followed the solve.
+Uncertainty Estimator::uncertainty(const graph::Minimizer& minimizer) {
+  if (&minimizer == &smoother_)
+    if (auto marginals = smoother_.marginals(state_.graph)) return {state_.graph, std::move(*marginals)};
+  return Uncertainty(state_.graph);
+}
+
+void Estimator::follow() {
+  // To compare and copy chunks costs more than to eliminate what one key frame adds.
+  constexpr std::size_t kEvery = 10;
+  if (!settings_.solver.incremental || state_.map.key_frames.size() % kEvery != 0) return;
+  smoother_.follow(state_.graph);
+}
+
+void Estimator::solveBy(graph::Minimizer& minimizer, graph::SolveOptions options) {
   const StopWatch watch;
   options.stop = stop_;
   const double initial_cost = state_.graph.cost();
-  hypotheses_.solve(state_.graph, options, state_.map, state_.decisions);
+  hypotheses_.solve(state_.graph, options, minimizer, state_.map, state_.decisions);
   for (std::size_t i = held_; i < state_.map.key_frames.size(); ++i) {
     auto& frame = state_.map.key_frames.edit(state_.map.key_frames[i].id);
     frame.map_from_base = poseOf(state_.graph, frame.pose);
   }
-  state_.uncertainty = Uncertainty(state_.graph);
+  state_.uncertainty = uncertainty(minimizer);
   state_.solves.push_back({state_.map.key_frames.size(), state_.graph.factors().size(), initial_cost,
                            state_.graph.cost(), watch.seconds()});
   key_frames_at_solve_ = state_.map.key_frames.size();

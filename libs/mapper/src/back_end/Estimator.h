@@ -1,5 +1,6 @@
 #pragma once
 
+#include <omnimapper/graph/IncrementalSmoother.h>
 #include <omnimapper/mapper/EngineOptions.h>
 
 #include <cstddef>
@@ -36,16 +37,29 @@ class Estimator {
   /// earliest if one of them contradicts the estimate. The intervals grow with the map, so that the cost per key frame
   /// does not.
   bool isDue() const;
+  /// Must be called for each key frame whose batches are applied and after which nothing is solved: prepares the next
+  /// solve.
+  void follow();
   /// Tests the hypotheses and solves with those that are consistent.
-  void solve(graph::SolveOptions options);
+  void solve() { solveBy(running(), settings_.solver.running()); }
+  /// The same with the final options, and as a whole.
+  void solveFinally() { solveBy(batch_, settings_.solver.final()); }
 
   /// `stop` is called while a solve runs; if it returns true, the solve ends with its best values so far.
   void setStop(std::function<bool()> stop) { stop_ = std::move(stop); }
 
  private:
+  graph::Minimizer& running() {
+    return settings_.solver.incremental ? static_cast<graph::Minimizer&>(smoother_) : batch_;
+  }
+  Uncertainty uncertainty(const graph::Minimizer& minimizer);
+  void solveBy(graph::Minimizer& minimizer, graph::SolveOptions options);
+
   const EngineSettings& settings_;
   RunState& state_;
   Hypotheses hypotheses_;
+  graph::BatchMinimizer batch_;
+  graph::IncrementalSmoother smoother_;
   std::function<bool()> stop_;
   std::size_t key_frames_at_solve_ = 0;
   std::size_t held_ = 0;       // number of key frames that are held

@@ -40,8 +40,8 @@ void Hypotheses::take(const Batch& batch, const AppliedBatch& applied, graph::Gr
   }
 }
 
-void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_options, const map::Map& map,
-                       DecisionLog& decisions) {
+void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_options, graph::Minimizer& minimizer,
+                       const map::Map& map, DecisionLog& decisions) {
   fresh_.erase(std::remove_if(fresh_.begin(), fresh_.end(), [&](auto id) { return !graph.contains(id); }),
                fresh_.end());
   auto options = solve_options;
@@ -50,14 +50,14 @@ void Hypotheses::solve(graph::Graph& graph, const graph::SolveOptions& solve_opt
     // The run is being stopped: the test is skipped, because an interrupted solve is no basis for a verdict.
     constexpr int kLastIterations = 5;
     options.max_iterations = std::min(options.max_iterations, kLastIterations);
-    graph::solve(graph, options);
+    minimizer.minimize(graph, options);
     for (const auto id : fresh_) {
       const auto entry = decision_of_.find(id);
       if (entry != decision_of_.end()) decisions[entry->second].reason = "not judged: the run was interrupted";
     }
     return;
   }
-  for (const auto& verdict : graph::testConsistency(graph, fresh_, options_, options)) {
+  for (const auto& verdict : graph::testConsistency(graph, fresh_, options_, options, minimizer)) {
     log(verdict, graph.factor(verdict.factor), map, decisions);
   }
   fresh_.clear();

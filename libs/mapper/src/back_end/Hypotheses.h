@@ -21,9 +21,9 @@ class Hypotheses {
   void take(const Batch& batch, const AppliedBatch& applied, graph::Graph& graph, DecisionLog& decisions);
   /// Whether any hypothesis waits for its verdict.
   bool anyFresh() const { return !fresh_.empty(); }
-  /// Tests the hypotheses, solves `graph` with those that are consistent, and logs the verdicts.
-  void solve(graph::Graph& graph, const graph::SolveOptions& solve_options, const map::Map& map,
-             DecisionLog& decisions);
+  /// Tests the hypotheses, lets the minimizer solve `graph` with those that are consistent, and logs the verdicts.
+  void solve(graph::Graph& graph, const graph::SolveOptions& solve_options, graph::Minimizer& minimizer,
+             const map::Map& map, DecisionLog& decisions);
 
  private:
   void log(const graph::HypothesisVerdict& verdict, const graph::FactorRecord& record, const map::Map& map,

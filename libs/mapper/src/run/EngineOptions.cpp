@@ -96,6 +96,10 @@ const base::OptionTable<SolverOptions>& SolverOptions::table() {
   using Method = graph::SolveOptions::Method;
   static const auto table =
       base::OptionTable<Options>()
+          .flag(
+              "incremental", &Options::incremental,
+              "While the map grows, the solution is followed from edit to edit, at a cost that depends on what an edit "
+              "affects; false: each solve is one of the whole graph, as the last one always is.")
           .choice(
               "method", &Options::method,
               {{"levenberg_marquardt", Method::levenberg_marquardt}, {"dogleg", Method::dogleg}},

@@ -109,6 +109,24 @@ class IdTable {
     return &*ownChunk(sessions_[id.session], id.index)[id.index % kChunkSize];
   }
 
+  /// Calls visit(id, mine, other's) for ids whose values may differ between this table and another, in the order of
+  /// ids; null where there is no value. Chunks that the two share are passed over, so that the time grows with what was
+  /// changed since one was copied from the other.
+  template <class Visit>
+  void visitUnshared(const IdTable& other, const Visit& visit) const {
+    static const Session kNone;
+    for (auto mine = sessions_.begin(), theirs = other.sessions_.begin();
+         mine != sessions_.end() || theirs != other.sessions_.end();) {
+      const bool is_mine = theirs == other.sessions_.end() || (mine != sessions_.end() && mine->first <= theirs->first);
+      const bool is_theirs =
+          mine == sessions_.end() || (theirs != other.sessions_.end() && theirs->first <= mine->first);
+      const std::uint16_t number = is_mine ? mine->first : theirs->first;
+      visitUnshared(number, is_mine ? mine->second : kNone, is_theirs ? theirs->second : kNone, visit);
+      if (is_mine) ++mine;
+      if (is_theirs) ++theirs;
+    }
+  }
+
   /// For every session that ever had an index: the index that add() will use next.
   std::map<std::uint16_t, std::uint32_t> nextIndices() const {
     std::map<std::uint16_t, std::uint32_t> next;
@@ -123,6 +141,21 @@ class IdTable {
   }
 
  private:
+  template <class Visit>
+  static void visitUnshared(std::uint16_t number, const Session& mine, const Session& theirs, const Visit& visit) {
+    const auto chunkOf = [](const Session& session, std::size_t i) -> const Chunk* {
+      return i < session.chunks.size() ? session.chunks[i].get() : nullptr;
+    };
+    for (std::size_t i = 0; i < std::max(mine.chunks.size(), theirs.chunks.size()); ++i) {
+      const Chunk *own = chunkOf(mine, i), *other = chunkOf(theirs, i);
+      if (own == other) continue;
+      for (std::uint32_t k = 0; k < kChunkSize; ++k) {
+        const Value* a = own && (*own)[k] ? &*(*own)[k] : nullptr;
+        const Value* b = other && (*other)[k] ? &*(*other)[k] : nullptr;
+        if (a || b) visit(IdType{number, static_cast<std::uint32_t>(i) * kChunkSize + k}, a, b);
+      }
+    }
+  }
   Chunk& ownChunk(Session& session, std::uint32_t index) {
     std::shared_ptr<Chunk>& chunk = session.chunks[index / kChunkSize];
     if (!chunk) chunk = std::make_shared<Chunk>();

@@ -47,10 +47,15 @@ struct HypothesisVerdict {
 /// Decides about the hypotheses of a graph: the `fresh` ones, which were added since the last test, and older ones
 /// whose verdict changes with the new information. Sets the weights of the hypotheses to 0 or 1 and solves. The values
 /// of the graph should already be a good estimate for the acting factors; if nothing is refused, the test costs little
-/// more than solve(). The test has no state: the same graph, fresh hypotheses and options give bit-identical verdicts.
+/// more than one call of the minimizer, which solves the graph; copies for trials are solved by solve(). The test has
+/// no state beside that of the minimizer: the same graph, fresh hypotheses and options give bit-identical verdicts.
 /// Returns a verdict for each fresh hypothesis, in the order of `fresh`, then for each older hypothesis whose verdict
 /// changed, in the order of ids. Throws Error(internal) as solve() does, and if a fresh factor does not exist or is not
 /// a hypothesis.
+std::vector<HypothesisVerdict> testConsistency(Graph& graph, const std::vector<base::FactorId>& fresh,
+                                               const ConsistencyOptions& options, const SolveOptions& solve_options,
+                                               Minimizer& minimizer);
+/// The same with BatchMinimizer.
 std::vector<HypothesisVerdict> testConsistency(Graph& graph, const std::vector<base::FactorId>& fresh,
                                                const ConsistencyOptions& options = {},
                                                const SolveOptions& solve_options = {});

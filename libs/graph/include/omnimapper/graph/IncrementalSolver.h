@@ -3,7 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "omnimapper/graph/Graph.h"
+#include "omnimapper/graph/GraphChanges.h"
+#include "omnimapper/graph/Marginals.h"
 
 namespace omnimapper::graph {
 
@@ -17,13 +18,9 @@ struct IncrementalOptions {
   /// Changes of the estimate that are smaller than this in every entry of a tangent [m or rad] are not handed down the
   /// tree.
   double substitute_beyond = 1e-4;
-};
-
-/// The factors of a graph that are new, gone, or of another weight, loss or binding since the last update.
-struct GraphChanges {
-  std::vector<base::FactorId> added;
-  std::vector<base::FactorId> removed;
-  std::vector<base::FactorId> changed;
+  /// A factor with a robust loss is weighed anew when the weight that its loss gives it changes by more than this part
+  /// of it.
+  double reweigh_beyond = 0.1;
 };
 
 /// What one update did.
@@ -49,7 +46,8 @@ class IncrementalSolver {
   IncrementalSolver& operator=(IncrementalSolver&&) noexcept;
 
   /// Takes the changes of the graph into the tree and improves the estimate by one step. A variable that is new starts
-  /// from its value in the graph, and so does one that is fixed or freed, where all its factors are among `changed`.
+  /// from its value in the graph, and so does one that was moved, and one that is fixed or freed, where all its factors
+  /// are among `changed`.
   /// Throws Error(internal), before it changes anything, if `added` names a factor that was added already, or `added`
   /// or `changed` one that the graph lacks. Throws Error(internal), naming a variable, if the system is singular
   /// because a part of the graph is not held anywhere; the solver then contains no variable until an update succeeds,
@@ -59,15 +57,21 @@ class IncrementalSolver {
   /// or `max_steps` are done. Returns whether none does; false after an update that failed.
   bool converge(double tolerance = 1e-6, int max_steps = 20);
 
+  /// Whether no variable is farther from where it was linearized than relinearize_beyond, and no robust loss gives a
+  /// factor another weight than it was linearized with; false after an update that failed.
+  bool isSettled() const;
+
   /// Whether a factor of positive weight binds the variable, and it is not fixed.
   bool contains(base::VariableId id) const;
   /// The estimate, as the graph stores values. Throws Error(internal) if the tree does not contain the variable.
   Eigen::VectorXd value(base::VariableId id) const;
   /// Writes all estimates into the graph, which must have the variables of the tree.
   void store(Graph& graph) const;
-  /// Joint covariance of several variables where they are linearized; the blocks are in the order of `ids`. Its time
-  /// grows with the depth of the tree. Throws Error(internal) if the tree does not contain one of them.
-  Eigen::MatrixXd jointCovariance(const std::vector<base::VariableId>& ids) const;
+  /// Writes the estimates that were computed since the last call of this function, and differ from the graph's values.
+  void storeComputed(Graph& graph);
+  /// Covariances where the variables are linearized, by the tree as it is now; it shares the eliminated cliques.
+  /// `graph` is the one of the last update. Throws Error(internal) after an update that failed.
+  Marginals marginals(const Graph& graph) const;
 
  private:
   struct State;

@@ -7,16 +7,20 @@
 
 namespace omnimapper::graph {
 
+class MarginalSource;
+
 /// Marginal covariances of the variables of a graph at its present values. They are blocks of the inverse of the
 /// information matrix, in the variables' tangents, with weights and losses as the solver applies them. The constructor
-/// decomposes the matrix; after that, the object is independent of the graph. For a block, a part of the decomposed
-/// matrix is used instead of computing the whole inverse, and recent blocks are cached. Blocks of fixed variables are
-/// zero.
+/// decomposes the matrix; after that, the object does not see changes of the graph. For a block, a part of the
+/// decomposed matrix is used instead of computing the whole inverse, and recent blocks are cached. Blocks of fixed
+/// variables are zero.
 class Marginals {
  public:
   /// Throws Error(internal) if a connected part of the graph is not held anywhere (see solve()), or if no factor
   /// determines some direction of a variable.
   explicit Marginals(const Graph& graph);
+  /// By a matrix that is decomposed already, of this graph. IncrementalSolver::marginals() has one.
+  Marginals(const Graph& graph, std::unique_ptr<MarginalSource> source);
   ~Marginals();
   Marginals(Marginals&&) noexcept;
   Marginals& operator=(Marginals&&) noexcept;
@@ -32,10 +36,8 @@ class Marginals {
   std::vector<Eigen::MatrixXd> crossCovariances(base::VariableId id, const std::vector<base::VariableId>& others) const;
 
  private:
-  struct State;
-  class Blocks;
+  class State;
   std::unique_ptr<State> state_;
-  std::unique_ptr<Blocks> blocks_;
 };
 
 }  // namespace omnimapper::graph

@@ -32,4 +32,18 @@ struct SolveSummary {
 /// variable, if a connected part of the graph has neither a fixed variable nor a factor of a single variable (a prior).
 SolveSummary solve(Graph& graph, const SolveOptions& options = {});
 
+/// One way to move the variables of a graph to a minimum of its cost.
+class Minimizer {
+ public:
+  virtual ~Minimizer() = default;
+  /// Throws as solve() does.
+  virtual void minimize(Graph& graph, const SolveOptions& options) = 0;
+};
+
+/// solve(), which has no memory of earlier calls.
+class BatchMinimizer : public Minimizer {
+ public:
+  void minimize(Graph& graph, const SolveOptions& options) override { solve(graph, options); }
+};
+
 }  // namespace omnimapper::graph

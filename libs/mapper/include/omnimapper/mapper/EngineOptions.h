@@ -62,6 +62,7 @@ struct PerceptionOptions {
 
 /// Section [solver] of an INI.
 struct SolverOptions {
+  bool incremental = true;
   graph::SolveOptions::Method method = graph::SolveOptions().method;
   int max_iterations = 20;
   double tolerance = 1e-4;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <omnimapper/graph/Graph.h>
+#include <omnimapper/graph/Marginals.h>
 #include <omnimapper/map/Map.h>
 
 #include <Eigen/Core>
@@ -11,14 +12,17 @@
 namespace omnimapper::mapper {
 
 /// Covariances for gates. The matrix of the graph as it was at construction is decomposed once, at the first query, in
-/// the thread of that query. For key frames that were added later, the covariance is propagated by the factors along
-/// the trajectory. Copies share the decomposition. Results depend only on graph and map, not on earlier queries.
+/// the thread of that query, unless a decomposition was given. For key frames that were added later, the covariance is
+/// propagated by the factors along the trajectory. Copies share the decomposition. Results do not depend on earlier
+/// queries.
 class Uncertainty {
  public:
   /// Without a graph: every result is none.
   Uncertainty() = default;
   /// Takes a copy of `graph`, which is cheap.
   explicit Uncertainty(const graph::Graph& graph);
+  /// The same with a matrix of `graph` that is decomposed already.
+  Uncertainty(const graph::Graph& graph, graph::Marginals marginals);
 
   /// Covariance of inverse(map_from_base of `from`) * map_from_base of `to`: tangent at `to`, x y z [m], rotation
   /// vector [rad]; zeros outside x, y, yaw in a planar map. None while a direction of some variable is undetermined, or
