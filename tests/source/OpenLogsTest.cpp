@@ -184,6 +184,17 @@ TEST_F(OpenLogsTest, whatNoFormatRecognizesIsAnErrorThatListsThem) {
   says(failure({write("y", "Dear diary,\n")}, options), "text file of unknown kind");
 }
 
+TEST_F(OpenLogsTest, aFileOfAnotherKindThanItsNameAndACompressedOneAreNamed) {
+  says(failure({write("x.bag", "Not found\n")}), "is named .bag, but does not begin as such a log of ROS does");
+  says(failure({write("x.bag.xz", std::string("\xfd\x37zXZ\0\0\x04\xe6", 9))}), "unpack it first: xz -dk");
+  says(failure({write("x.rawlog.zst", "\x28\xb5\x2f\xfd and so on")}), "unpack it first: zstd -d");
+}
+
+TEST_F(OpenLogsTest, ofAFolderOfLogsAllAreNamed) {
+  for (const char* name : {"a.bag", "b.bag"}) write(name, "x");
+  says(failure({folder_.path()}), "name one of the logs in it: " + (folder_ / "a.bag") + ", " + (folder_ / "b.bag"));
+}
+
 TEST_F(OpenLogsTest, aFormatThatIsNotKnownIsNamed) {
   try {
     readSourceOptions(base::Config::fromText("[source]\nformats = list_lgo\n", "x.ini"));

@@ -1,5 +1,6 @@
 
 #include <omnimapper/base/FeatureLibraries.h>
+#include <omnimapper/base/OptionTable.h>
 #include <omnimapper/source/ImageFile.h>
 #include <omnimapper/source/SourceFactory.h>
 #include <omnimapper/source/describeInput.h>
@@ -35,6 +36,7 @@ std::string describeFile(const std::string& path) {
     return look.problem.empty() ? "is empty; copy or record it again."
                                 : "cannot be decompressed (" + look.problem + "); copy or download it again.";
   if (const auto known = recognized(look); !known.empty()) return known;
+  if (const auto packing = describePacking(path, look.head); !packing.empty()) return packing;
   if (look.headBeginsWith("OMNIMAP")) return "is a map of OmniMapper, no log; use it with --continue or --localize.";
   for (const char* of_ros : {"#ROSBAG", "#ROSRECORD", "\x89MCAP0", "SQLite format 3"})
     if (look.headBeginsWith(of_ros))
@@ -43,11 +45,29 @@ std::string describeFile(const std::string& path) {
     return "is an image, no log; name the folder that it is in.";
   if (look.headBeginsWith("PK\x03\x04")) return "is a ZIP archive; unpack it first.";
   if (look.headBeginsWith("# .PCD")) return "is a PCD cloud, no log; name the folder that it is in.";
+  const std::string ending = std::filesystem::path(path).extension().string();
+  for (const char* of_ros : {".bag", ".mcap", ".db3"})
+    if (ending == of_ros)
+      return "is named " + ending +
+             ", but does not begin as such a log of ROS does: it is damaged, or another file; "
+             "copy or download it again.";
   if (!look.isText())
     return "is no rawlog, or is damaged from its first object on, and no log of another format that is known (" +
            formatsAsText() + ").";
-  if (std::filesystem::path(path).extension() == ".ini") return "is an INI file; use it with -i.";
+  if (ending == ".ini") return "is an INI file; use it with -i.";
   return "is a text file of unknown kind, no log of a format that is known (" + formatsAsText() + ").";
+}
+
+// Paths of the rawlogs, and if there are none of the bags, in a folder.
+std::vector<std::string> logsIn(const LogLook& look) {
+  std::vector<std::string> logs;
+  for (const std::string ending : {".rawlog", ".bag"}) {
+    for (const auto& entry : look.entries)
+      if (std::filesystem::path(entry).extension() == ending)
+        logs.push_back((std::filesystem::path(look.path) / entry).string());
+    if (!logs.empty()) break;
+  }
+  return logs;
 }
 
 // Description of a folder of a known kind; "" for any other.
@@ -59,9 +79,9 @@ std::string knownFolder(const std::string& path) {
   if (look.has(kLocalizationFile))
     return "is the folder of a run with --localize, neither a log nor a map; the map is in the folder that was given "
            "to --localize.";
-  for (const char* ending : {".rawlog", ".bag"})
-    if (const auto log = look.firstEnding(ending); !log.empty())
-      return "is a folder; a log in it is " + (std::filesystem::path(path) / log).string() + ".";
+  if (const auto logs = logsIn(look); !logs.empty())
+    return logs.size() == 1 ? "is a folder; the log in it is " + logs.front() + "."
+                            : "is a folder; name one of the logs in it: " + base::option_text::format(logs) + ".";
   return recognized(look);
 }
 
@@ -82,6 +102,21 @@ std::string describeFolder(const std::string& path) {
 }
 
 }  // namespace
+
+std::string describePacking(const std::string& path, std::string_view head) {
+  struct Packing {
+    std::string_view beginning;
+    const char *name, *program;
+  };
+  constexpr Packing kPackings[] = {{"\x1f\x8b", "gzip", "gzip -dk"},
+                                   {"BZh", "bzip2", "bzip2 -dk"},
+                                   {"\xfd\x37zXZ", "xz", "xz -dk"},
+                                   {"\x28\xb5\x2f\xfd", "Zstandard", "zstd -d"}};
+  for (const auto& packing : kPackings)
+    if (head.substr(0, packing.beginning.size()) == packing.beginning)
+      return std::string("is compressed by ") + packing.name + "; unpack it first: " + packing.program + " " + path;
+  return "";
+}
 
 bool isFolderOfRun(const LogLook& look) {
   return look.has(kMapFile) || look.has(kLocalizationFile);
