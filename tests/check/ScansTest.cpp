@@ -83,7 +83,16 @@ TEST(Scans, WhoseBeamsRunClockwiseAreNotedAndMixedOnesWarnedOf) {
   const Checked clockwise(log);
   EXPECT_TRUE(clockwise.says("note: 'laser': its beams run clockwise")) << clockwise.text();
   EXPECT_FALSE(clockwise.says("problem")) << clockwise.text();
+  auto with_empty = halfALap();
   int n = 0;
+  each<CObservation2DRangeScan>(with_empty, [&](auto& scan) {
+    scan.rightToLeft = false;
+    if (n++ == 5) scan.resizeScan(0);
+  });
+  const Checked but_one(with_empty);
+  EXPECT_TRUE(but_one.says("note: 'laser': its beams run clockwise")) << "an empty scan runs neither way";
+  EXPECT_FALSE(but_one.says("do two lasers share the label?")) << but_one.text();
+  n = 0;
   each<CObservation2DRangeScan>(log, [&](auto& scan) { scan.rightToLeft = n++ % 2 == 0; });
   EXPECT_TRUE(Checked(log).says("do two lasers share the label?"));
 }

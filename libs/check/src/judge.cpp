@@ -170,7 +170,7 @@ class Judge {
     if (scans.other_beams > 0)
       add(Weight::note, who + part(scans.other_beams) + " have another number of beams than the first one, " +
                             std::to_string(scans.fewest_beams) + " to " + std::to_string(scans.most_beams));
-    if (scans.clockwise == scans.scans && scans.clockwise > 0) {
+    if (scans.clockwise == scans.scans - scans.empty && scans.clockwise > 0) {
       add(Weight::note, who + "its beams run clockwise, as its scans declare, and are used so");
     } else if (scans.clockwise > 0) {
       add(Weight::warning, who + "the beams of " + part(scans.clockwise) +
