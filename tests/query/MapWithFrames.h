@@ -32,11 +32,13 @@ class MapWithFrames : public TwoRooms {
     file.write(map_.file);
   }
 
+  base::Stamp start_ = base::stampFromUnix(1'700'000'000);  // of key frame 0:0; 0:1 is 1 s later
+
  private:
-  static map::KeyFrame frameAt(base::KeyFrameId id, const mrpt::poses::CPose3D& pose) {
+  map::KeyFrame frameAt(base::KeyFrameId id, const mrpt::poses::CPose3D& pose) const {
     map::KeyFrame frame;
     frame.id = id;
-    frame.stamp = base::stampFromUnix(1'700'000'000 + id.index);
+    frame.stamp = start_ + base::durationFromSeconds(id.index);
     frame.map_from_base = pose;
     return frame;
   }

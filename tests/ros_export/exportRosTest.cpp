@@ -149,7 +149,22 @@ TEST_F(ExportRos, AMapIsNotReplacedAndWhatIsNoMapIsRefused) {
   write();
   EXPECT_NE(query::refusalOf([&] { exportRos(folder_.path(), map_.file); }, base::ExitCode::command_line), "");
   EXPECT_NE(query::refusalOf([&] { exportRos(folder_ / "none", out_); }, base::ExitCode::unreadable_input), "");
-  EXPECT_FALSE(std::filesystem::exists(out_));
+  const std::string bag = folder_ / "out.bag";
+  EXPECT_NE(query::refusalOf([&] { exportRos(folder_.path(), bag); }, base::ExitCode::command_line).find(".mcap"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(out_) || std::filesystem::exists(bag));
+}
+
+TEST_F(ExportRos, TimesForWhichRosHasNoStampsAreRefused) {
+  for (const auto start : {base::stampFromUnix(2147483647), base::stampFromUnix(-0.5), base::Stamp(),
+                           base::Stamp::max() - base::durationFromSeconds(2)}) {
+    start_ = start;
+    write();
+    const auto refusal = query::refusalOf([&] { exportRos(folder_.path(), out_); }, base::ExitCode::unreadable_input);
+    EXPECT_NE(refusal.find("for which ROS has no stamps"), std::string::npos) << refusal;
+  }
+  start_ = base::stampFromUnix(2147483646);
+  EXPECT_EQ(exported().time("/tf", 1), 2'147'483'647'000'000'000);
 }
 
 }  // namespace

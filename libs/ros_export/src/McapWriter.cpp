@@ -3,7 +3,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace omnimapper::ros_export {
 

@@ -19,10 +19,14 @@ namespace omnimapper::ros_export {
 
 namespace {
 
-std::uint64_t nanosecondsOf(base::Stamp stamp) {
+// Stamps of ROS count seconds since 1970 in 31 bits. A damaged map may have any.
+std::uint64_t nanosecondsOf(base::Stamp stamp, const std::string& file) {
   constexpr std::int64_t kTick = 100;  // [ns] of a stamp
-  const std::int64_t ticks = (stamp - base::stampFromUnix(0)).count();
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(ticks, 0) * kTick);
+  const auto first = base::stampFromUnix(0);
+  if (stamp < first || stamp >= base::stampFromUnix(2147483648.0))
+    throw base::Error(base::ExitCode::unreadable_input,
+                      file + ": has a pose before 1970 or after 2038, for which ROS has no stamps");
+  return static_cast<std::uint64_t>((stamp - first).count() * kTick);
 }
 
 // The poses of the sessions that are aligned with the map, in the order of their times.
@@ -41,7 +45,7 @@ std::vector<TimedPose> posesOf(const std::string& file, std::vector<std::string>
   std::size_t left_out = 0;
   for (const auto& pose : map::denseTrajectory(map)) {
     if (isAligned(pose.session))
-      poses.emplace_back(nanosecondsOf(pose.stamp), pose.map_from_base);
+      poses.emplace_back(nanosecondsOf(pose.stamp, file), pose.map_from_base);
     else
       ++left_out;
   }
@@ -87,6 +91,9 @@ void write(std::ostream& stream, const std::vector<TimedPose>& poses, const std:
 Exported exportRos(const std::string& path, const std::string& output) {
   const auto map = query::openMap(path);
   base::refuseToReplaceInput(output, {map.file});
+  if (std::filesystem::path(output).extension() != ".mcap")
+    throw base::Error(base::ExitCode::command_line,
+                      output + ": what is written is an MCAP file, so its name must end in .mcap");
   Exported exported;
   const auto poses = posesOf(map.file, exported.notes);
   const auto grid = gridBeside(map.folder, exported.notes);
