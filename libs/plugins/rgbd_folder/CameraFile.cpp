@@ -197,7 +197,11 @@ std::optional<CameraFile> readCameraFile(const std::string& path) {
   const NamedNumbers named(path, base::readInput(path));
   const Numbers values = valuesIn(path, named);
   if (values.empty()) return std::nullopt;
-  if (!(values[0] > 0) || values[1] == 0 || !std::isfinite(values[0] + values[1] + values[2] + values[3]))
+  if (values[1] < 0)
+    refuse(path,
+           "states a negative fy, which is of images whose rows run upwards; those of image files run downwards: state "
+           "it without its sign");
+  if (!(values[0] > 0 && values[1] > 0) || !std::isfinite(values[0] + values[1] + values[2] + values[3]))
     refuse(path, "states no focal length");
   CameraFile file{path, {}, named.first({"DepthMapFactor"}).value_or(0)};
   file.camera.setIntrinsicParamsFromValues(values[0], values[1], values[2], values[3]);

@@ -84,7 +84,7 @@ RgbdFolderContent readImagesByName(const LogLook& look, const RgbdFolderOptions&
   const auto colours = folder_of_pictures ? filesByStem(*folder_of_pictures, kPictures) : FilesByStem();
   content.pairs = pairsOfEqualNames(depths, colours, options);
   if (!colours.empty() && isWithoutColour(content.pairs))
-    content.pairs = pairImages(look.path, stampedByName(depths), stampedByName(colours), options.largest_difference);
+    content.pairs = pairImages({}, stampedByName(depths), stampedByName(colours), options.largest_difference);
   if (!colours.empty() && isWithoutColour(content.pairs)) {
     refuse(look.path,
            "no image in " + folder_of_depths.filename().string() + "/ has the name of one in " +

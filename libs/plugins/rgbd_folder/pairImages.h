@@ -14,7 +14,8 @@ namespace omnimapper::source {
 using StampedImage = std::pair<base::Stamp, std::string>;
 
 /// Pairs each depth image with the colour image nearest in time, if it is at most `largest_difference` [s] away. A
-/// colour image is paired with its nearest depth image only; the others stay without colour. Paths are below `folder`.
+/// colour image is paired with its nearest depth image only; the others stay without colour. Paths of
+/// images are relative to `folder`, which may be empty.
 std::vector<RgbdPair> pairImages(const std::filesystem::path& folder, const std::vector<StampedImage>& depths,
                                  const std::vector<StampedImage>& colours, double largest_difference);
 

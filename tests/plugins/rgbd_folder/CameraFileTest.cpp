@@ -101,6 +101,8 @@ TEST_F(CameraFileTest, whatCannotBeUsedIsSaid) {
             std::string::npos);
   EXPECT_NE(failure([&] { read("1 2 3 4 5 6 7 8 9"); }).find("no matrix of a camera"), std::string::npos);
   EXPECT_NE(failure([&] { read("fx: 1\nfy: 1\ncx: 1\ncy: 1\nk1: nan\n"); }).find("are not finite"), std::string::npos);
+  EXPECT_NE(failure([&] { read("481.2 -480 319.5 239.5"); }).find("states a negative fy"), std::string::npos)
+      << "as ICL-NUIM does";
   EXPECT_NE(failure([&] { read("0 0 320 240"); }).find("states no focal length"), std::string::npos);
   EXPECT_NE(failure([&] {
               read("distortion_model: equidistant\nd: [0.1, 0, 0, 0]\nk: [600, 0, 320, 0, 600, 240, 0, 0, 1]\n");

@@ -256,6 +256,13 @@ TEST_F(RgbdFolderTest, imagesNamedByTimesArePairedByThem) {
   EXPECT_EQ(base::formatUnix(source.pairs()[1].stamp, 2), "1305031102.15");
   EXPECT_EQ(source.pairs()[0].colour, folder_ / "rgb/1305031102.11.png");
   EXPECT_EQ(source.unpaired(), 1U);
+
+  const auto relative = std::filesystem::relative(folder_.path()).string();
+  RgbdFolder same(relative, freiburg1());
+  EXPECT_EQ(same.pairs()[0].colour, relative + "/rgb/1305031102.11.png") << "the folder once";
+  while (same.next()) continue;
+  EXPECT_EQ(same.report().objects, 2U);
+  EXPECT_EQ(same.report().missing_images, 0U);
 }
 
 TEST_F(RgbdFolderTest, aCameraOfImagesOfAnotherSizeIsRefused) {
