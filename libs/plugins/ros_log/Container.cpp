@@ -26,7 +26,8 @@ std::unique_ptr<Container> openUnpacked(const std::string& path, Channels& chann
   if (BagFile::recognizes(head)) return std::make_unique<BagFile>(path, channels);
   if (McapFile::recognizes(head)) return std::make_unique<McapFile>(path, channels);
   if (Db3File::recognizes(head)) return std::make_unique<Db3File>(path, channels);
-  source::refuse(path, "is no log of ROS: it " + source::describeInput(path));
+  const std::string packing = source::describePacking(path, head);
+  source::refuse(path, "is no log of ROS: it " + (packing.empty() ? source::describeInput(path) : packing));
 }
 
 }  // namespace

@@ -231,6 +231,8 @@ class RosLog::Stream {
     notes = plan_.notes();
     for (const auto& note : reader_.notes()) notes.push_back(note);
     for (const auto& line : table_.lines()) notes.push_back(line);
+    for (const auto& file : files_.left_out)
+      notes.push_back(file + " is left out, as metadata.yaml does not list it; to read it, name it itself");
     if (reader_.unordered() > 0)
       notes.push_back("messages out of the order of their times: " + std::to_string(reader_.unordered()));
     if (cameras_.withoutPicture() > 0)
@@ -257,10 +259,11 @@ class RosLog::Stream {
       return one.first.first == topic && one.second.role == Role::odometry && one.first.second == plan_.baseFrame();
     });
     if (topic.empty() || is_of_base) return;
-    report_.doubts.push_back("the true poses of " + topic +
-                             " are those of the body that it names or tracks, which may not be the base: compare a "
-                             "trajectory with them by omnimapper-eval ate --solve-offset, and give them to a map only "
-                             "if that body is the base");
+    report_.doubts.push_back(
+        "the true poses of " + topic +
+        " are those of the body that it names or tracks, which may not be the base: compare a "
+        "trajectory with them by omnimapper-eval ate --align se3 --solve-offset, and give them to a map only "
+        "if that body is the base");
   }
 
   RosLogOptions options_;

@@ -2,6 +2,7 @@
 #include <omnimapper/base/Error.h>
 #include <omnimapper/testing/Fixtures.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -229,6 +230,46 @@ TEST_F(LogOf, aSplitLogIsReadInTheOrderOfItsTimesAndMissingFilesAreNamed) {
       << "rosbag2_bagfile_information:\n  version: 4\n  relative_file_paths:\n    - log_1.db3\n    - log_2.db3\n";
   EXPECT_EQ(read(folder), "456");
   EXPECT_EQ(LogFiles(folder).missing, std::vector<std::string>{folder + "/log_2.db3"});
+  EXPECT_EQ(LogFiles(folder).left_out, std::vector<std::string>{folder + "/log_0.mcap"});
+}
+
+TEST_F(LogOf, ofSeveralInAFolderNoneIsTaken) {
+  const std::string folder = folder_ / "several";
+  const auto isOne = [&](const std::vector<std::string>& names) {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    for (const auto& name : names) std::ofstream(folder + "/" + name) << "x";
+    const std::string said = refusal(folder);
+    if (said.find("holds several logs") == std::string::npos) return true;
+    for (const auto& name : names) EXPECT_NE(said.find(name), std::string::npos) << said;
+    return false;
+  };
+  EXPECT_TRUE(isOne({"a.mcap"}));
+  EXPECT_TRUE(isOne({"a_0.db3", "a_1.db3", "a_10.db3.zstd", "notes.txt"}));
+  EXPECT_TRUE(isOne({"2026_12_01_0.mcap", "2026_12_01_1.mcap"}));
+  EXPECT_FALSE(isOne({"a.bag", "b.bag", "c.mcap"}));
+  EXPECT_FALSE(isOne({"c.mcap", "c.rawlog"}));
+  EXPECT_FALSE(isOne({"a.mcap", "b.mcap"}));
+  EXPECT_FALSE(isOne({"2026_12_01_0.db3", "2026_12_02_0.db3"}));
+  EXPECT_FALSE(isOne({"a_0.db3", "a_0.db3.zstd"})) << "its messages would come twice";
+}
+
+TEST_F(LogOf, whatIsCompressedAsAWholeIsSaidWithItsRemedy) {
+  const std::string bag = BagWriter().text(kTopics, sevenMessages());
+  const std::string xz("\xfd\x37zXZ\0\0\x04", 8);
+  for (const auto& [ending, bytes, remedy] :
+       std::vector<std::array<std::string, 3>>{{".gz", "\x1f\x8b\x08 and so on", "gzip -dk"},
+                                               {".bz2", packed("bz2", bag), "bzip2 -dk"},
+                                               {".xz", xz, "xz -dk"}}) {
+    const std::string path = path_ + ".bag" + ending;
+    std::ofstream(path, std::ios::binary) << bytes;
+    const std::string said = refusal(path);
+    EXPECT_NE(said.find("unpack it first: " + remedy + " " + path), std::string::npos) << said;
+  }
+  const std::string zst = path_ + ".bag.zst";
+  std::ofstream(zst, std::ios::binary) << packed("zstd", bag);
+  EXPECT_TRUE(looksLikeRos(source::LogLook::at(zst)));
+  EXPECT_EQ(read(zst), kAll);
 }
 
 std::string contentOf(const std::string& path) {
