@@ -67,6 +67,8 @@ int checkLogs(const Arguments& arguments, const base::Config& config, std::optio
   const auto checked = check::runCheck(logs, config, arguments.run.output_folder, *progress, stop);
   progress.reset();
   std::cout << base::printableLines(heading + checked.text) << std::flush;
+  const std::string ini = arguments.run.output_folder + "/check.ini";
+  if (!arguments.run.output_folder.empty() && std::filesystem::exists(ini)) std::cerr << ini << " is written.\n";
   const bool is_doubtful = checked.code == base::ExitCode::ok && !troubles.empty();
   return static_cast<int>(is_doubtful ? base::ExitCode::doubtful_input : checked.code);
 }

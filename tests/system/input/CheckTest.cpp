@@ -53,6 +53,7 @@ class Check : public ::testing::Test {
     EXPECT_NE(checked.out.find("PROBLEM"), std::string::npos) << checked.out;
     EXPECT_EQ(checked.out, readFile(scratch_ / "checked/check.txt"));
     const std::string ini = scratch_ / "checked/check.ini";
+    EXPECT_NE(checked.err.find(ini + " is written."), std::string::npos) << checked.err;
     EXPECT_NE(readFile(ini).find(remedy), std::string::npos) << readFile(ini);
     EXPECT_NE(checked.out.find(readFile(ini)), std::string::npos) << checked.out;
     EXPECT_TRUE(endedWith(ExitCode::ok, map({log}, scratch_ / "map", {"-i", ini})));
