@@ -1,6 +1,7 @@
 // What a run that continues a map makes of the loop closures that people forbade.
 #include <gtest/gtest.h>
 #include <omnimapper/map/Corrections.h>
+#include <omnimapper/plane_factors/WallFactor.h>
 #include <omnimapper/testing/HandMadeRun.h>
 
 #include "sessions/removeForbidden.h"
@@ -40,6 +41,16 @@ class ForbiddenLoopsTest : public ::testing::Test {
   map::Corrections::ForbiddenLoop loop(int from, int to) const {
     return {made_.map.key_frames[from].id, made_.map.key_frames[to].id, "", {}};
   }
+  /// The first and the last key frame see a wall where they are.
+  void seeWall(const geometry::Segment2& wall) {
+    const auto id = made_.graph.addVariable(plane_factors::wallVariable(), plane_factors::toValue(wall));
+    for (const auto* frame : {&made_.map.key_frames.front(), &made_.map.key_frames.back()}) {
+      const Eigen::Vector2d seen = middle(wall) - Eigen::Vector2d(frame->map_from_base.x(), frame->map_from_base.y());
+      made_.graph.addFactor({{frame->pose, id},
+                             std::make_shared<plane_factors::WallFactor>(direction(wall), seen),
+                             graph::SquareRootInformation::fromSigmas(Eigen::Vector2d(0.01, 0.02))});
+    }
+  }
   static double end(const derived::SavedMap& saved) { return saved.map.key_frames.back().map_from_base.x(); }
 
   testing::HandMadeRun made_;
@@ -75,6 +86,19 @@ TEST_F(ForbiddenLoopsTest, TheOnlyTieOfTwoPartsOfTheMapIsKept) {
   ASSERT_EQ(found.kept.size(), 1U);
   EXPECT_NE(found.kept[0].find("0:0 and 0:3"), std::string::npos) << found.kept[0];
   EXPECT_TRUE(map.graph.contains(factor_));
+}
+
+// A wall along the path says nothing about how far along it the last key frame is.
+TEST_F(ForbiddenLoopsTest, ATieByOneWallIsTooLittleToRemoveTheLoop) {
+  made_.graph.removeFactor(steps_.back());
+  seeWall({{5, 2}, {0, 2}});
+  auto map = saved({loop(0, 3)});
+  EXPECT_EQ(removeForbidden(map, {}).kept.size(), 1U);
+  EXPECT_TRUE(map.graph.contains(factor_));
+  seeWall({{5, 0}, {5, 4}});  // across the path
+  auto held = saved({loop(0, 3)});
+  EXPECT_EQ(removeForbidden(held, {}).removed.size(), 1U);
+  EXPECT_FALSE(held.graph.contains(factor_));
 }
 
 }  // namespace

@@ -1,28 +1,33 @@
 #include "sessions/removeForbidden.h"
 
+#include <omnimapper/base/Error.h>
+#include <omnimapper/graph/Marginals.h>
 #include <omnimapper/map/Corrections.h>
 #include <omnimapper/plugin/PoseFactors.h>
 
-#include <unordered_set>
+#include <algorithm>
 
 namespace omnimapper::mapper {
 
 namespace {
 
-/// Whether factors with weight lead from one variable to the other.
-bool areTied(const graph::Graph& graph, base::VariableId from, base::VariableId to) {
-  std::unordered_set<base::VariableId> reached{from};
-  std::vector<base::VariableId> next{from};
-  while (!next.empty() && reached.count(to) == 0) {
-    const auto variable = next.back();
-    next.pop_back();
-    for (const auto factor : graph.factorsOf(variable)) {
-      if (graph.factor(factor).weight <= 0) continue;
-      for (const auto other : graph.factor(factor).variables)
-        if (reached.insert(other).second) next.push_back(other);
-    }
+/// Whether a variable is fixed, or a factor has influence on it.
+bool isBound(const graph::Graph& graph, base::VariableId variable) {
+  const auto& factors = graph.factorsOf(variable);
+  return graph.variable(variable).fixed ||
+         std::any_of(factors.begin(), factors.end(), [&](auto factor) { return graph.factor(factor).weight > 0; });
+}
+
+/// Whether the map can be read again: every direction of both poses, and of all else that factors bind, is determined.
+/// That factors connect two parts is not enough: poses that see one wall can slide along it.
+bool isDetermined(const graph::Graph& graph, base::VariableId from, base::VariableId to) {
+  if (!isBound(graph, from) || !isBound(graph, to)) return false;
+  try {
+    const graph::Marginals marginals(graph);
+    return true;
+  } catch (const base::Error&) {
+    return false;
   }
-  return reached.count(to) > 0;
 }
 
 /// The hypotheses that tie two poses.
@@ -59,11 +64,11 @@ ForbiddenLoops removeForbidden(derived::SavedMap& saved, const graph::SolveOptio
     for (const auto id : loops) without.removeFactor(id);
     const std::string which =
         "the loop closure between the key frames " + toString(forbidden.from) + " and " + toString(forbidden.to);
-    if (areTied(without, from, to)) {
+    if (isDetermined(without, from, to)) {
       saved.graph = std::move(without);
       found.removed.push_back(which + " was forbidden, and is removed");
     } else {
-      found.kept.push_back(which + " was forbidden, but stays: nothing else ties the two parts of the map together");
+      found.kept.push_back(which + " was forbidden, but stays: without it, a part of the map would be loose");
     }
   }
   if (!found.removed.empty()) solve(saved, options);

@@ -14,7 +14,8 @@ struct ForbiddenLoops {
 };
 
 /// Removes the loop closures that people forbade (map::Corrections) from a map that is continued, and if there were
-/// any, solves its graph again. One without which a part of the map would be loose is kept.
+/// any, solves its graph again. One without which the graph would not
+/// determine a part of the map, or a direction of it, is kept: such a map could not be read again.
 ForbiddenLoops removeForbidden(derived::SavedMap& saved, const graph::SolveOptions& options);
 
 }  // namespace omnimapper::mapper
