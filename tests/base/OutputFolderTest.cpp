@@ -229,6 +229,32 @@ TEST(OutputFolder, AHostileNoteIsNotFollowedThroughALink) {
   EXPECT_EQ(readInput(scratch / "home/other"), "mine");
 }
 
+TEST(OutputFolder, IsBeingWrittenUntilItIsReleased) {
+  const testing::ScratchFolder scratch;
+  const std::string path = scratch / "run";
+  EXPECT_FALSE(isBeingWritten(path)) << "there is none";
+  OutputFolder folder(path);
+  folder.open();
+  EXPECT_TRUE(isBeingWritten(path));
+  stage(folder, kNew);
+  folder.commit();
+  folder.release();
+  EXPECT_FALSE(isBeingWritten(path));
+  write(path, kOld);  // another run
+  EXPECT_EQ(contents(path), kOld);
+}
+
+TEST(OutputFolder, IsEmptiedOfWhatAKilledRunShowed) {
+  const testing::ScratchFolder scratch;
+  put(scratch / "run/.omnimapper/growing/checkpoint.omnimap", "of a killed run");
+  {
+    OutputFolder folder(scratch / "run");
+    folder.open();
+    EXPECT_TRUE(fs::is_empty(folder.growing()));
+  }
+  EXPECT_FALSE(fs::exists(scratch / "run/.omnimapper/growing"));
+}
+
 TEST(OutputFolder, AnInputIsNotReplaced) {
   ScratchFolder scratch;
   write(scratch / "out", kOld);

@@ -1,7 +1,10 @@
 // Corrections of a map: deleted landmarks and forbidden loop closures.
+#include <omnimapper/base/OutputFolder.h>
 #include <omnimapper/query/Find.h>
 #include <omnimapper/query/Verbs.h>
 #include <omnimapper/query/editLabels.h>
+
+#include <functional>
 
 #include "MapWithFrames.h"
 #include "omnimapper/query/correctMap.h"
@@ -94,6 +97,21 @@ TEST_F(CorrectMap, AForbiddenLoopIsRememberedUntilItIsAllowedAgain) {
   EXPECT_EQ(correct({"allow", "0:1", "0:0"}), "the loop closure is allowed again");
   EXPECT_EQ(bytes(), before);
   isRefused({"allow", "0:1", "0:0"});
+}
+
+// What the run writes at its end would replace what was confirmed.
+TEST_F(CorrectMap, NothingIsChangedWhileARunWritesIntoTheFolder) {
+  const std::string before = bytes();
+  map::LabelEdits history;
+  const auto name = [&] { editLabels(folder_.path(), {{"name", "0:2", "Anna's bed"}, "anna", {}}, history); };
+  base::OutputFolder run(folder_.path());
+  run.open();
+  for (const std::function<void()>& edit : {std::function<void()>(name), {[&] { correct({"delete", "0:2"}); }}})
+    EXPECT_NE(refusalOf(edit, base::ExitCode::unreadable_input).find("has not ended"), std::string::npos);
+  EXPECT_EQ(bytes(), before);
+  run.release();
+  EXPECT_EQ(correct({"delete", "0:2"}), "bed 0:2 is deleted");
+  EXPECT_NO_THROW(editLabels(folder_.path(), {{"name", "0:1", "hot plate"}, "anna", {}}, history));
 }
 
 TEST_F(CorrectMap, WhatIsNoCorrectionIsRefused) {

@@ -174,6 +174,10 @@ OutputFolder::OutputFolder(const std::string& folder)
       growing_(hidden_ + "/" + kGrowing) {}
 
 OutputFolder::~OutputFolder() {
+  release();
+}
+
+void OutputFolder::release() {
   if (lock_ < 0) return;
   std::error_code ignored;
   const fs::path hidden(hidden_);
@@ -184,7 +188,9 @@ OutputFolder::~OutputFolder() {
     if (!fs::exists(hidden / kFiles, ignored)) fs::remove_all(hidden, ignored);
   }
   if (is_new_) fs::remove(folder_, ignored);  // fails if it is not empty
+  ::flock(lock_, LOCK_UN);                    // a child process may still have the descriptor
   ::close(lock_);
+  lock_ = -1;
 }
 
 void OutputFolder::open() {
@@ -214,7 +220,9 @@ void OutputFolder::lock() {
   try {
     finishCommit(folder_);
     fs::remove_all(staging_);
-    fs::remove_all(growing_);
+    if (!fs::is_directory(fs::symlink_status(growing_))) fs::remove_all(growing_);
+    if (fs::exists(growing_))
+      for (const auto& entry : fs::directory_iterator(growing_)) fs::remove_all(entry.path());
   } catch (const fs::filesystem_error& error) {
     fail(folder_, std::string("the unfinished outputs of a killed run cannot be completed (") + error.what() + ")");
   }
@@ -324,6 +332,15 @@ std::string OutputFolder::asTheUserSees(std::string message) const {
   for (std::size_t at = 0; (at = message.find(staging_, at)) != std::string::npos; at += folder_.size())
     message.replace(at, staging_.size(), folder_);
   return message;
+}
+
+bool isBeingWritten(const std::string& folder) {
+  const fs::path lock = fs::path(folder) / kHidden / kLock;
+  const int file = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool is_locked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(file);
+  return is_locked;
 }
 
 std::string committedPath(const std::string& path) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <omnimapper/base/Error.h>
+#include <omnimapper/base/OutputFolder.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -16,6 +17,11 @@ MapLock::MapLock(const std::string& folder)
   constexpr auto kPause = std::chrono::milliseconds(5);
   constexpr int kTries = 1000;
   if (folder_ < 0) return;  // who reads the map says why
+  if (base::isBeingWritten(folder)) {
+    ::close(folder_);
+    throw base::Error(base::ExitCode::unreadable_input,
+                      folder + ": the run that makes this map has not ended; the map can be changed when it has");
+  }
   for (int tries = 0; ::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; ++tries) {
     if (tries == kTries) {
       ::close(folder_);

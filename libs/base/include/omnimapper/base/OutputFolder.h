@@ -32,7 +32,7 @@ class OutputFolder {
   /// under the same name.
   const std::string& staging() const { return staging_; }
   const std::string& folder() const { return folder_; }
-  /// A folder for what is shown of a map while it grows. It is none of the run's files: it does not exist after open(),
+  /// A folder for what is shown of a map while it grows. It is none of the run's files: open() empties it if it exists,
   /// and the destructor removes it.
   const std::string& growing() const { return growing_; }
   /// Lets commit() keep a file of the previous run, given by its path in the folder, unless a new file has the same
@@ -48,6 +48,9 @@ class OutputFolder {
   void commit();
   /// Whether a commit was recorded but is not finished.
   bool isCommitted() const;
+  /// What the destructor does, at once: unlocks the folder after a commit, so that others may change its files while
+  /// this object goes on to exist. Nothing more can be written then.
+  void release();
   /// Moves the staged files into the subfolder `name`, whose files are replaced as by commit(). The files of this
   /// folder are kept.
   void commitInto(const std::string& name);
@@ -66,6 +69,10 @@ class OutputFolder {
   int lock_ = -1;
   bool is_new_ = false;
 };
+
+/// Whether a run, of this process or another, has locked the folder and will replace its files. False on a file system
+/// without locks.
+bool isBeingWritten(const std::string& folder);
 
 /// The current path of a file that a run wrote directly into its folder. A commit of the same user that was interrupted
 /// is finished first. If the folder is not writable, so that the commit cannot be finished, the path is that of the
