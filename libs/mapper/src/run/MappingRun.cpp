@@ -120,9 +120,9 @@ class Run {
   std::optional<base::Config> changed_config_;  // the INI of the present plugins, if they were changed
   std::set<std::string> measuring_;             // sections of plugins that measure
   SensorSamples samples_;
+  base::OutputFolder outputs_{request_.output_folder};  // before the engine, whose plugins write into it to their end
   std::optional<Engine> engine_;
   std::optional<base::InputsKept> kept_;
-  base::OutputFolder outputs_{request_.output_folder};
   bool stopped_ = false;
   std::exception_ptr failure_, failure_at_end_;  // thrown by feed(), and by finish()
 };
@@ -380,6 +380,8 @@ RunResult Run::report() {
   publish(engine_->writeOutputs(), outcome);
   feed_->published(outcome.output_folder);
   for (const auto& [section, plugin] : engine_->plugins().output) plugin->published(outcome.output_folder);
+  // While a page shows what the run made instead of a map in the folder, other programs leave the folder alone.
+  if (!std::filesystem::exists(outputs_.growing())) outputs_.release();
   outcome.wall_seconds = watch_.seconds();
   showToTheEnd(outcome);
   if (failure_) std::rethrow_exception(failure_);
