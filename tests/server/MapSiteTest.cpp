@@ -196,6 +196,28 @@ TEST_F(MapSiteTest, AMapThatGrowsIsServedInPlaceOfTheOldOneAndIsNotChanged) {
   EXPECT_EQ(served.answer(change("/api/correct", {"delete", "0:2"})).status, 200);
 }
 
+// The run that goes on will replace the map of before, so a change of that would be lost.
+TEST_F(MapSiteTest, TheMapOfBeforeIsNotServedBetweenTheStartOfARunAndItsFirstMap) {
+  const std::string growing = folder_ / "growing", file = folder_ / "run/map.omnimap";
+  std::filesystem::create_directories(folder_ / "run");
+  std::filesystem::create_directories(growing);
+  query::putFile(file, "a map that cannot be read stops no run");
+  MapSite served(ServedMap(folder_ / "run", growing), StaticFiles(folder_ / "page"), Access({"map:8080"}, kToken),
+                 [] { return base::stampFromUnix(1700000000); });
+  std::string warning;
+  const auto map = [&] { return json::parse(served.answer(get("/api/map")).body); };
+  std::filesystem::copy_file(map_.file, file, std::filesystem::copy_options::overwrite_existing);
+  served.update(warning);
+  EXPECT_TRUE(map()["is_growing"]);
+  EXPECT_TRUE(map()["places"].empty());
+  for (const char* address : {"/api/edit", "/api/label", "/api/correct"})
+    EXPECT_EQ(served.answer(change(address, {"delete", "0:2"})).status, 400) << address;
+  std::filesystem::remove(growing);  // the run ended without a map of its own
+  EXPECT_NE(served.update(warning), "");
+  EXPECT_FALSE(map()["is_growing"]);
+  EXPECT_EQ(map()["places"].size(), 6U);
+}
+
 TEST_F(MapSiteTest, WhatTheRunSaysAboutItselfHasNoNamesOfFiles) {
   EXPECT_EQ(json::parse(site().answer(get("/api/about")).body), json::object());
   query::putFile(folder_ / "summary.json",

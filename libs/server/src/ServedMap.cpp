@@ -158,14 +158,21 @@ bool ServedMap::update(std::string& warning) {
 
 std::string ServedMap::stampOfFiles(const query::MapToAsk& map) const {
   return stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string()) + solidOf(map.folder).dump() +
-         (growing_.empty() ? "" : stampOf(growing_ + kGrowingMap) + stampOf(path_ + "/map.omnimap"));
+         (growing_.empty() ? "" : stampOf(growing_ + kGrowingMap) + stampOf(path_ + "/map.omnimap")) +
+         (isRunGoingOn() ? "growing" : "");
 }
 
+bool ServedMap::isRunGoingOn() const {
+  std::error_code none;
+  return !growing_.empty() && fs::exists(growing_, none);
+}
+
+// A map of before the run, which the run will replace, is not shown: who changed it would lose the change.
 query::MapToAsk ServedMap::open() const {
   std::error_code none;
   if (growing_.empty()) return query::openMap(path_);
   if (fs::exists(growing_ + kGrowingMap, none)) return query::openMap(growing_);
-  if (fs::exists(path_ + "/map.omnimap", none)) return query::openMap(path_);
+  if (!isRunGoingOn() && fs::exists(path_ + "/map.omnimap", none)) return query::openMap(path_);
   query::MapToAsk nothing;
   nothing.folder = path_;
   return nothing;

@@ -14,9 +14,9 @@ bool isGrowing(const query::MapToAsk& map);
 /// A map as pages see it. It is read again when its file was replaced: by an edit, or while a live run goes on.
 class ServedMap {
  public:
-  /// `path` is the folder of a map, or a map file. Throws as query::openMap() does. While the folder `growing` has a
-  /// map, which a run writes, that is served instead; then there need not be any map yet, and until there is one, an
-  /// empty one is served.
+  /// `path` is the folder of a map, or a map file. Throws as query::openMap() does. While the folder `growing` exists,
+  /// the map in it, which a run writes, is served instead, and until there is one, an empty map that grows. If neither
+  /// `growing` nor `path` has a map, an empty one is served.
   explicit ServedMap(std::string path, std::string growing = "");
 
   /// Reads the map again if its files are others than before; whether they are. If it cannot be read, the one of before
@@ -51,6 +51,7 @@ class ServedMap {
  private:
   void load();
   query::MapToAsk open() const;
+  bool isRunGoingOn() const;
   std::string stampOfFiles(const query::MapToAsk& map) const;
 
   std::string path_, growing_;
