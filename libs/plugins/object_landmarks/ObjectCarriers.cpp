@@ -1,5 +1,6 @@
 #include "ObjectCarriers.h"
 
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/map/Level.h>
 #include <omnimapper/plugin/LandmarkShape.h>
 
@@ -40,8 +41,10 @@ ObjectCarriers::ObjectCarriers(const ObjectIndex& objects, const mapper::State& 
     const Eigen::Vector3d normal = geometry::areaVector(outline);
     return std::abs(normal.dot(up_)) > kLevelCosine * normal.norm() && normal.norm() > 0;
   };
+  const auto deleted = map::deletedLandmarks(state.map);
   for (const auto& [id, landmark] : state.map.landmarks) {
-    if (landmark.state != map::Landmark::State::active || landmark.owner == objects.owner()) continue;
+    if (landmark.state != map::Landmark::State::active || landmark.owner == objects.owner() || deleted.count(id) > 0)
+      continue;
     const auto shape = mapper::shapeOf(landmark, state);
     Surface surface{id, {}, false, shape.label == "floor"};
     for (const auto& outline : shape.surfaces)
@@ -50,7 +53,8 @@ ObjectCarriers::ObjectCarriers(const ObjectIndex& objects, const mapper::State& 
   }
   for (const auto& [id, object] : objects.all()) {
     const auto top = topOf(object.geometry(state.map.key_frames).box);
-    if (object.payload->isDrawn() && isLevel(top)) surfaces_.push_back({id, {top}, true, false});
+    if (object.payload->isDrawn() && isLevel(top) && deleted.count(id) == 0)
+      surfaces_.push_back({id, {top}, true, false});
   }
 }
 

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <omnimapper/map/Corrections.h>
 #include <omnimapper/testing/ShapedRun.h>
 
 #include "object_landmarks/ObjectCarriers.h"
@@ -26,6 +27,21 @@ TEST(ObjectCarriers, AreBeneathTheMiddleOfTheBase) {
   EXPECT_EQ(under(1.8, 0.8, 0.7), std::nullopt) << "beside the table";
   EXPECT_EQ(under(0.8, 0, 0.01), (base::LandmarkId{0, 3}));
   EXPECT_EQ(under(9, 9, 0), std::nullopt) << "beyond the floor";
+}
+
+TEST(ObjectCarriers, ADeletedTableCarriesNothing) {
+  auto run = shapedRun();
+  map::Corrections corrections;
+  corrections.deleted.emplace_back();
+  corrections.deleted.back().place.id = {0, 2};
+  run.map.layers.set(std::move(corrections));
+  const auto view = run.view();
+  const ObjectCarriers carriers(ObjectIndex("objects"), view);
+  map::Box box;
+  box.size = {0.1, 0.1, 0.2};
+  box.middle = {0.3, -0.2, 0.81};
+  EXPECT_EQ(carriers.under({0, 99}, box), std::nullopt);
+  EXPECT_FALSE(carriers.bear(box));
 }
 
 TEST(ObjectCarriers, ATableBearsWhatNoImageShowsOnIt) {
