@@ -37,7 +37,19 @@ std::string trajectoryText(const map::Map& map) {
 
 }  // namespace
 
-GrowingMap::GrowingMap(std::string folder) : folder_(std::move(folder)), grid_(gridOfPage()) {}
+GrowingMap::GrowingMap(std::string folder) : folder_(std::move(folder)), grid_(gridOfPage()) {
+  std::error_code error;  // one that the run will meet, too
+  const auto hidden = std::filesystem::path(folder_).parent_path();
+  if (std::filesystem::is_directory(hidden.parent_path(), error))
+    is_mine_ = std::filesystem::create_directories(folder_, error);
+}
+
+GrowingMap::~GrowingMap() {
+  if (!is_mine_) return;
+  remove();
+  std::error_code has_more;
+  std::filesystem::remove(std::filesystem::path(folder_).parent_path(), has_more);
+}
 
 void GrowingMap::write(const mapper::State& state, const std::string& about) {
   std::filesystem::create_directories(folder_);
@@ -84,7 +96,8 @@ std::string aboutRun(const mapper::View& view, const std::string& title) {
   return about.dump(1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
-void GrowingMap::remove() const {
+void GrowingMap::remove() {
+  is_mine_ = false;
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }

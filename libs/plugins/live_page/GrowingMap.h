@@ -11,18 +11,25 @@ namespace omnimapper::plugins {
 /// without what a run needs to go on from it; the occupancy grid, and the positions of the key frames.
 class GrowingMap {
  public:
+  /// Creates the folder, so that the server of the page knows from the start that a run goes on, but only in the hidden
+  /// folder of an output folder that exists: in another one there is no map of before.
   explicit GrowingMap(std::string folder);
+  /// Removes the folder if this object created it and remove() did not.
+  ~GrowingMap();
+  GrowingMap(const GrowingMap&) = delete;
+  GrowingMap& operator=(const GrowingMap&) = delete;
 
   /// Writes the map as it is now, checkpoint.omnimap last, and what the run says about itself (aboutRun()). Throws
-  /// base::Error as base::writeFile().
+  /// base::Error as base::writeFile(), and std::filesystem::filesystem_error.
   void write(const mapper::State& state, const std::string& about);
   /// Removes the folder.
-  void remove() const;
+  void remove();
 
  private:
   void writeGrid(const map::Map& map);
 
   std::string folder_;
+  bool is_mine_ = false;
   derived::GridMapper grid_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <omnimapper/base/Error.h>
 
+#include <exception>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -65,7 +66,8 @@ void LivePage::say(const std::string& sentence) const {
 }
 
 void LivePage::sayOnce(const std::string& problem) {
-  if (problem != last_problem_ && !problem.empty()) say("the page does not show the newest map: " + problem);
+  if (problem.empty() || problem == last_problem_) return;
+  say("the page does not show the newest map: " + problem);
   last_problem_ = problem;
 }
 
@@ -85,7 +87,9 @@ void LivePage::attend(const mapper::View& view) {
   next_look_ = now + kBetween;
   hearServer();
   setAbout(view);
+  const auto count = writer_.count();
   sayOnce(writer_.offer(view));
+  if (writer_.count() > count) last_problem_.clear();
 }
 
 // Only once in the time between two maps, because it looks at all key frames.
@@ -105,13 +109,18 @@ std::string LivePage::about() {
 
 void LivePage::finish(const mapper::View& view) {
   writer_.wait();
-  if (!has_fallen_ && !view.map.key_frames.empty()) growing_.write(view, aboutRun(view, title_));
+  if (has_fallen_ || view.map.key_frames.empty()) return;
+  try {
+    growing_.write(view, aboutRun(view, title_));
+  } catch (const std::exception& error) {
+    sayOnce(error.what());
+  }
 }
 
-void LivePage::published(const std::string&) {
+void LivePage::published(const std::string& folder) {
   hearServer();
   std::error_code none;
-  if (std::filesystem::exists(folder_ + "/map.omnimap", none)) growing_.remove();
+  if (folder == folder_ && std::filesystem::exists(folder_ + "/map.omnimap", none)) growing_.remove();
 }
 
 }  // namespace omnimapper::plugins

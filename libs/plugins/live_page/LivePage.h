@@ -51,6 +51,7 @@ class LivePage : public mapper::OutputPlugin {
   void setAbout(const mapper::View& view);
   std::string about();
   void say(const std::string& sentence) const;
+  /// Not again until a map was written.
   void sayOnce(const std::string& problem);
 
   LivePageOptions options_;

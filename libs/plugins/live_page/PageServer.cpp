@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace omnimapper::plugins {
 
@@ -45,6 +46,12 @@ struct Pipe {
     read = ends[0];
     write = ends[1];
   }
+  ~Pipe() {
+    if (read >= 0) ::close(read);
+    if (write >= 0) ::close(write);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 };
 
 pid_t spawn(const std::string& program, std::vector<std::string>& arguments, int input, int output) {
@@ -72,12 +79,12 @@ pid_t spawn(const std::string& program, std::vector<std::string>& arguments, int
 PageServer::PageServer(std::vector<std::string> arguments) {
   constexpr auto kLongest = std::chrono::seconds(60);  // a large map is read first
   const std::string program = programPath();
-  const Pipe input, output;
-  to_child_ = input.write;
-  from_child_ = output.read;
-  process_ = spawn(program, arguments, input.read, output.write);
-  ::close(input.read);
-  ::close(output.write);
+  {
+    Pipe input, output;
+    process_ = spawn(program, arguments, input.read, output.write);
+    to_child_ = std::exchange(input.write, -1);
+    from_child_ = std::exchange(output.read, -1);
+  }
   const auto begin = Clock::now();
   const auto has_address = [&] { return said_.find('\n', said_.find("http://")) != std::string::npos; };
   while (!has_address() && isRunning() && Clock::now() - begin < kLongest) hear(100);

@@ -103,6 +103,36 @@ TEST_F(LivePageTest, ShowsTheMapWhileItGrowsAndThenTheFilesOfTheRun) {
   EXPECT_FALSE(fs::exists(context_.growing_folder));
 }
 
+// Changes of the map of before would be lost, and one that cannot be read is nothing for a run that replaces it.
+TEST_F(LivePageTest, ShowsNoMapOfBeforeAndLeavesNothingBehind) {
+  fs::create_directories(context_.run_folder);
+  std::ofstream(context_.run_folder + "/map.omnimap") << "a map that cannot be read";
+  {
+    LivePage page(options_, context_);
+    ASSERT_NE(port(), 0) << said_;
+    EXPECT_TRUE(get("/api/map")["is_growing"]);
+    page.published(context_.run_folder + "/interrupted");
+    EXPECT_TRUE(fs::exists(context_.growing_folder)) << "the map of the run is not that of the folder";
+  }
+  EXPECT_FALSE(fs::exists(context_.run_folder + "/.omnimapper"));
+}
+
+TEST_F(LivePageTest, AMapThatCannotBeShownIsSaidOnceAndEndsNoRun) {
+  fs::create_directories(fs::path(context_.growing_folder).parent_path());
+  std::ofstream(context_.growing_folder) << "a file in the place of the folder";
+  LivePage page(options_, context_);
+  run_.map.key_frames.insert({});
+  for (int i = 0; i < 15; ++i) {
+    page.keyFrameAdded(run_.view());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_NO_THROW(page.finish(run_.view()));
+  const std::string problem = "does not show the newest map";
+  const auto first = said_.find(problem);
+  ASSERT_NE(first, std::string::npos) << said_;
+  EXPECT_EQ(said_.find(problem, first + 1), std::string::npos) << said_;
+}
+
 TEST_F(LivePageTest, TheRunGoesOnWhenTheServerFallsAndSaysSo) {
   LivePage page(options_, context_);
   run_.map.key_frames.insert({});
