@@ -98,7 +98,12 @@ std::string aboutRun(const mapper::View& view, const std::string& title) {
 
 void GrowingMap::remove() {
   is_mine_ = false;
+  // Renamed first, so that no server finds the folder without its map.
+  const std::string removed = folder_ + "-removed";
   std::error_code ignored;
+  std::filesystem::remove_all(removed, ignored);
+  std::filesystem::rename(folder_, removed, ignored);
+  std::filesystem::remove_all(removed, ignored);
   std::filesystem::remove_all(folder_, ignored);
 }
 

@@ -144,7 +144,7 @@ ServedMap::ServedMap(std::string path, std::string growing) : path_(std::move(pa
 }
 
 bool ServedMap::update(std::string& warning) {
-  const std::string now = stampOfFiles(*map_);
+  const std::string now = stampOfRun() + stampOfFiles(*map_);
   if (now == stamp_) return false;
   try {
     load();
@@ -157,9 +157,13 @@ bool ServedMap::update(std::string& warning) {
 }
 
 std::string ServedMap::stampOfFiles(const query::MapToAsk& map) const {
-  return stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string()) + solidOf(map.folder).dump() +
-         (growing_.empty() ? "" : stampOf(growing_ + kGrowingMap) + stampOf(path_ + "/map.omnimap")) +
-         (isRunGoingOn() ? "growing" : "");
+  return stampOf(map.file) + stampOf((fs::path(map.folder) / "map.omnimap").string()) + solidOf(map.folder).dump();
+}
+
+/// What decides which map is served.
+std::string ServedMap::stampOfRun() const {
+  if (growing_.empty()) return "";
+  return stampOf(growing_ + kGrowingMap) + stampOf(path_ + "/map.omnimap") + (isRunGoingOn() ? "growing" : "");
 }
 
 bool ServedMap::isRunGoingOn() const {
@@ -179,8 +183,9 @@ query::MapToAsk ServedMap::open() const {
 }
 
 void ServedMap::load() {
+  std::string stamp = stampOfRun();  // before the map is opened: the run may end in the meantime
   auto map = open();
-  const std::string stamp = stampOfFiles(map);
+  stamp += stampOfFiles(map);
   const auto grid = gridOf(map.folder);
   Json document = Json::parse(query::mapDocument(map));
   document["revision"] = revision_ + 1;

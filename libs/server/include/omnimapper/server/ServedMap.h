@@ -52,6 +52,7 @@ class ServedMap {
   void load();
   query::MapToAsk open() const;
   bool isRunGoingOn() const;
+  std::string stampOfRun() const;
   std::string stampOfFiles(const query::MapToAsk& map) const;
 
   std::string path_, growing_;
