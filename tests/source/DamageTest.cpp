@@ -231,7 +231,8 @@ TEST_F(DamageTest, aFolderIsRefusedWithWhatItIsFor) {
   };
   says("nothing", "notes.txt", "is a folder, in which there is nothing that can be read");
   says("map", "map.omnimap", "is the folder of a map, no log");
-  says("logs", "b.rawlog", "a log in it is " + (folder_ / "logs/b.rawlog"));
+  says("logs", "b.rawlog", "the log in it is " + (folder_ / "logs/b.rawlog"));
+  says("logs", "a.rawlog", "name one of the logs in it: " + (folder_ / "logs/a.rawlog"));
   says("located", "localization.csv", "is the folder of a run with --localize");
 }
 
